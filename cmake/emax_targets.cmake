@@ -1,0 +1,50 @@
+# How every target of the project is made: its flags, and the include path that enforces the
+# direction of dependence (hls -> sw_model -> testbench -> host). A room's headers are reached as
+# "<folder>/..." through a folder that holds a link to that room alone, so a target sees a room only
+# when it links the room's library.
+
+function(emax_flags target)
+  # No contraction anywhere: the numeric contract counts every rounding (docs/numerics.md).
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # GCC 12 sees overlap in std::string's operator+ where there is none (GCC bug 105651).
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
+  if(EMAX_SANITIZE)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# emax_export_room(<target> <scope> <room>): lets users of <target> include "<room>/...".
+function(emax_export_room target scope room)
+  string(REPLACE "/" "." flat ${room})
+  set(view ${PROJECT_BINARY_DIR}/include/${flat})
+  get_filename_component(parent ${view}/${room} DIRECTORY)
+  file(MAKE_DIRECTORY ${parent})
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${room} ${view}/${room} SYMBOLIC)
+  target_include_directories(${target} ${scope} ${view})
+endfunction()
+
+# emax_library(<target> <room> SOURCES ... LINKS ... PRIVATE_LINKS ...)
+function(emax_library target room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  emax_flags(${target})
+  emax_export_room(${target} PUBLIC ${room})
+  target_link_libraries(${target} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+endfunction()
+
+# emax_test(<name> SOURCES ... LINKS ... [LABELS ...]): one GoogleTest program, one ctest entry a test.
+function(emax_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  emax_flags(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()

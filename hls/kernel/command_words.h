@@ -1,0 +1,49 @@
+// The command layer: what crosses the two streams of 32-bit words of a device.
+//
+//   command        header            payload                          answer
+//   kIdentify      opcode, 0         -                                header, kAnswerIdentity words
+//   kLoadPoints    opcode, n         n x (x, y, z)                    -
+//   kRecords       opcode, m         m x record (20 words)            -
+//   kReduce        opcode, options   -                                header, worst d^2, its index
+//                                                                     in the block[, d^2 of each]
+//
+// A header is the opcode in the upper 8 bits and a count or options in the lower 24. Loading points
+// starts a block: every point's running minimum becomes infinity. Each record then meets every
+// point of the block. An answer's header repeats the opcode and counts the words behind it. A
+// malformed command is remembered, its payload skipped, and the next kReduce answers kError with
+// the reason in place of a result; the block is then forgotten.
+#pragma once
+
+#include "hls/kernel/triangle_record.h"
+#include "hls/kernel/word.h"
+
+namespace emax {
+
+constexpr Word kKernelVersion = 1;  // changes whenever the kernel's bits would
+
+enum Opcode : Word { kIdentify = 1, kLoadPoints = 2, kRecords = 3, kReduce = 4, kError = 0xff };
+
+enum DeviceError : Word {
+  kNoError = 0,
+  kUnknownCommand = 1,
+  kTooManyPoints = 2,
+  kNoPoints = 3,
+};
+
+constexpr Word kReduceListsPoints = 1;  // option of kReduce: also the d^2 of every point
+
+constexpr Word kMaxBlockPoints = 1024;
+constexpr Word kPointWords = 3;
+constexpr Word kAnswerIdentity = 3;  // kernel version, kMaxBlockPoints, kRecordWords
+constexpr Word kAnswerWorst = 2;     // squared distance, index
+
+constexpr Word kCountBits = 24;
+constexpr Word kMaxCount = (1u << kCountBits) - 1;
+
+static_assert(kMaxBlockPoints + kAnswerWorst <= kMaxCount, "an answer's count fits its header");
+
+inline Word command_header(Opcode opcode, Word count) { return (opcode << kCountBits) | count; }
+inline Word header_opcode(Word header) { return header >> kCountBits; }
+inline Word header_count(Word header) { return header & kMaxCount; }
+
+}  // namespace emax

@@ -1,0 +1,130 @@
+// The top of the kernel: command words in, answer words out. The same function is the C simulation
+// of HLS compilers (binary32), the `sim` device (flushing scalar) and the definition of the command
+// layer that the hardware is proven against.
+#pragma once
+
+#include "hls/kernel/command_words.h"
+#include "hls/kernel/hls_target.h"
+#include "hls/kernel/point_triangle.h"
+#include "hls/kernel/reduce.h"
+
+namespace emax {
+
+template <class Scalar>
+class EmaxKernel {
+ public:
+  // Serves one command. Blocks on the streams in hardware; in software all of the command's words
+  // must be there.
+  void serve(Stream<Word>& commands, Stream<Word>& answers) {
+    const Word header = commands.read();
+    const Word count = header_count(header);
+    switch (header_opcode(header)) {
+      case kIdentify:
+        answers.write(command_header(kIdentify, kAnswerIdentity));
+        answers.write(kKernelVersion);
+        answers.write(kMaxBlockPoints);
+        answers.write(kRecordWords);
+        break;
+      case kLoadPoints:
+        load_points(count, commands);
+        break;
+      case kRecords:
+        for (Word i = 0; i < count; ++i) {
+          meet_record(commands);
+        }
+        break;
+      case kReduce:
+        reduce((count & kReduceListsPoints) != 0, answers);
+        break;
+      default:
+        error_ = kUnknownCommand;
+        break;
+    }
+  }
+
+ private:
+  static Scalar read_scalar(Stream<Word>& commands) { return Scalar(to_float(commands.read())); }
+
+  static Vector3<Scalar> read_vector(Stream<Word>& commands) {
+    const Scalar x = read_scalar(commands);
+    const Scalar y = read_scalar(commands);
+    const Scalar z = read_scalar(commands);
+    return {x, y, z};
+  }
+
+  static PlanarEdge<Scalar> read_edge(Stream<Word>& commands) {
+    const Scalar y = read_scalar(commands);
+    const Scalar z = read_scalar(commands);
+    const Scalar length = read_scalar(commands);
+    return {{y, z}, length};
+  }
+
+  static TriangleRecord<Scalar> read_record(Stream<Word>& commands) {
+    const Vector3<Scalar> v1 = read_vector(commands);
+    const Vector3<Scalar> normal = read_vector(commands);
+    const Vector3<Scalar> in_plane = read_vector(commands);
+    const Vector3<Scalar> along = read_vector(commands);
+    const Scalar length12 = read_scalar(commands);
+    const PlanarEdge<Scalar> edge13 = read_edge(commands);
+    const PlanarEdge<Scalar> edge23 = read_edge(commands);
+    const Word tag = commands.read();
+    return {v1, normal, in_plane, along, length12, edge13, edge23, tag};
+  }
+
+  void load_points(Word count, Stream<Word>& commands) {
+    const bool fits = count <= kMaxBlockPoints;
+    error_ = fits ? error_ : Word(kTooManyPoints);
+    count_ = fits ? count : 0;
+    for (Word i = 0; i < count; ++i) {
+      EMAX_HLS(PIPELINE II = 3)
+      const Vector3<Scalar> point = read_vector(commands);
+      if (fits) {
+        points_[i] = point;
+        nearest_[i] = kInfinityWord;
+      }
+    }
+  }
+
+  // One pair a cycle: the running minimum of a point is read and written once per record.
+  void meet_record(Stream<Word>& commands) {
+    const TriangleRecord<Scalar> record = read_record(commands);
+    const bool segment = (record.tag & kSegmentFlag) != 0;
+    for (Word i = 0; i < count_; ++i) {
+      EMAX_HLS(PIPELINE II = 1)
+      EMAX_HLS(DEPENDENCE variable = nearest_ inter false)
+      nearest_[i] = minimum(nearest_[i], to_word(squared_distance(record, segment, points_[i])));
+    }
+  }
+
+  void reduce(bool list_points, Stream<Word>& answers) {
+    if (error_ == kNoError && count_ == 0) {
+      error_ = kNoPoints;
+    }
+    if (error_ != kNoError) {
+      answers.write(command_header(kError, 1));
+      answers.write(error_);
+      error_ = kNoError;
+      count_ = 0;
+      return;
+    }
+    WorstPoint<Word> worst = {nearest_[0], 0};
+    for (Word i = 1; i < count_; ++i) {
+      EMAX_HLS(PIPELINE II = 1)
+      worst = maximum(worst, WorstPoint<Word>{nearest_[i], i});
+    }
+    answers.write(command_header(kReduce, kAnswerWorst + (list_points ? count_ : 0)));
+    answers.write(worst.squared_distance);
+    answers.write(worst.index);
+    for (Word i = 0; list_points && i < count_; ++i) {
+      EMAX_HLS(PIPELINE II = 1)
+      answers.write(nearest_[i]);
+    }
+  }
+
+  Vector3<Scalar> points_[kMaxBlockPoints];
+  Word nearest_[kMaxBlockPoints];
+  Word count_ = 0;
+  Word error_ = kNoError;
+};
+
+}  // namespace emax

@@ -1,0 +1,90 @@
+#include "sw_model/commands.h"
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "sw_model/error.h"
+#include "sw_model/float_bits.h"
+
+namespace emax {
+namespace {
+
+void append_header(std::vector<Word>& words, Opcode opcode, std::size_t count) {
+  if (count > kMaxCount) throw std::invalid_argument("a command's count needs 24 bits");
+  words.push_back(command_header(opcode, static_cast<Word>(count)));
+}
+
+[[noreturn]] void refuse(const Device& device, const std::string& what) {
+  throw Error("device " + device.name() + ": " + what + "; reset the device and run again");
+}
+
+std::string reason(Word error) {
+  switch (error) {
+    case kUnknownCommand:
+      return "it was sent a command it does not know";
+    case kTooManyPoints:
+      return "it was sent more points than a block holds";
+    case kNoPoints:
+      return "it was asked for a result before any points";
+    default:
+      return "error " + std::to_string(error);
+  }
+}
+
+}  // namespace
+
+void append_load_points(std::vector<Word>& words, std::span<const Vector3<float>> points) {
+  append_header(words, kLoadPoints, points.size());
+  for (const Vector3<float>& p : points) {
+    words.insert(words.end(), {float_bits(p.x), float_bits(p.y), float_bits(p.z)});
+  }
+}
+
+void append_records(std::vector<Word>& words, std::span<const TriangleRecord<float>> records) {
+  append_header(words, kRecords, records.size());
+  const std::size_t start = words.size();
+  words.resize(start + records.size() * kRecordWords);
+  // A record in memory is its words in order; see the static_assert beside it.
+  if (!records.empty()) std::memcpy(&words[start], records.data(), records.size_bytes());
+}
+
+void append_reduce(std::vector<Word>& words, bool list_points) {
+  append_header(words, kReduce, list_points ? kReduceListsPoints : 0);
+}
+
+ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points) {
+  std::array<Word, 1> header;
+  device.receive(header);
+  if (header_opcode(header[0]) == kError) {
+    std::array<Word, 1> error;
+    device.receive(error);
+    refuse(device, reason(error[0]));
+  }
+  const std::size_t listed = list_points ? points : 0;
+  if (header[0] != command_header(kReduce, static_cast<Word>(kAnswerWorst + listed))) {
+    refuse(device, "an answer does not belong to its question");
+  }
+  std::array<Word, kAnswerWorst> worst;
+  device.receive(worst);
+  if (worst[1] >= points) refuse(device, "an answer names a point outside its block");
+  ReduceAnswer answer = {worst[0], worst[1], std::vector<std::uint32_t>(listed)};
+  device.receive(answer.points_squared_bits);
+  return answer;
+}
+
+void require_compatible(Device& device) {
+  device.send(std::array<Word, 1>{command_header(kIdentify, 0)});
+  std::array<Word, 1 + kAnswerIdentity> answer;
+  device.receive(answer);
+  if (answer[0] != command_header(kIdentify, kAnswerIdentity)) {
+    refuse(device, "it does not identify itself as an emax device");
+  }
+  if (answer[1] != kKernelVersion || answer[2] != kMaxBlockPoints || answer[3] != kRecordWords) {
+    refuse(device, "it runs kernel version " + std::to_string(answer[1]) +
+                       ", this program needs version " + std::to_string(kKernelVersion));
+  }
+}
+
+}  // namespace emax

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hls/kernel/command_words.h"
+#include "sw_model/device.h"
+
+namespace emax {
+
+// The command layer from the host's side: values to words and back.
+void append_load_points(std::vector<Word>& words, std::span<const Vector3<float>> points);
+void append_records(std::vector<Word>& words, std::span<const TriangleRecord<float>> records);
+void append_reduce(std::vector<Word>& words, bool list_points);
+
+struct ReduceAnswer {
+  std::uint32_t squared_bits;
+  std::uint32_t worst;                             // index in the block
+  std::vector<std::uint32_t> points_squared_bits;  // empty unless listed
+};
+
+// Waits for the answer to a kReduce over `points` points. Throws Error where the device answers
+// with an error or out of step.
+ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points);
+
+// Asks who is there. Throws Error for another kernel version or record layout.
+void require_compatible(Device& device);
+
+}  // namespace emax

@@ -1,0 +1,67 @@
+#include "sw_model/cpp_device.h"
+
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+std::size_t payload_words(Word header) {
+  const std::size_t count = header_count(header);
+  switch (header_opcode(header)) {
+    case kLoadPoints:
+      return count * kPointWords;
+    case kRecords:
+      return count * kRecordWords;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+void CppDevice::send(std::span<const Word> words) {
+  for (const Word word : words) {
+    if (words_missing_ == 0) {
+      account(word);
+      words_missing_ = 1 + payload_words(word);
+    }
+    commands_.write(word);
+    if (--words_missing_ == 0) kernel_.serve(commands_, answers_);
+  }
+}
+
+void CppDevice::receive(std::span<Word> words) {
+  if (answers_.size() < words.size()) {
+    throw Error(
+        "device sim: an answer was awaited that no command asked for; this is a defect of "
+        "the program");
+  }
+  for (Word& word : words) word = answers_.read();
+}
+
+void CppDevice::account(Word header) {
+  const Word count = header_count(header);
+  switch (header_opcode(header)) {
+    case kLoadPoints:
+      cycles_.load_points(count);
+      break;
+    case kRecords:
+      cycles_.stream_records(count);
+      break;
+    case kReduce:
+      cycles_.reduce((count & kReduceListsPoints) != 0);
+      break;
+    default:
+      break;
+  }
+}
+
+DeviceCounters CppDevice::counters() const {
+  DeviceCounters counters;
+  counters.cycles = cycles_.cycles();
+  counters.busy = cycles_.busy();
+  counters.stalled = cycles_.stalled();
+  return counters;
+}
+
+}  // namespace emax

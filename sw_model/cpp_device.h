@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "hls/kernel/emax_kernel.h"
+#include "sw_model/cycle_model.h"
+#include "sw_model/device.h"
+#include "sw_model/flushed_float.h"
+
+namespace emax {
+
+// The `sim` device: the C++ top of the kernel on the flushing scalar, with the cycle model of a
+// core of so many elements.
+class CppDevice : public Device {
+ public:
+  explicit CppDevice(std::uint32_t elements = 1) : cycles_(elements) {}
+
+  std::string name() const override { return "sim"; }
+  // Takes any cut of the word stream; a command is served once all of its words are there.
+  void send(std::span<const Word> words) override;
+  void receive(std::span<Word> words) override;
+  DeviceCounters counters() const override;
+
+ private:
+  void account(Word header);
+
+  EmaxKernel<FlushedFloat> kernel_;
+  Stream<Word> commands_, answers_;
+  std::size_t words_missing_ = 0;  // of the command at the end of commands_
+  CycleModel cycles_;
+};
+
+}  // namespace emax

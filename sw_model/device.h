@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "hls/kernel/word.h"
+
+namespace emax {
+
+// What a device did. Null where it is not measured.
+struct DeviceCounters {
+  std::uint64_t blocks = 0;
+  std::uint64_t pairs = 0;
+  std::uint64_t words_in = 0;   // to the device
+  std::uint64_t words_out = 0;  // from the device
+  std::optional<std::uint64_t> cycles, busy, stalled, idle, resends;
+};
+
+// A thing that takes command words and gives answer words (hls/kernel/command_words.h).
+class Device {
+ public:
+  virtual ~Device() = default;
+
+  virtual std::string name() const = 0;
+  virtual void send(std::span<const Word> words) = 0;
+  // Waits for exactly words.size() answer words. Throws Error when they cannot come.
+  virtual void receive(std::span<Word> words) = 0;
+  // Cycle counts only; the driver counts blocks, pairs and words.
+  virtual DeviceCounters counters() const = 0;
+};
+
+}  // namespace emax

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "hls/kernel/emax_kernel.h"
+#include "sw_model/commands.h"
+#include "sw_model/emax_model.h"
+#include "sw_model/flush_mode.h"
+#include "sw_model/triangle_frame.h"
+#include "tests/support/stimuli.h"
+
+extern "C" void emax_top(emax::Stream<emax::Word>& commands, emax::Stream<emax::Word>& answers);
+
+namespace emax {
+namespace {
+
+// Runs words through the synthesizable top on the processor's own binary32.
+std::vector<Word> run_top(const std::vector<Word>& words) {
+  const ScopedFlushMode flush;
+  Stream<Word> commands, answers;
+  for (const Word word : words) commands.write(word);
+  while (!commands.empty()) emax_top(commands, answers);
+  std::vector<Word> all;
+  while (!answers.empty()) all.push_back(answers.read());
+  return all;
+}
+
+TEST(Top, GivesTheModelsBits) {
+  for (const test::Stimulus& s : test::all_stimuli(3)) {
+    SCOPED_TRACE(s.name + ", seed 3");
+    const Normalization normalization = normalization_of(s.cloud);
+    auto points = normalized_points(s.cloud, normalization);
+    points.resize(std::min<std::size_t>(points.size(), 100));
+    const auto records = make_records(s.mesh(), normalization);
+    std::vector<Word> words;
+    append_load_points(words, points);
+    append_records(words, records);
+    append_reduce(words, true);
+    const std::vector<Word> answer = run_top(words);
+
+    const auto expected = nearest_squared_bits(points, records);
+    const EmaxResult worst = worst_of(expected);
+    ASSERT_EQ(answer.size(), 3 + points.size());
+    EXPECT_EQ(answer[0], command_header(kReduce, static_cast<Word>(2 + points.size())));
+    EXPECT_EQ(answer[1], worst.squared_bits);
+    EXPECT_EQ(answer[2], worst.worst_point);
+    EXPECT_EQ(std::vector<Word>(answer.begin() + 3, answer.end()), expected);
+  }
+}
+
+TEST(Top, IdentifiesItself) {
+  const std::vector<Word> expected = {command_header(kIdentify, 3), kKernelVersion, kMaxBlockPoints,
+                                      kRecordWords};
+  EXPECT_EQ(run_top({command_header(kIdentify, 0)}), expected);
+}
+
+TEST(Top, AnswersMalformedCommandsWithTheReasonAndRecovers) {
+  std::vector<Word> too_many = {command_header(kLoadPoints, kMaxBlockPoints + 1)};
+  too_many.resize(1 + 3 * (kMaxBlockPoints + 1));
+  append_reduce(too_many, false);
+  EXPECT_EQ(run_top(too_many), (std::vector<Word>{command_header(kError, 1), kTooManyPoints}));
+
+  std::vector<Word> unknown = {command_header(static_cast<Opcode>(0x55), 9)};
+  append_load_points(unknown, std::vector<Vector3<float>>{{0, 0, 0}});
+  append_reduce(unknown, false);
+  EXPECT_EQ(run_top(unknown), (std::vector<Word>{command_header(kError, 1), kUnknownCommand}));
+
+  std::vector<Word> nothing;
+  append_reduce(nothing, false);
+  EXPECT_EQ(run_top(nothing), (std::vector<Word>{command_header(kError, 1), kNoPoints}));
+
+  std::vector<Word> good;
+  append_load_points(good, std::vector<Vector3<float>>{{0, 0, 0}});
+  append_reduce(good, false);
+  EXPECT_EQ(run_top(good), (std::vector<Word>{command_header(kReduce, 2), kInfinityWord, 0}));
+}
+
+}  // namespace
+}  // namespace emax

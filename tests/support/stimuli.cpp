@@ -1,0 +1,143 @@
+#include "tests/support/stimuli.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace emax::test {
+namespace {
+
+void add_triangle(Stimulus& s, const Point& a, const Point& b, const Point& c) {
+  const auto first = static_cast<std::uint32_t>(s.vertices.size());
+  s.vertices.insert(s.vertices.end(), {a, b, c});
+  s.triangles.push_back({first, first + 1, first + 2});
+}
+
+// Triangles anywhere, points anywhere: nothing is near anything.
+Stimulus random_soup(Random& random, std::size_t triangles, std::size_t points) {
+  Stimulus s{"random soup", {}, {}, {}};
+  for (std::size_t i = 0; i < triangles; ++i) {
+    add_triangle(s, random.point(-1, 1), random.point(-1, 1), random.point(-1, 1));
+  }
+  for (std::size_t i = 0; i < points; ++i) s.cloud.push_back(random.point(-1.2, 1.2));
+  return s;
+}
+
+// Heights around the sliver ratio, needles and obtuse ones: the frame rules decide.
+Stimulus slivers(Random& random) {
+  Stimulus s{"slivers", {}, {}, {}};
+  for (int i = 0; i < 200; ++i) {
+    const Point a = random.point(-1, 1), b = random.point(-1, 1);
+    const double ratio = std::pow(10.0, random.uniform(-8, -2));
+    const Point c = a + random.uniform(-0.2, 1.2) * (b - a) + ratio * random.point(-1, 1);
+    add_triangle(s, a, b, c);
+  }
+  for (int i = 0; i < 300; ++i) s.cloud.push_back(random.point(-1, 1));
+  for (const Point& v : s.vertices) s.cloud.push_back(v + 1e-4 * random.point(-1, 1));
+  return s;
+}
+
+// Points for triangles, segments for triangles, with points on and off them.
+Stimulus degenerate(Random& random) {
+  Stimulus s{"degenerate", {}, {}, {}};
+  for (int i = 0; i < 60; ++i) {
+    const Point a = random.point(-1, 1), b = random.point(-1, 1);
+    add_triangle(s, a, a, a);
+    add_triangle(s, a, b, a);
+    add_triangle(s, a, b, a + 0.25 * (b - a));
+    s.cloud.insert(s.cloud.end(), {a, b, a + 0.5 * (b - a), random.point(-1, 1)});
+  }
+  return s;
+}
+
+// Every triangle and every point many times: ties everywhere, the lowest index must win.
+Stimulus duplicated(Random& random) {
+  Stimulus s = random_soup(random, 10, 40);
+  s.name = "duplicated";
+  const auto triangles = s.triangles;
+  const auto cloud = s.cloud;
+  for (int copy = 0; copy < 12; ++copy) {
+    s.triangles.insert(s.triangles.end(), triangles.begin(), triangles.end());
+    s.cloud.insert(s.cloud.end(), cloud.begin(), cloud.end());
+  }
+  return s;
+}
+
+// Small integers: exact arithmetic, exact ties between different pairs.
+Stimulus integer_grid(Random& random) {
+  Stimulus s{"integer grid", {}, {}, {}};
+  const auto corner = [&random] {
+    const double x = random.below(5), y = random.below(5), z = random.below(5);
+    return Point(x, y, z);
+  };
+  for (int i = 0; i < 60; ++i) add_triangle(s, corner(), corner(), corner());
+  for (int i = 0; i < 400; ++i) s.cloud.push_back(corner() + Point(0, 0, random.below(4)));
+  return s;
+}
+
+// Half of the triangles a million cloud sizes away.
+Stimulus far_triangles(Random& random) {
+  Stimulus s = random_soup(random, 100, 300);
+  s.name = "triangles a million sizes away";
+  for (std::size_t i = 0; i < s.vertices.size() / 2; ++i) s.vertices[i] += Point(1e6, -2e6, 3e5);
+  return s;
+}
+
+}  // namespace
+
+Stimulus bumpy_sphere(std::uint32_t rings, std::uint32_t segments, std::size_t points,
+                      std::uint64_t seed) {
+  Random random(seed);
+  Stimulus s{"bumpy sphere", {}, {}, {}};
+  const auto on_surface = [](double theta, double phi) {
+    const double r = 1 + 0.1 * std::sin(5 * theta) * std::cos(4 * phi);
+    return Point(r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi),
+                 r * std::cos(theta));
+  };
+  s.vertices.push_back(on_surface(0, 0));
+  for (std::uint32_t i = 1; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < segments; ++j) {
+      s.vertices.push_back(
+          on_surface(std::numbers::pi * i / rings, 2 * std::numbers::pi * j / segments));
+    }
+  }
+  const auto south = static_cast<std::uint32_t>(s.vertices.size());
+  s.vertices.push_back(on_surface(std::numbers::pi, 0));
+  for (std::uint32_t j = 0; j < segments; ++j) {
+    const std::uint32_t next = (j + 1) % segments;
+    s.triangles.push_back({0, 1 + j, 1 + next});
+    for (std::uint32_t i = 0; i + 2 < rings; ++i) {
+      const std::uint32_t upper = 1 + i * segments, lower = upper + segments;
+      s.triangles.push_back({upper + j, lower + j, lower + next});
+      s.triangles.push_back({upper + j, lower + next, upper + next});
+    }
+    const std::uint32_t last = 1 + (rings - 2) * segments;
+    s.triangles.push_back({last + j, south, last + next});
+  }
+  for (std::size_t i = 0; i < points; ++i) {
+    const double theta = std::acos(random.uniform(-1, 1));
+    s.cloud.push_back(on_surface(theta, random.uniform(0, 2 * std::numbers::pi)) +
+                      1e-3 * random.point(-1, 1));
+  }
+  return s;
+}
+
+std::vector<Stimulus> all_stimuli(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Stimulus> all = {random_soup(random, 150, 500),
+                               random_soup(random, 1, 64),
+                               slivers(random),
+                               degenerate(random),
+                               duplicated(random),
+                               integer_grid(random),
+                               far_triangles(random),
+                               bumpy_sphere(20, 30, 1500, seed)};
+  all[1].name = "one triangle";
+  Stimulus shifted = bumpy_sphere(16, 24, 1200, seed + 1);
+  shifted.name = "far from the origin";
+  for (Point& p : shifted.cloud) p += Point(1e7, -3e6, 2.5e5);
+  for (Point& p : shifted.vertices) p += Point(1e7, -3e6, 2.5e5);
+  all.push_back(shifted);
+  return all;
+}
+
+}  // namespace emax::test

@@ -1,0 +1,118 @@
+#include "sw_model/cpp_device.h"
+
+#include <gtest/gtest.h>
+
+#include "sw_model/commands.h"
+#include "sw_model/emax_model.h"
+#include "sw_model/error.h"
+#include "sw_model/triangle_frame.h"
+#include "tests/support/stimuli.h"
+
+namespace emax {
+namespace {
+
+TEST(CppDevice, GivesTheModelsBitsForAnyCutOfTheWords) {
+  test::Random random(9);
+  for (const test::Stimulus& s : test::all_stimuli(21)) {
+    SCOPED_TRACE(s.name + ", seed 21");
+    const Normalization normalization = normalization_of(s.cloud);
+    auto points = normalized_points(s.cloud, normalization);
+    points.resize(std::min<std::size_t>(points.size(), 80));
+    const auto records = make_records(s.mesh(), normalization);
+    std::vector<Word> words;
+    append_load_points(words, points);
+    append_records(words, records);
+    append_reduce(words, true);
+
+    CppDevice device;
+    require_compatible(device);
+    for (std::size_t sent = 0; sent < words.size();) {
+      const std::size_t count = std::min<std::size_t>(random.below(40), words.size() - sent);
+      device.send(std::span(words).subspan(sent, count));
+      sent += count;
+    }
+    const ReduceAnswer answer = receive_reduce(device, points.size(), true);
+    const auto expected = nearest_squared_bits(points, records);
+    EXPECT_EQ(answer.points_squared_bits, expected);
+    EXPECT_EQ(answer.squared_bits, worst_of(expected).squared_bits);
+    EXPECT_EQ(answer.worst, worst_of(expected).worst_point);
+  }
+}
+
+TEST(CppDevice, ErrorsOfTheDeviceNameThemselves) {
+  CppDevice device;
+  std::vector<Word> words;
+  append_reduce(words, false);
+  device.send(words);
+  EXPECT_THROW(
+      {
+        try {
+          receive_reduce(device, 1, false);
+        } catch (const Error& error) {
+          EXPECT_NE(std::string(error.what()).find("before any points"), std::string::npos);
+          throw;
+        }
+      },
+      Error);
+  std::vector<Word> none(1);
+  EXPECT_THROW(device.receive(none), Error);
+}
+
+// A device that answers every question with the given words.
+class ScriptedDevice : public Device {
+ public:
+  explicit ScriptedDevice(std::vector<Word> script) : script_(std::move(script)) {}
+  std::string name() const override { return "scripted"; }
+  void send(std::span<const Word>) override {}
+  void receive(std::span<Word> words) override {
+    for (Word& word : words) word = script_.at(next_++);
+  }
+  DeviceCounters counters() const override { return {}; }
+
+ private:
+  std::vector<Word> script_;
+  std::size_t next_ = 0;
+};
+
+TEST(Commands, RefuseAnAnswerThatIsNotTheirs) {
+  ScriptedDevice out_of_step({command_header(kReduce, 7)});
+  EXPECT_THROW(receive_reduce(out_of_step, 4, false), Error);
+  ScriptedDevice outside({command_header(kReduce, 2), 5, 4});
+  EXPECT_THROW(receive_reduce(outside, 4, false), Error);
+  ScriptedDevice right({command_header(kReduce, 2), 5, 3});
+  EXPECT_EQ(receive_reduce(right, 4, false).worst, 3u);
+  ScriptedDevice other_version({command_header(kIdentify, 3), kKernelVersion + 1, 1024, 20});
+  EXPECT_THROW(require_compatible(other_version), Error);
+}
+
+TEST(CycleModel, CountsOnePairACyclePerElement) {
+  CycleModel one(1), two(2);
+  for (CycleModel* model : {&one, &two}) {
+    model->load_points(1000);
+    model->stream_records(500);
+    model->reduce(false);
+  }
+  EXPECT_EQ(one.busy(), 500000u);
+  EXPECT_EQ(two.busy(), 250000u);
+  EXPECT_EQ(one.stalled(), 0u);
+  EXPECT_GT(one.cycles(), 500000u + 3000u);
+  EXPECT_LT(static_cast<double>(one.cycles()), 1.01 * (500000 + 3000 + 1000));
+}
+
+TEST(CycleModel, StallsWhereRecordsArriveTooSlowly) {
+  CycleModel model(4);
+  model.load_points(16);
+  model.stream_records(10);
+  EXPECT_EQ(model.busy(), 40u);
+  EXPECT_EQ(model.stalled(), 160u);
+}
+
+TEST(CycleModel, PredictsTheSlowerOfComputingAndLink) {
+  const BoardModel& board = board_model("ulx3s");
+  EXPECT_DOUBLE_EQ(predicted_seconds(board, 240000000, 10, 10), 2.0);
+  EXPECT_DOUBLE_EQ(predicted_seconds(board, 1, 75000, 10), 1.0);
+  EXPECT_THROW(board_model("toaster"), Error);
+}
+
+}  // namespace
+}  // namespace emax
