@@ -43,6 +43,10 @@ void append_load_points(std::vector<Word>& words, std::span<const Vector3<float>
 }
 
 void append_records(std::vector<Word>& words, std::span<const TriangleRecord<float>> records) {
+  while (records.size() > kMaxCount) {
+    append_records(words, records.first(kMaxCount));
+    records = records.subspan(kMaxCount);
+  }
   append_header(words, kRecords, records.size());
   const std::size_t start = words.size();
   words.resize(start + records.size() * kRecordWords);

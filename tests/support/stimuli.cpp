@@ -74,11 +74,42 @@ Stimulus integer_grid(Random& random) {
   return s;
 }
 
+// Every point exactly one unit from a flat mesh: one distance, many groups, the lowest index wins.
+Stimulus level_ties(Random& random) {
+  Stimulus s{"level ties", {}, {}, {}};
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y) {
+      add_triangle(s, Point(x, y, 0), Point(x + 1, y, 0), Point(x, y + 1, 0));
+      add_triangle(s, Point(x + 1, y + 1, 0), Point(x, y + 1, 0), Point(x + 1, y, 0));
+    }
+  }
+  for (int i = 0; i < 900; ++i) {
+    s.cloud.emplace_back(random.uniform(0, 8), random.uniform(0, 8), random.below(2) == 0 ? -1 : 1);
+  }
+  return s;
+}
+
 // Half of the triangles a million cloud sizes away.
 Stimulus far_triangles(Random& random) {
   Stimulus s = random_soup(random, 100, 300);
   s.name = "triangles a million sizes away";
   for (std::size_t i = 0; i < s.vertices.size() / 2; ++i) s.vertices[i] += Point(1e6, -2e6, 3e5);
+  return s;
+}
+
+// Huge triangles that begin at nearly the same x, seen from a flat cloud: the kernel's rounding
+// there exceeds the distance between them, so bounds in exact arithmetic alone would drop a
+// triangle that the kernel finds nearest.
+Stimulus huge_triangles(Random& random) {
+  Stimulus s{"huge triangles", {}, {}, {}};
+  for (int i = 0; i < 60; ++i) {
+    const double x = 0.5 + random.uniform(0, 0.02), size = random.uniform(1e5, 3e5);
+    add_triangle(s, Point(x, -size, 0.01 * i), Point(x, 0.9 * size, 0.01 * i),
+                 Point(5 * size, 0, 0.01 * i));
+  }
+  for (int i = 0; i < 400; ++i) {
+    s.cloud.emplace_back(random.uniform(0, 1e-4), random.uniform(-1, 1), random.uniform(0, 0.6));
+  }
   return s;
 }
 
@@ -130,6 +161,8 @@ std::vector<Stimulus> all_stimuli(std::uint64_t seed) {
                                duplicated(random),
                                integer_grid(random),
                                far_triangles(random),
+                               huge_triangles(random),
+                               level_ties(random),
                                bumpy_sphere(20, 30, 1500, seed)};
   all[1].name = "one triangle";
   Stimulus shifted = bumpy_sphere(16, 24, 1200, seed + 1);

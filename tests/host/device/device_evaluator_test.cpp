@@ -1,0 +1,111 @@
+#include "host/device/device_evaluator.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "host/device/device_address.h"
+#include "host/emax_search/emax_search.h"
+#include "sw_model/cpp_device.h"
+#include "sw_model/error.h"
+#include "sw_model/float_bits.h"
+#include "tests/support/stimuli.h"
+
+namespace emax {
+namespace {
+
+using Engine = EmaxResult (*)(const PreparedCloud&, const TriangleTree&);
+
+EmaxResult model(const PreparedCloud& cloud, const TriangleTree& mesh) {
+  return emax_model(cloud.points(), mesh.records());
+}
+template <auto search>
+EmaxResult on(const char* address, const PreparedCloud& cloud, const TriangleTree& mesh) {
+  return search(cloud, mesh, *make_evaluator(DeviceAddress::parse(address)), SearchOptions{});
+}
+
+const std::vector<std::pair<const char*, Engine>> kEngines = {
+    {"model", model},
+    {"cpu searched", [](const auto& c, const auto& m) { return on<search_emax>("cpu", c, m); }},
+    {"cpu brute force",
+     [](const auto& c, const auto& m) { return on<brute_force_emax>("cpu", c, m); }},
+    {"sim searched", [](const auto& c, const auto& m) { return on<search_emax>("sim", c, m); }},
+    {"sim brute force",
+     [](const auto& c, const auto& m) { return on<brute_force_emax>("sim", c, m); }},
+};
+
+// Every engine against every other, the matrix printed.
+TEST(Engines, AgreePairwiseBitForBit) {
+  std::vector<std::vector<int>> differing(kEngines.size(), std::vector<int>(kEngines.size(), 0));
+  int inputs = 0;
+  for (std::uint64_t seed = 70; seed < 73; ++seed) {
+    for (const test::Stimulus& s : test::all_stimuli(seed)) {
+      const PreparedCloud cloud(s.cloud);
+      const TriangleTree mesh(s.mesh(), cloud.normalization());
+      std::vector<EmaxResult> results;
+      for (const auto& [name, engine] : kEngines) results.push_back(engine(cloud, mesh));
+      for (std::size_t i = 0; i < results.size(); ++i) {
+        for (std::size_t j = 0; j < results.size(); ++j) {
+          differing[i][j] += !(results[i] == results[j]);
+        }
+        EXPECT_EQ(results[i], results[0])
+            << kEngines[i].first << " on " << s.name << ", seed " << seed << ": "
+            << describe_bits(results[i].squared_bits) << " at " << results[i].worst_point;
+      }
+      ++inputs;
+    }
+  }
+  std::printf("inputs that differ, of %d:\n", inputs);
+  for (std::size_t i = 0; i < kEngines.size(); ++i) {
+    std::printf("  %-16s", kEngines[i].first);
+    for (const int count : differing[i]) std::printf(" %4d", count);
+    std::printf("\n");
+  }
+}
+
+TEST(DeviceEvaluator, ListsThePointsOfABlock) {
+  const test::Stimulus s = test::bumpy_sphere(12, 16, 2500, 74);
+  const PreparedCloud cloud(s.cloud);
+  const TriangleTree mesh(s.mesh(), cloud.normalization());
+  const auto sim = make_evaluator(DeviceAddress::parse("sim"));
+  EXPECT_EQ(search_nearest(cloud, mesh, *sim),
+            nearest_squared_bits(cloud.points(), mesh.records()));
+}
+
+TEST(DeviceEvaluator, CountsWhatItSends) {
+  const test::Stimulus s = test::bumpy_sphere(12, 16, 2500, 75);
+  const PreparedCloud cloud(s.cloud);
+  const TriangleTree mesh(s.mesh(), cloud.normalization());
+  const auto sim = make_evaluator(DeviceAddress::parse("sim:board=u50"));
+  brute_force_emax(cloud, mesh, *sim);
+  const DeviceCounters counters = sim->counters();
+  const std::uint64_t triangles = s.triangles.size();
+  EXPECT_EQ(counters.blocks, 3u);  // 2500 points in blocks of 1024
+  EXPECT_EQ(counters.pairs, 2500 * triangles);
+  EXPECT_EQ(counters.words_in, 3 * (3 + 20 * triangles) + 3 * 2500);
+  EXPECT_EQ(counters.words_out, 9u);
+  EXPECT_GT(counters.cycles.value(), 0u);
+  EXPECT_EQ(counters.resends, std::nullopt);
+}
+
+TEST(DeviceEvaluator, StartsAfreshAfterAnInterruptedSearch) {
+  const test::Stimulus s = test::bumpy_sphere(12, 16, 20000, 76);
+  const PreparedCloud cloud(s.cloud);
+  const TriangleTree mesh(s.mesh(), cloud.normalization());
+  const auto sim = make_evaluator(DeviceAddress::parse("sim"));
+  int asked = 0;
+  SearchOptions options;
+  options.interrupted = [&asked] { return ++asked > 2; };
+  EXPECT_THROW(search_emax(cloud, mesh, *sim, options), Interrupted);
+  EXPECT_EQ(search_emax(cloud, mesh, *sim), on<search_emax>("cpu", cloud, mesh));
+}
+
+TEST(DeviceAddress, NamesWhatItAccepts) {
+  EXPECT_EQ(DeviceAddress::parse("sim:board=ulx3s").board->name, "ulx3s");
+  for (const char* bad : {"gpu", "sim:", "sim:board=", "sim:board=x", "cpu:1", ""}) {
+    EXPECT_THROW(DeviceAddress::parse(bad), Error) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace emax
