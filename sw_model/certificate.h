@@ -28,8 +28,8 @@ struct CertifiedError {
 // this number alone permits writing a result.
 //
 // Throws Error naming the point that is not finite or beyond 1e150, or where nothing is left to
-// certify, and as ExactMesh does; std::invalid_argument for an excluded index that does not exist or
-// comes twice; std::logic_error while flush mode is on. About O(points log triangles).
+// certify, and as ExactMesh does; std::invalid_argument for an excluded index that does not exist
+// or comes twice; std::logic_error while flush mode is on. About O(points log triangles).
 CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
                        std::span<const std::uint32_t> excluded = {});
 

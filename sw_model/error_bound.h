@@ -16,6 +16,7 @@ namespace emax {
 //
 // Proof in docs/numerics.md; tests/sw_model/error_bound_test.cpp searches for a counterexample.
 constexpr double kKappa = 0x1p-19;
+static_assert(27 * 0x1p-24 <= kKappa * 7 / 8, "27 u are proven, an eighth is kept for roundings");
 constexpr double kDistanceFloor = 0x1p-62;  // squares flush below 2^-126
 
 // A triangle at least `lower_bound` away, of diameter (longest edge) at most `diameter` and with
@@ -26,9 +27,9 @@ inline double kernel_distance_margin(double lower_bound, double diameter, double
   return kKappa * (lower_bound + diameter + max_vertex) + kDistanceFloor;
 }
 
-// The greatest kernel e_max^2, as bits, which proves e_max <= epsilon for the cloud as it was before
-// it was rounded to binary32; nothing where even 0 does not prove it. `max_reach` is at least
-// epsilon + 2 * longest edge + greatest |vertex|. Normalised units, both positive and finite.
+// The greatest kernel e_max^2, as bits, which proves e_max <= epsilon for the cloud as it was
+// before it was rounded to binary32; nothing where even 0 does not prove it. `max_reach` is at
+// least epsilon + 2 * longest edge + greatest |vertex|. Normalised units, both positive and finite.
 inline std::optional<std::uint32_t> largest_feasible_bits(double epsilon, double max_reach) {
   const double allowed = epsilon - (kKappa * max_reach + kDistanceFloor);
   if (!(allowed >= 0)) return std::nullopt;

@@ -58,8 +58,8 @@ Weights nearest_weights(const std::array<Point, 3>& corners, const std::array<Po
     edges[i] = corners[(i + 1) % 3] - corners[i];
     squared[i] = edges[i].squaredNorm();
   }
-  const std::size_t i0 = static_cast<std::size_t>(
-      std::max_element(squared.begin(), squared.end()) - squared.begin());
+  const std::size_t i0 =
+      static_cast<std::size_t>(std::max_element(squared.begin(), squared.end()) - squared.begin());
   const std::size_t i1 = (i0 + 1) % 3, i2 = (i0 + 2) % 3;
 
   Weights best = Weights::Zero();
@@ -118,8 +118,8 @@ DistanceBounds bounds(const Point& p, const std::array<Point, 3>& corners) {
   if (length > 0x1p-900) {
     const Point n = to_nearest / length;
     const double support = std::min({from_p[0].dot(n), from_p[1].dot(n), from_p[2].dot(n)});
-    lower = support * (1 - 16 * kUnit) -
-            6 * kUnit * std::max({sizes[0], sizes[1], sizes[2]}) - 0x1p-1060;
+    lower = support * (1 - 16 * kUnit) - 6 * kUnit * std::max({sizes[0], sizes[1], sizes[2]}) -
+            0x1p-1060;
   }
   return {std::max(lower, 0.0), std::nextafter(upper, kInfinity)};
 }
@@ -147,7 +147,7 @@ ExactMesh::ExactMesh(MeshView mesh) {
     }
     const std::array<Point, 3> corners = mesh.corners(i);
     for (const Point& corner : corners) {
-      if (!(corner.cwiseAbs().maxCoeff() < 1e150)) {
+      if (!(corner.array().abs() < 1e150).all()) {  // also for NaN
         throw Error("triangle " + std::to_string(i) +
                     " has a vertex that is not finite or beyond 1e150: correct the mesh");
       }
@@ -187,10 +187,9 @@ std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     return centres[a][axis] < centres[b][axis];
-                   });
+  std::nth_element(
+      order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+      [&](std::uint32_t a, std::uint32_t b) { return centres[a][axis] < centres[b][axis]; });
   build(begin, middle, centres);
   const std::uint32_t right = build(middle, end, centres);
   nodes_[node].right = right;

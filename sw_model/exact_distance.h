@@ -17,8 +17,8 @@ struct DistanceBounds {
 
 // Distance from a point to a triangle of any shape: slivers, segments and single points too.
 //
-// Shares nothing with the kernel: no frame, no rotation, binary64 throughout. It works on V_i - P, so
-// rounding scales with the distance and not with the coordinates.
+// Shares nothing with the kernel: no frame, no rotation, binary64 throughout. It works on V_i - P,
+// so rounding scales with the distance and not with the coordinates.
 //   upper: the distance to a convex combination of the corners, which is a point of the triangle
 //          whatever the weights, plus the rounding of the computation (docs/numerics.md).
 //   lower: for any direction n, |n| <= 1, the triangle is at least min_i (V_i - P).n away.
@@ -37,8 +37,8 @@ class ExactMesh {
   // std::invalid_argument for an index out of range. O(n log n).
   explicit ExactMesh(MeshView mesh);
 
-  // `upper` is the least upper bound over all triangles, the same to the bit as without the tree, and
-  // `triangle` the lowest index that attains it. The search may stop at any triangle within
+  // `upper` is the least upper bound over all triangles, the same to the bit as without the tree,
+  // and `triangle` the lowest index that attains it. The search may stop at any triangle within
   // `enough`; then `upper` <= enough is all that is promised, and `lower` is 0.
   Nearest nearest(const Point& p, double enough = -std::numeric_limits<double>::infinity()) const;
 

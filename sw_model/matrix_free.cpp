@@ -83,10 +83,10 @@ Scalar eberly_squared_distance(const Vector<Scalar>& p, const Vector<Scalar>& co
   return std::max(squared, Scalar(0));  // cancellation can leave it slightly below
 }
 
-#define EMAX_INSTANTIATE(Scalar)                                                                  \
-  template Scalar ericson_squared_distance(const Vector<Scalar>&, const Vector<Scalar>&,          \
-                                           const Vector<Scalar>&, const Vector<Scalar>&);         \
-  template Scalar eberly_squared_distance(const Vector<Scalar>&, const Vector<Scalar>&,           \
+#define EMAX_INSTANTIATE(Scalar)                                                          \
+  template Scalar ericson_squared_distance(const Vector<Scalar>&, const Vector<Scalar>&,  \
+                                           const Vector<Scalar>&, const Vector<Scalar>&); \
+  template Scalar eberly_squared_distance(const Vector<Scalar>&, const Vector<Scalar>&,   \
                                           const Vector<Scalar>&, const Vector<Scalar>&)
 EMAX_INSTANTIATE(float);
 EMAX_INSTANTIATE(double);

@@ -5,8 +5,8 @@
 namespace emax {
 
 // Squared distance from a point to a triangle straight from the corners, without a frame made
-// beforehand: what the paper's transformation (section 4) is measured against. Checks and benchmarks
-// use them; nothing that decides does. For float and double; O(1).
+// beforehand: what the paper's transformation (section 4) is measured against. Checks and
+// benchmarks use them; nothing that decides does. For float and double; O(1).
 
 // Ericson, "Real-Time Collision Detection" (2005), 5.1.5, ClosestPtPointTriangle. For a degenerate
 // triangle the result can be NaN.

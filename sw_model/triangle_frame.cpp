@@ -11,6 +11,9 @@
 namespace emax {
 namespace {
 
+// Shorter than this, normalised, squares of lengths underflow and no frame has a meaning: a segment.
+constexpr double kSmallestLength = 0x1p-500;
+
 // Any unit vector across `axis`, the same one for the same axis.
 Point across(const Point& axis) {
   Eigen::Index least = 0;
@@ -59,7 +62,7 @@ TriangleFrame make_frame(const std::array<Point, 3>& corners) {
   frame.along = direction(to2);
   const Point off_axis = to3 - frame.along.dot(to3) * frame.along;
   const double height = off_axis.stableNorm();
-  frame.segment = !(height >= kSliverRatio * frame.length12) || frame.length12 == 0;
+  frame.segment = !(height >= kSliverRatio * frame.length12) || frame.length12 < kSmallestLength;
   // Orthogonalised twice: once leaves a cancellation error of the size of the sliver ratio.
   frame.in_plane = frame.segment ? across(frame.along) : direction(off_axis);
   frame.in_plane = (frame.in_plane - frame.along.dot(frame.in_plane) * frame.along).normalized();

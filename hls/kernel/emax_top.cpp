@@ -1,7 +1,9 @@
-// The synthesizable top function: one command per call, state kept on chip. Given to HLS compilers
-// and compiled by the tests; flushing of subnormal results is the target's (docs/numerics.md).
+#include "hls/kernel/emax_top.h"
+
 #include "hls/kernel/emax_kernel.h"
 
+// Plain binary32: flushing subnormals is the target's own (hardware operators, or the processor's
+// flush mode set by the testbench).
 extern "C" void emax_top(emax::Stream<emax::Word>& commands, emax::Stream<emax::Word>& answers) {
   EMAX_HLS(INTERFACE axis port = commands)
   EMAX_HLS(INTERFACE axis port = answers)

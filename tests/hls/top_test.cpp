@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "hls/kernel/emax_kernel.h"
+#include "hls/kernel/emax_top.h"
+#include "hls/kernel/reduce.h"
 #include "sw_model/commands.h"
 #include "sw_model/emax_model.h"
 #include "sw_model/flush_mode.h"
 #include "sw_model/triangle_frame.h"
 #include "tests/support/stimuli.h"
-
-extern "C" void emax_top(emax::Stream<emax::Word>& commands, emax::Stream<emax::Word>& answers);
 
 namespace emax {
 namespace {

@@ -21,12 +21,12 @@ inline long double long_double_distance(const Point& point, const std::array<Poi
     const long double t = -v[i].dot(edge[i]) / edge[i].squaredNorm();
     if (t > 0 && t < 1) least = std::min(least, (v[i] + t * edge[i]).norm());
   }
-  const std::size_t i = static_cast<std::size_t>(
-      std::max_element(edge.begin(), edge.end(),
-                       [](const Vector& a, const Vector& b) {
-                         return a.squaredNorm() < b.squaredNorm();
-                       }) -
-      edge.begin());
+  const std::size_t i =
+      static_cast<std::size_t>(std::max_element(edge.begin(), edge.end(),
+                                                [](const Vector& a, const Vector& b) {
+                                                  return a.squaredNorm() < b.squaredNorm();
+                                                }) -
+                               edge.begin());
   const Vector along = edge[i].normalized(), to_apex = -edge[(i + 2) % 3];
   const Vector height = to_apex - to_apex.dot(along) * along;
   const Vector across = -v[i] + v[i].dot(along) * along;

@@ -1,0 +1,134 @@
+// C simulation: drives the synthesizable top with random blocks beside the golden model and
+// compares every answered word. Exit code 0 when all agree.
+//
+//   emax_csim [--seed N] [--blocks N] [--fault]
+//
+// --fault sends the top one record with a changed bit, which must be caught.
+
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string_view>
+#include <vector>
+
+#include "hls/kernel/emax_top.h"
+#include "sw_model/commands.h"
+#include "sw_model/emax_model.h"
+#include "sw_model/float_bits.h"
+#include "sw_model/flush_mode.h"
+#include "sw_model/triangle_frame.h"
+
+namespace emax {
+namespace {
+
+struct Options {
+  std::uint64_t seed = 1;
+  std::uint64_t blocks = 200;
+  bool fault = false;
+};
+
+struct Block {
+  std::vector<Vector3<float>> points;
+  std::vector<TriangleRecord<float>> records;
+};
+
+// Every fourth triangle is a sliver or degenerate; sizes vary from one word to a full block.
+Block random_block(std::mt19937_64& engine) {
+  const auto number = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
+  const auto point = [&number] {
+    const double x = number(), y = number(), z = number();
+    return Point(x, y, z);
+  };
+  Block block;
+  const std::size_t points = 1 + engine() % (engine() % 8 == 0 ? kMaxBlockPoints : 64);
+  for (std::size_t i = 0; i < points; ++i) {
+    const Eigen::Vector3f p = point().cast<float>();
+    block.points.push_back({p.x(), p.y(), p.z()});
+  }
+  const std::size_t records = 1 + engine() % 40;
+  for (std::uint32_t i = 0; i < records; ++i) {
+    const Point a = point(), b = point();
+    const Point c =
+        i % 4 == 3 ? Point(a + number() * (b - a) + 1e-6 * number() * point()) : point();
+    block.records.push_back(make_record(make_frame({a, b, c}), i));
+  }
+  return block;
+}
+
+std::vector<Word> run_top(const std::vector<Word>& words) {
+  const ScopedFlushMode flush;
+  Stream<Word> commands, answers;
+  for (const Word word : words) commands.write(word);
+  while (!commands.empty()) emax_top(commands, answers);
+  std::vector<Word> answer;
+  while (!answers.empty()) answer.push_back(answers.read());
+  return answer;
+}
+
+std::vector<Word> expected_answer(const Block& block) {
+  const std::vector<std::uint32_t> nearest = nearest_squared_bits(block.points, block.records);
+  const EmaxResult worst = worst_of(nearest);
+  std::vector<Word> answer = {
+      command_header(kReduce, static_cast<Word>(kAnswerWorst + nearest.size())), worst.squared_bits,
+      worst.worst_point};
+  answer.insert(answer.end(), nearest.begin(), nearest.end());
+  return answer;
+}
+
+int run(const Options& options) {
+  std::mt19937_64 engine(options.seed);
+  std::uint64_t pairs = 0, mismatches = 0;
+  for (std::uint64_t i = 0; i < options.blocks; ++i) {
+    const Block block = random_block(engine);
+    std::vector<Word> words;
+    append_load_points(words, block.points);
+    append_records(words, block.records);
+    append_reduce(words, true);
+    // The first record's V1.x, behind the points and two headers.
+    if (options.fault && i == options.blocks / 2)
+      words[2 + kPointWords * block.points.size()] ^= 1u << 22;
+    const std::vector<Word> answer = run_top(words), expected = expected_answer(block);
+    for (std::size_t w = 0; w < expected.size(); ++w) {
+      if (w < answer.size() && answer[w] == expected[w]) continue;
+      if (mismatches++ == 0) {
+        std::printf("block %llu, answer word %zu: model %s\n", static_cast<unsigned long long>(i),
+                    w, describe_bits(expected[w]).c_str());
+        std::printf("  top %s\n",
+                    w < answer.size() ? describe_bits(answer[w]).c_str() : "gave no such word");
+      }
+    }
+    pairs += block.points.size() * block.records.size();
+  }
+  std::printf("csim: seed %llu, %llu pairs, %llu mismatches\n",
+              static_cast<unsigned long long>(options.seed), static_cast<unsigned long long>(pairs),
+              static_cast<unsigned long long>(mismatches));
+  return mismatches == 0 ? 0 : 1;
+}
+
+bool parse(int argc, char** argv, Options& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    char* end = nullptr;
+    if (argument == "--fault") {
+      options.fault = true;
+    } else if ((argument == "--seed" || argument == "--blocks") && i + 1 < argc) {
+      (argument == "--seed" ? options.seed : options.blocks) = std::strtoull(argv[++i], &end, 10);
+      if (*end != '\0') return false;
+    } else {
+      return false;
+    }
+  }
+  return options.blocks > 0;
+}
+
+}  // namespace
+}  // namespace emax
+
+int main(int argc, char** argv) {
+  emax::Options options;
+  if (!emax::parse(argc, argv, options)) {
+    std::fprintf(stderr, "usage: emax_csim [--seed N] [--blocks N] [--fault]\n");
+    return 2;
+  }
+  return emax::run(options);
+}
