@@ -1,0 +1,108 @@
+#include "host/geometry/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "host/geometry/input_file.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
+  std::error_code ignored;
+  if (fs::is_symlink(path, ignored)) {
+    const fs::path resolved = fs::weakly_canonical(path, ignored);
+    if (!ignored) target_ = resolved;
+  }
+  static std::atomic<unsigned> serial{0};
+  // A leftover of a killed process may hold the name: then the next number is tried.
+  do {
+    temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.tmp", target_.filename().string(),
+                                                  getpid(), serial.fetch_add(1));
+    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ < 0) fail(errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!committed_) unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void AtomicFile::commit() {
+  if (fsync(descriptor_) != 0) fail(errno);
+  const int closing = std::exchange(descriptor_, -1);
+  if (close(closing) != 0) fail(errno);
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  committed_ = true;
+  // The new name is made durable too; file systems that cannot do so are not a failure.
+  const int folder = open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) {
+    fsync(folder);
+    close(folder);
+  }
+}
+
+void AtomicFile::fail(int error) const {
+  throw Error(
+      fmt::format("{}: cannot be written ({}); check the folder, its permissions and the "
+                  "space on the disk",
+                  path_.string(), std::strerror(error)));
+}
+
+void write_atomically(const fs::path& path, std::string_view bytes) {
+  write_atomically(path, [&](AtomicFile& file) { file.write(bytes); });
+}
+
+void write_atomically(const fs::path& path, const std::function<void(AtomicFile&)>& fill) {
+  AtomicFile file(path);
+  fill(file);
+  file.commit();
+}
+
+void check_output(const fs::path& path, std::span<const std::string_view> endings) {
+  const auto fail = [&](std::string_view what, std::string_view remedy) {
+    throw Error(fmt::format("{}: {}; {}", path.string(), what, remedy));
+  };
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) fail("is a folder", "name a file in it");
+  const std::string ending = lower_case_ending(path);
+  if (std::ranges::find(endings, ending) == endings.end()) {
+    fail(fmt::format("unknown ending \"{}\"", printable(ending)),
+         fmt::format("end the name in {}", fmt::join(endings, ", ")));
+  }
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    fail("is not a regular file", "name another output");
+  }
+  if (!fs::is_directory(folder_of(path), ignored)) {
+    fail(fmt::format("the folder {} does not exist", folder_of(path).string()), "create it first");
+  }
+  AtomicFile probe(path);
+}
+
+}  // namespace emax

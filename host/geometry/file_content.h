@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/geometry/input_file.h"
+#include "sw_model/mesh_view.h"
+
+namespace emax {
+
+// What a file of any format holds. Coordinates may still be NaN or infinite: the first vertex of
+// that kind is named, and clouds and meshes judge it each in their own way.
+struct FileContent {
+  std::vector<Point> vertices;
+  std::vector<Point> normals;       // empty, or one per vertex
+  std::vector<Triangle> triangles;  // polygons as fans around their first vertex
+  std::string first_invalid;        // "line 12" or "vertex 5"; empty when all are finite
+
+  void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
+    if (first_invalid.empty() && !point.allFinite()) {
+      first_invalid = std::string(place) + ' ' + std::to_string(number);
+    }
+    vertices.push_back(point);
+  }
+};
+
+// Adds the fan of `polygon`. `fail(what)` is called when it has fewer than three corners or a
+// corner that is not in [0, vertex_count).
+template <class Fail>
+void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
+                 std::uint64_t vertex_count, const Fail& fail) {
+  if (polygon.size() < 3) {
+    fail("a face of " + std::to_string(polygon.size()) + " corners, fewer than 3");
+  }
+  for (const std::int64_t corner : polygon) {
+    if (corner < 0 || static_cast<std::uint64_t>(corner) >= vertex_count) {
+      fail("vertex index " + std::to_string(corner) + " is outside 0.." +
+           std::to_string(vertex_count) + " - 1");
+    }
+  }
+  const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon[i]); };
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    content.triangles.push_back({index(0), index(i - 1), index(i)});
+  }
+}
+
+// Throws Error unless `count` items of at least `least_bytes` each fit into `bytes_left`, which is
+// asked before anything is allocated for a count that a file claims. Indices are 32 bit.
+void check_count(const InputFile& input, std::uint64_t count, std::string_view items,
+                 std::uint64_t least_bytes, std::uint64_t bytes_left);
+
+// One reader per format, strict: what the header promises is there, and nothing follows it.
+FileContent read_ply(const InputFile& input);  // ascii, binary little and big endian
+FileContent read_off(const InputFile& input);  // [C][N]OFF
+FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are passed over
+FileContent read_stl(const InputFile& input);  // ascii, binary; equal vertices merged
+FileContent read_pcd(const InputFile& input);  // ascii, binary, binary_compressed
+// Columns: x y z, x y z i, x y z a b c, x y z a b c i; (a, b, c) are normals when every row holds a
+// unit vector, otherwise colours. Separated by blanks, commas or semicolons, the same throughout.
+FileContent read_xyz(const InputFile& input);
+// As above, but (a, b, c) and (i, r, g, b) are never normals; the first line may hold the count.
+FileContent read_pts(const InputFile& input);
+
+}  // namespace emax

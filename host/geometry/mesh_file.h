@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/geometry/triangle_mesh.h"
+
+namespace emax {
+
+enum class MeshFormat { kPly, kObj, kStl, kOff };
+
+// The endings of meshes: .ply .obj .stl .off.
+std::span<const std::string_view> mesh_endings();
+// By the ending of `path`. Throws Error for another one.
+MeshFormat mesh_format(const std::filesystem::path& path);
+
+// Reads a triangle mesh as strictly as read_cloud reads clouds; indices are checked, polygons cut
+// into fans. STL repeats its vertices: those of exactly equal coordinates are merged. Throws Error.
+TriangleMesh read_mesh(const std::filesystem::path& path);
+
+// The bytes of the file: PLY as binary little endian with 64-bit coordinates, OBJ and OFF as text
+// with the shortest digits that read back exactly, STL as binary in 32 bit.
+std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format);
+// Writes them whole or not at all. Throws Error.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+// Exactly what read_mesh gives back from that file, bit for bit. PLY, OBJ and OFF keep a mesh as it
+// is. STL rounds coordinates to 32 bit and then drops unused vertices and merges equal ones in the
+// order of first use; triangles keep their number and order, so one that collapses stays, with a
+// repeated index, for check_mesh to report. Coordinates are finite.
+TriangleMesh as_stored(const TriangleMesh& mesh, MeshFormat format);
+
+// The greatest distance by which storing moves a vertex.
+double storage_displacement(const TriangleMesh& mesh, MeshFormat format);
+
+// Throws Error when that is more than epsilon/100.
+void require_storable(const TriangleMesh& mesh, MeshFormat format, double epsilon,
+                      const std::filesystem::path& path);
+
+}  // namespace emax

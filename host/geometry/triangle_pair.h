@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "sw_model/mesh_view.h"
+
+namespace emax {
+
+// Whether two triangles of a mesh meet anywhere but in the vertex or edge that they share by index;
+// touching counts. Neither is degenerate. Exact. Equal corners of different index are not shared,
+// three shared corners are an overlap.
+bool intersect_beyond_shared(const MeshView& mesh, std::size_t first, std::size_t second);
+
+}  // namespace emax
