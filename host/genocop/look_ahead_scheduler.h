@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "host/genocop/genocop.h"
+
+namespace emax {
+
+// Stands between Genocop and workers that finish in any order: results are held back until the
+// candidate that may know them is due, so the candidates are the same for any number of workers.
+// At most K candidates are out at one time, so K should be at least the number of workers.
+class LookAheadScheduler {
+ public:
+  LookAheadScheduler(Genocop& search, std::uint64_t budget) : search_(search), budget_(budget) {}
+
+  // The next candidate to evaluate; none while a result must come first and when the budget is
+  // spent. A repeated candidate is charged and answered here, never handed out.
+  std::optional<Candidate> next();
+  // Throws std::logic_error for an index that is not out.
+  void complete(std::uint64_t index, const Evaluation& evaluation);
+  // No further candidate is handed out; results still out are awaited (report a killed one as
+  // failed).
+  void stop() { budget_ = search_.asked(); }
+
+  bool finished() const { return search_.asked() == budget_ && search_.told() == budget_; }
+
+ private:
+  void tell_up_to(std::uint64_t count);
+
+  Genocop& search_;
+  std::uint64_t budget_;
+  std::map<std::uint64_t, std::optional<Evaluation>> out_;  // asked, not told; empty: in work
+  std::map<std::uint64_t, std::uint64_t> repeats_;          // index -> the one it repeats
+  std::map<std::uint64_t, Evaluation> results_;             // all that were completed
+};
+
+}  // namespace emax

@@ -1,0 +1,150 @@
+#include "host/genocop/operators.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace emax {
+namespace {
+
+bool is_integer(const LinearDomain& domain, std::size_t k) {
+  return domain.gene(k).kind == Gene::Kind::kInteger;
+}
+
+std::size_t random_movable(const LinearDomain& domain, RandomStream& random) {
+  return domain.movable()[random.below(domain.movable().size())];
+}
+
+// Sets one coordinate and keeps the child inside.
+Genes with_value(const LinearDomain& domain, const Genes& parent, std::size_t k, double value) {
+  Genes child = parent;
+  child[k] = value;
+  return domain.pull_inside(child, parent);
+}
+
+// Where one integer alone is mutated, not moving it would repeat the parent: it moves by one.
+double at_least_one_step(const LinearDomain& domain, std::size_t k, double from, double to,
+                         bool upwards) {
+  if (!is_integer(domain, k) || std::round(to) != from) return to;
+  return upwards ? from + 1 : from - 1;
+}
+
+Genes uniform_in_range(const LinearDomain& domain, const Genes& parent, std::size_t k,
+                       RandomStream& random) {
+  const Interval range = domain.range(parent, k);
+  if (!is_integer(domain, k)) {
+    return with_value(domain, parent, k, random.uniform(range.lower, range.upper));
+  }
+  const auto count = static_cast<std::uint64_t>(range.upper - range.lower) + 1;
+  return with_value(domain, parent, k, range.lower + static_cast<double>(random.below(count)));
+}
+
+Genes non_uniform_step(const OperatorInput& input, const Genes& parent, std::size_t k, bool alone,
+                       RandomStream& random) {
+  const Interval range = input.domain.range(parent, k);
+  const bool upwards = (random.bits() >> 63) != 0;
+  double step = ((upwards ? range.upper : range.lower) - parent[k]) * random.uniform();
+  for (std::size_t power = 0; power < input.non_uniform_power; ++power) step *= input.remaining;
+  double target = parent[k] + step;
+  if (alone) target = at_least_one_step(input.domain, k, parent[k], target, upwards);
+  return with_value(input.domain, parent, k, std::clamp(target, range.lower, range.upper));
+}
+
+}  // namespace
+
+Genes whole_arithmetical_crossover(const OperatorInput& input, RandomStream& random) {
+  const Genes& p = input.parents[0];
+  const Genes& q = input.parents[1];
+  const double share = random.uniform();
+  Genes child(p.size());
+  for (std::size_t k = 0; k < p.size(); ++k) child[k] = share * p[k] + (1 - share) * q[k];
+  return input.domain.pull_inside(child, p);
+}
+
+Genes simple_arithmetical_crossover(const OperatorInput& input, RandomStream& random) {
+  Genes child = input.parents[0];
+  const Genes& q = input.parents[1];
+  const double share = random.uniform();
+  const std::size_t cut = child.size() > 1 ? 1 + random.below(child.size() - 1) : 0;
+  for (std::size_t k = cut; k < child.size(); ++k) {
+    child[k] = share * q[k] + (1 - share) * child[k];
+  }
+  return input.domain.pull_inside(child, input.parents[0]);
+}
+
+Genes heuristic_crossover(const OperatorInput& input, RandomStream& random) {
+  const Genes& better = input.parents[0];
+  const Genes& worse = input.parents[1];
+  const double length = random.uniform();
+  Genes child(better.size());
+  for (std::size_t k = 0; k < child.size(); ++k) {
+    child[k] = better[k] + length * (better[k] - worse[k]);
+  }
+  return input.domain.pull_inside(child, better);
+}
+
+Genes uniform_mutation(const OperatorInput& input, RandomStream& random) {
+  const std::size_t k = random_movable(input.domain, random);
+  return uniform_in_range(input.domain, input.parents[0], k, random);
+}
+
+Genes whole_uniform_mutation(const OperatorInput& input, RandomStream& random) {
+  Genes child = input.parents[0];
+  for (std::size_t k : random.permutation(child.size())) {
+    child = uniform_in_range(input.domain, child, k, random);
+  }
+  return child;
+}
+
+Genes boundary_mutation(const OperatorInput& input, RandomStream& random) {
+  const std::size_t k = random_movable(input.domain, random);
+  const Interval range = input.domain.range(input.parents[0], k);
+  const double end = (random.bits() >> 63) != 0 ? range.upper : range.lower;
+  return with_value(input.domain, input.parents[0], k, end);
+}
+
+Genes non_uniform_mutation(const OperatorInput& input, RandomStream& random) {
+  return non_uniform_step(input, input.parents[0], random_movable(input.domain, random), true,
+                          random);
+}
+
+Genes whole_non_uniform_mutation(const OperatorInput& input, RandomStream& random) {
+  Genes child = input.parents[0];
+  for (std::size_t k : random.permutation(child.size())) {
+    child = non_uniform_step(input, child, k, false, random);
+  }
+  return child;
+}
+
+Genes gaussian_mutation(const OperatorInput& input, RandomStream& random) {
+  const std::size_t k = random_movable(input.domain, random);
+  const Genes& parent = input.parents[0];
+  const Interval range = input.domain.range(parent, k);
+  const double step =
+      random.gaussian() * input.gaussian_sigma * input.remaining * (range.upper - range.lower);
+  const double target = at_least_one_step(input.domain, k, parent[k], parent[k] + step, step > 0);
+  return with_value(input.domain, parent, k, std::clamp(target, range.lower, range.upper));
+}
+
+Genes pool_recombination(const OperatorInput& input, RandomStream& random) {
+  Genes child(input.parents[0].size());
+  for (std::size_t k = 0; k < child.size(); ++k) {
+    child[k] = input.parents[random.below(input.parents.size())][k];
+  }
+  return input.domain.pull_inside(child, input.parents[0]);
+}
+
+Genes scatter_search(const OperatorInput& input, RandomStream& random) {
+  const std::size_t others = input.parents.size() - 1;
+  const Genes& worst = input.parents[others];
+  const double length = random.uniform(0, 2);
+  Genes child(worst.size());
+  for (std::size_t k = 0; k < child.size(); ++k) {
+    double mean = 0;
+    for (std::size_t p = 0; p < others; ++p) mean += input.parents[p][k];
+    mean /= static_cast<double>(others);
+    child[k] = mean + length * (mean - worst[k]);
+  }
+  return input.domain.pull_inside(child, input.parents[0]);
+}
+
+}  // namespace emax

@@ -1,0 +1,43 @@
+#include "host/genocop/settings.h"
+
+namespace emax {
+
+std::span<const SettingInfo> setting_infos() {
+  using S = Settings;
+  static const std::array<SettingInfo, 17> infos = {{
+      {"budget", &S::budget, 1, 1e9, "evaluations, every trial charged"},
+      {"look_ahead", &S::look_ahead, 1, 1e6,
+       "candidate i knows the results up to i - look_ahead; at least the number of workers, less "
+       "is better, results depend on it"},
+      {"search_population", &S::search_population, 1, 1e6,
+       "points inside domains and linear constraints; 70 for thousands of evaluations"},
+      {"reference_population", &S::reference_population, 1, 1e6, "feasible points"},
+      {"selection_pressure", &S::selection_pressure, 1e-6, 0.999,
+       "q: share of the selections that goes to the best of a large population"},
+      {"reference_share", &S::reference_share, 0, 1,
+       "of the offspring have reference points as parents"},
+      {"repair", &S::repair, 0, 0,
+       "trials between an infeasible point and a reference: \"random\", \"deterministic\" (1/2, "
+       "1/4, ...) or \"value-aware\" (regula falsi on the violation)"},
+      {"max_repair_tries", &S::max_repair_tries, 0, 1e6, "evaluations for one point; 0: no repair"},
+      {"repair_only_promising", &S::repair_only_promising, 0, 0,
+       "repair only points whose objective beats their reference's"},
+      {"replacement_probability", &S::replacement_probability, 0, 1,
+       "p_r: the search point becomes its repaired point"},
+      {"non_uniform_power", &S::non_uniform_power, 0, 100,
+       "b: how fast the steps of the non-uniform mutations shrink"},
+      {"gaussian_sigma", &S::gaussian_sigma, 0, 1e3,
+       "standard deviation of the Gaussian mutation, in feasible ranges of the gene"},
+      {"monotone_step", &S::monotone_step, 0, 0,
+       "use a gene along which the objective falls and the violation rises, if there is one"},
+      {"monotone_share", &S::monotone_share, 0, 1, "of the offspring aim just below the best"},
+      {"monotone_gain", &S::monotone_gain, 0, 1, "by this share of its objective"},
+      {"monotone_in_flight", &S::monotone_in_flight, 1, 1e6,
+       "trials at one time of points that differ in the monotone gene alone"},
+      {"monotone_fan", &S::monotone_fan, 0, 1e6,
+       "values of the monotone gene tried on the start point"},
+  }};
+  return infos;
+}
+
+}  // namespace emax

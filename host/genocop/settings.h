@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "host/genocop/operators.h"
+
+namespace emax {
+
+enum class RepairMethod {
+  kRandom,         // z = a s + (1-a) r, a uniform
+  kDeterministic,  // a = 1/2, 1/4, ...
+  kValueAware      // regula falsi on the violation along the segment
+};
+
+// Everything the search depends on besides problem and seed. Published values: populations of 70,
+// replacement_probability 0.15 or 0.25, selection_pressure 0.1 (docs/genocop3.md).
+struct Settings {
+  std::size_t budget = 150;     // T of the operators whose steps shrink
+  std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
+
+  std::size_t search_population = 8;
+  std::size_t reference_population = 8;
+  double selection_pressure = 0.1;  // q of the ranking selection, in (0, 1)
+  double reference_share = 0.5;     // of the offspring have reference points as parents
+
+  RepairMethod repair = RepairMethod::kValueAware;
+  std::size_t max_repair_tries = 3;       // evaluations spent on one search point; 0: no repair
+  bool repair_only_promising = true;      // only points whose objective beats their reference's
+  double replacement_probability = 0.25;  // p_r: the search point becomes its repaired point
+
+  std::size_t non_uniform_power = 2;  // b of the non-uniform mutations
+  double gaussian_sigma = 0.1;        // standard deviation, in feasible ranges of the gene
+  std::array<double, kOperators.size()> operator_frequencies = standard_frequencies();
+
+  bool monotone_step = true;           // where the problem names a monotone gene
+  double monotone_share = 0.9;         // of the offspring aim just below the incumbent
+  double monotone_gain = 0.02;         // by this share of its objective
+  std::size_t monotone_in_flight = 3;  // trials of one line at one time
+  std::size_t monotone_fan = 6;        // values of the gene tried on the first start point
+
+  bool operator==(const Settings&) const = default;
+
+  static constexpr std::array<double, kOperators.size()> standard_frequencies() {
+    std::array<double, kOperators.size()> frequencies{};
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      frequencies[i] = kOperators[i].standard_frequency;
+    }
+    return frequencies;
+  }
+};
+
+// A setting by name, with its meaning and the values it may take: for configuration files and for
+// the check that Genocop makes.
+struct SettingInfo {
+  using Member = std::variant<std::size_t Settings::*, double Settings::*, bool Settings::*,
+                              RepairMethod Settings::*>;
+
+  std::string_view name;
+  Member member;
+  double least;  // both ends included; of numbers only
+  double greatest;
+  std::string_view meaning;
+};
+
+std::span<const SettingInfo> setting_infos();
+inline constexpr std::array<std::string_view, 3> kRepairMethods = {"random", "deterministic",
+                                                                   "value-aware"};
+
+}  // namespace emax
