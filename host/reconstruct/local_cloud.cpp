@@ -1,0 +1,118 @@
+#include "host/reconstruct/local_cloud.h"
+
+#include <pcl/common/centroid.h>
+#include <pcl/features/normal_3d.h>
+#include <pcl/kdtree/kdtree_flann.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "host/reconstruct/orient_normals.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+// Neighbours that orientation spreads to. Hoppe's graph is sparse; more neighbours only let it leap
+// between sheets.
+constexpr int kGraphNeighbours = 12;
+
+double median_spacing(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
+                      const pcl::PointCloud<pcl::PointXYZ>& points) {
+  std::vector<float> squared(points.size());
+  pcl::Indices indices(2);
+  std::vector<float> squared_distances(2);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    tree.nearestKSearch(points[i], 2, indices, squared_distances);
+    squared[i] = squared_distances[1];
+  }
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  return std::sqrt(static_cast<double>(*middle));
+}
+
+}  // namespace
+
+LocalCloud::LocalCloud(std::span<const Point> points)
+    : source_(points), points_(new pcl::PointCloud<pcl::PointXYZ>) {
+  if (points.size() < 3) {
+    throw Error("the cloud has only " + std::to_string(points.size()) +
+                " points; a surface needs at least three");
+  }
+  normalization_ = normalization_of(points);
+  std::vector<Eigen::Vector3f> local(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    local[i] = normalization_.apply(points[i]).cast<float>();
+  }
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t i) {
+    return std::array<float, 3>{local[i].x(), local[i].y(), local[i].z()};
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return key(a) != key(b) ? key(a) < key(b) : a < b;
+  });
+  std::vector<std::uint32_t> count(points.size(), 0);  // at the first of equal points
+  for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
+    if (key(order[i]) != key(order[first])) first = i;
+    ++count[order[first]];
+  }
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (count[i] == 0) continue;
+    points_->push_back({local[i].x(), local[i].y(), local[i].z()});
+    first_.push_back(i);
+    multiplicity_.push_back(count[i]);
+  }
+  if (size() < 3) {
+    throw Error("the cloud has only " + std::to_string(size()) +
+                " distinct points; a surface needs at least three");
+  }
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
+  tree.setInputCloud(points_);
+  spacing_ = median_spacing(tree, *points_);
+}
+
+std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(int k) const {
+  const int n = static_cast<int>(size());
+  k = std::clamp(k, 3, n);
+  const int graph_k = std::min(n, kGraphNeighbours + 1);  // the point itself comes first
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
+  tree.setInputCloud(points_);
+  std::vector<Eigen::Vector3f> positions(size());
+  std::vector<Eigen::Vector3f> normals(size());
+  std::vector<std::uint32_t> neighbours;
+  neighbours.reserve(size() * static_cast<std::size_t>(graph_k));
+  pcl::Indices indices;
+  std::vector<float> squared_distances;
+  for (std::size_t i = 0; i < size(); ++i) {
+    tree.nearestKSearch((*points_)[i], std::max(k, graph_k), indices, squared_distances);
+    for (int j = 0; j < graph_k; ++j) {
+      neighbours.push_back(static_cast<std::uint32_t>(indices[static_cast<std::size_t>(j)]));
+    }
+    indices.resize(static_cast<std::size_t>(k));
+    Eigen::Vector4f plane;
+    float curvature;
+    pcl::computePointNormal(*points_, indices, plane, curvature);
+    positions[i] = (*points_)[i].getVector3fMap();
+    const float length = plane.head<3>().norm();
+    normals[i] = std::isfinite(length) && length > 0 ? Eigen::Vector3f(plane.head<3>() / length)
+                                                     : Eigen::Vector3f(0, 0, 1);
+  }
+  orient_normals(positions, neighbours, static_cast<std::size_t>(graph_k), normals);
+  return normals;
+}
+
+pcl::PointCloud<pcl::PointNormal>::Ptr LocalCloud::with_normals(int k) const {
+  const std::vector<Eigen::Vector3f> normals = oriented_normals(k);
+  pcl::PointCloud<pcl::PointNormal>::Ptr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  cloud->resize(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    (*cloud)[i].getVector3fMap() = (*points_)[i].getVector3fMap();
+    (*cloud)[i].getNormalVector3fMap() = normals[i];
+  }
+  return cloud;
+}
+
+}  // namespace emax

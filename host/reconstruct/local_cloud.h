@@ -1,0 +1,48 @@
+#pragma once
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sw_model/mesh_view.h"
+#include "sw_model/normalization.h"
+
+namespace emax {
+
+// The cloud as PCL is given it: distinct points, normalised and in binary32.
+class LocalCloud {
+ public:
+  // Throws Error when fewer than three distinct points are left.
+  explicit LocalCloud(std::span<const Point> points);
+
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr& points() const { return points_; }
+  std::size_t size() const { return points_->size(); }
+  double spacing() const { return spacing_; }  // median distance to the nearest neighbour
+
+  Point world(const Eigen::Vector3f& local) const {
+    return local.cast<double>() / normalization_.scale + normalization_.origin;
+  }
+  // A local point as it stands in the cloud, without its rounding.
+  const Point& original(std::size_t local_index) const { return source_[first_[local_index]]; }
+  // Points of the cloud that coincide with a local point, itself included.
+  std::size_t multiplicity(std::size_t local_index) const { return multiplicity_[local_index]; }
+
+  // Unit normals by principal components of the k nearest neighbours (Hoppe's tangent planes;
+  // paper, section 2.1), made consistent by orient_normals. O(n k + n log n).
+  std::vector<Eigen::Vector3f> oriented_normals(int k) const;
+  // The same, as PCL wants them.
+  pcl::PointCloud<pcl::PointNormal>::Ptr with_normals(int k) const;
+
+ private:
+  std::span<const Point> source_;
+  Normalization normalization_;
+  double spacing_;
+  pcl::PointCloud<pcl::PointXYZ>::Ptr points_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> multiplicity_;
+};
+
+}  // namespace emax

@@ -1,0 +1,75 @@
+#include "host/reconstruct/reconstruction_parameters.h"
+
+#include <array>
+#include <vector>
+
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+using enum ParameterSpec::Kind;
+
+ParameterSpec normals_k(double standard) {
+  return {"normals.k", kInteger,
+          6,           40,
+          standard,    "neighbours, the point itself included, that a normal is fitted to"};
+}
+
+const std::vector<ParameterSpec>& gp3() {
+  static const std::vector<ParameterSpec> specs = {
+      normals_k(20),
+      {"gp3.radius", kContinuous, 2, 14, 10,
+       "greatest edge length, in multiples of the median point spacing"},
+      {"gp3.mu", kContinuous, 2, 6, 2.3,
+       "search radius of a point, in multiples of the distance to its nearest neighbour"},
+      {"gp3.max_neighbors", kInteger, 50, 300, 90, "neighbours considered for a point"},
+      {"gp3.surface_angle", kContinuous, 45, 180, 110,
+       "greatest angle between the normals of connected points, in degrees"},
+      {"gp3.min_angle", kContinuous, 0, 10, 2, "smallest wanted angle of a triangle, in degrees"},
+      {"gp3.max_angle", kContinuous, 120, 175, 150, "greatest angle of a triangle, in degrees"},
+  };
+  return specs;
+}
+
+const std::vector<ParameterSpec>& poisson() {
+  static const std::vector<ParameterSpec> specs = {
+      normals_k(15),
+      {"poisson.depth", kInteger, 6, 10, 8, "depth of the octree"},
+      {"poisson.samples_per_node", kContinuous, 1, 5, 1, "points that an octree cell should hold"},
+      {"poisson.scale", kContinuous, 1.05, 1.3, 1.1,
+       "side of the solved cube, in multiples of the cloud's width"},
+  };
+  return specs;
+}
+
+const std::vector<ParameterSpec>& hoppe() {
+  static const std::vector<ParameterSpec> specs = {
+      normals_k(15),
+      {"hoppe.resolution", kInteger, 32, 200, 128,
+       "cubic cells of the marching grid along the longest side of the cloud"},
+      {"hoppe.reach", kContinuous, 0.5, 4, 1,
+       "distance from the cloud up to which space is contoured, in multiples of cell diagonal + "
+       "median point spacing"},
+  };
+  return specs;
+}
+
+}  // namespace
+
+std::span<const std::string_view> reconstruction_methods() {
+  static constexpr std::array<std::string_view, 3> kMethods = {"gp3", "poisson", "hoppe"};
+  return kMethods;
+}
+
+std::span<const ParameterSpec> reconstruction_parameters(std::string_view method) {
+  if (method == "gp3") return gp3();
+  if (method == "poisson") return poisson();
+  if (method == "hoppe") return hoppe();
+  throw Error("there is no reconstruction method '" + std::string(method) +
+              "'; choose gp3, poisson or hoppe");
+}
+
+bool single_use(std::string_view method) { return method == "poisson"; }
+
+}  // namespace emax

@@ -1,0 +1,152 @@
+#include "host/worker/message.h"
+
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+using nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little, "messages are little-endian");
+static_assert(sizeof(Point) == 3 * sizeof(double), "points are sent as they lie in memory");
+static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t),
+              "triangles are sent as they lie in memory");
+
+template <typename T>
+json to_binary(const std::vector<T>& values) {
+  Bytes bytes(values.size() * sizeof(T));
+  if (!bytes.empty())
+    std::memcpy(bytes.data(), static_cast<const void*>(values.data()), bytes.size());
+  return json::binary(std::move(bytes));
+}
+
+template <typename T>
+std::vector<T> from_binary(const json& value) {
+  const Bytes& bytes = value.get_binary();
+  if (bytes.size() % sizeof(T) != 0) throw Error("a byte string is cut short");
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!bytes.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
+  return values;
+}
+
+std::vector<Point> points_from_binary(const json& value) {
+  auto points = from_binary<Point>(value);
+  for (const Point& p : points) {
+    if (!p.allFinite()) throw Error("a coordinate is not finite");
+  }
+  return points;
+}
+
+json to_json(const PointsMessage& m) {
+  return {{"kind", "points"}, {"points", to_binary(m.points)}};
+}
+
+json to_json(const RunMessage& m) {
+  return {{"kind", "run"},
+          {"ticket", m.ticket},
+          {"method", m.settings.method},
+          {"decimator", m.settings.decimator},
+          {"parameters", m.settings.parameters}};
+}
+
+json to_json(const ReadyMessage&) { return {{"kind", "ready"}}; }
+
+json to_json(const MeshMessage& m) {
+  return {{"kind", "mesh"},
+          {"ticket", m.ticket},
+          {"vertices", to_binary(m.result.mesh.vertices)},
+          {"triangles", to_binary(m.result.mesh.triangles)},
+          {"reconstruction_triangles", m.result.reconstruction_triangles},
+          {"unmeshed_points", m.result.unmeshed_points}};
+}
+
+json to_json(const FailureMessage& m) {
+  return {{"kind", "failure"},
+          {"ticket", m.ticket},
+          {"reason", to_string(m.failure.reason)},
+          {"message", m.failure.message}};
+}
+
+json to_json(const UnusableMessage& m) { return {{"kind", "unusable"}, {"message", m.message}}; }
+
+Message mesh_from_json(const json& j) {
+  MeshMessage m{j.at("ticket"), {}};
+  TriangleMesh& mesh = m.result.mesh;
+  mesh.vertices = points_from_binary(j.at("vertices"));
+  mesh.triangles = from_binary<Triangle>(j.at("triangles"));
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      if (v >= mesh.vertices.size()) throw Error("a triangle has an index without a vertex");
+    }
+  }
+  m.result.reconstruction_triangles = j.at("reconstruction_triangles");
+  m.result.unmeshed_points = j.at("unmeshed_points");
+  return m;
+}
+
+Message from_json(const json& j) {
+  const std::string kind = j.at("kind");
+  if (kind == "points") return PointsMessage{points_from_binary(j.at("points"))};
+  if (kind == "run") {
+    return RunMessage{
+        j.at("ticket"),
+        {j.at("method"), j.at("decimator"), j.at("parameters").get<ParameterValues>()}};
+  }
+  if (kind == "ready") return ReadyMessage{};
+  if (kind == "mesh") return mesh_from_json(j);
+  if (kind == "failure") {
+    const auto reason = j.at("reason") == to_string(FailureReason::kOutOfMemory)
+                            ? FailureReason::kOutOfMemory
+                            : FailureReason::kError;
+    return FailureMessage{j.at("ticket"), {reason, j.at("message")}};
+  }
+  if (kind == "unusable") return UnusableMessage{j.at("message")};
+  throw Error("unknown kind of message '" + kind + "'");
+}
+
+}  // namespace
+
+std::string_view to_string(FailureReason reason) {
+  switch (reason) {
+    case FailureReason::kError:
+      return "error";
+    case FailureReason::kOutOfMemory:
+      return "out of memory";
+    case FailureReason::kTimedOut:
+      return "timed out";
+    case FailureReason::kCrashed:
+      return "crashed";
+    case FailureReason::kGarbled:
+      return "garbled";
+  }
+  return "";
+}
+
+Bytes encode(const Message& message) {
+  Bytes bytes(kLengthBytes);
+  json::to_cbor(std::visit([](const auto& m) { return to_json(m); }, message), bytes);
+  const std::uint64_t length = bytes.size() - kLengthBytes;
+  std::memcpy(bytes.data(), &length, kLengthBytes);
+  return bytes;
+}
+
+std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes) {
+  std::uint64_t length;
+  std::memcpy(&length, bytes.data(), kLengthBytes);
+  return length;
+}
+
+Message decode(std::span<const std::uint8_t> body) {
+  try {
+    return from_json(json::from_cbor(body.begin(), body.end()));
+  } catch (const json::exception& e) {
+    throw Error(std::string("not a message: ") + e.what());
+  }
+}
+
+}  // namespace emax

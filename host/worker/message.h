@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/decimate/chain_parameters.h"
+#include "sw_model/mesh_view.h"
+
+// What a program and its workers say to each other, over any stream of bytes.
+//
+// A message is its length (8 bytes, little-endian, not counting themselves) and one CBOR map:
+//   {"kind": "points", "points": P}                                  to a worker, first and once
+//   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number}}
+//   {"kind": "ready"}                                                from a worker, first and once
+//   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
+//    "reconstruction_triangles": n, "unmeshed_points": n}            the answer to "run", or:
+//   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
+//   {"kind": "unusable", "message": s}                               this machine cannot be trusted
+// P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
+// indices a triangle. A worker answers one "run" before it reads the next.
+
+namespace emax {
+
+enum class FailureReason { kError, kOutOfMemory, kTimedOut, kCrashed, kGarbled };
+
+// "error", "out of memory", "timed out", "crashed", "garbled"
+std::string_view to_string(FailureReason reason);
+
+struct Failure {
+  FailureReason reason;
+  std::string message;  // one line
+};
+
+struct PointsMessage {
+  std::vector<Point> points;
+};
+struct RunMessage {
+  std::uint64_t ticket;
+  ChainSettings settings;
+};
+struct ReadyMessage {};
+struct MeshMessage {
+  std::uint64_t ticket;
+  ChainResult result;
+};
+struct FailureMessage {
+  std::uint64_t ticket;
+  Failure failure;
+};
+struct UnusableMessage {
+  std::string message;
+};
+
+using Message = std::variant<PointsMessage, RunMessage, ReadyMessage, MeshMessage, FailureMessage,
+                             UnusableMessage>;
+using Bytes = std::vector<std::uint8_t>;
+
+inline constexpr std::size_t kLengthBytes = 8;
+// A longer message is rubbish: 2^32 bytes hold 180 million vertices.
+inline constexpr std::uint64_t kMaximumLength = std::uint64_t{1} << 32;
+
+// The message with its length.
+Bytes encode(const Message& message);
+
+// The length that eight bytes announce.
+std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes);
+
+// A message without its length. Throws Error when it is not one of the above, when a coordinate is
+// not finite or an index has no vertex.
+Message decode(std::span<const std::uint8_t> body);
+
+}  // namespace emax

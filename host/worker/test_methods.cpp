@@ -1,0 +1,55 @@
+#include "host/worker/test_methods.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "host/worker/message.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+void write_raw(int channel, const Bytes& bytes) {
+  if (write(channel, bytes.data(), bytes.size()) < 0) _exit(1);
+}
+
+[[noreturn]] void hang() {
+  while (true) pause();
+}
+
+}  // namespace
+
+void run_test_method(const ChainSettings& settings, int channel) {
+  const std::string& method = settings.method;
+  if (method == "test.crash") std::abort();
+  if (method == "test.exit") _exit(3);
+  if (method == "test.hang") hang();
+  if (method == "test.memory") {
+    std::vector<std::unique_ptr<std::vector<char>>> kept;
+    while (true) kept.push_back(std::make_unique<std::vector<char>>(std::size_t{1} << 26, 'x'));
+  }
+  if (method == "test.garbage") {
+    write_raw(channel, {5, 0, 0, 0, 0, 0, 0, 0, 0xff, 1, 2, 3, 4});
+    hang();
+  }
+  if (method == "test.huge") {
+    write_raw(channel, Bytes(64, 0xee));
+    hang();
+  }
+  if (method == "test.strange") {
+    write_raw(channel, encode(MeshMessage{~std::uint64_t{0}, {}}));
+    hang();
+  }
+  if (method == "test.print") {
+    std::puts("a library prints this");
+    std::fflush(stdout);
+    throw Error("printed");
+  }
+  if (method == "test.error") throw Error("an error on purpose");
+}
+
+}  // namespace emax

@@ -1,0 +1,137 @@
+// One worker process: holds a cloud and runs the chain on it, request by request (message.h).
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <string_view>
+#include <thread>
+
+#include "host/decimate/chain.h"
+#include "host/worker/message.h"
+#include "host/worker/test_methods.h"
+#include "host/worker/worker_process.h"
+#include "sw_model/error.h"
+#include "sw_model/self_test.h"
+
+namespace emax {
+namespace {
+
+// Static objects of the libraries are left alone: PCL's Poisson does not survive their destruction.
+[[noreturn]] void leave(int code) { _exit(code); }
+
+// The program is gone, even while a library calculates: nobody waits for the answer.
+void leave_on_hangup() {
+  std::thread([] {
+    pollfd channel{kChannelFd, 0, 0};
+    while (poll(&channel, 1, -1) < 0 && errno == EINTR) {
+    }
+    leave(0);
+  }).detach();
+}
+
+void limit(int resource, std::uint64_t bytes) {
+  const rlimit value{bytes, bytes};
+  setrlimit(static_cast<__rlimit_resource>(resource), &value);
+}
+
+void send(const Message& message) {
+  const Bytes bytes = encode(message);
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t n = write(kChannelFd, bytes.data() + sent, bytes.size() - sent);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) leave(1);
+    sent += static_cast<std::size_t>(n);
+  }
+}
+
+// Leaves when the stream ends before `bytes` is full.
+void read_fully(int fd, std::span<std::uint8_t> bytes) {
+  for (std::size_t got = 0; got < bytes.size();) {
+    const ssize_t n = read(fd, bytes.data() + got, bytes.size() - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) leave(n < 0);
+    got += static_cast<std::size_t>(n);
+  }
+}
+
+Message receive() {
+  std::array<std::uint8_t, kLengthBytes> length;
+  read_fully(kChannelFd, length);
+  Bytes body(announced_length(length));
+  read_fully(kChannelFd, body);
+  return decode(body);
+}
+
+// The file is shared with other workers, its position too: it is read by offset.
+std::vector<Point> read_points() {
+  struct stat status;
+  if (fstat(kPointsFd, &status) != 0) throw Error(std::string("no points: ") + strerror(errno));
+  Bytes bytes(static_cast<std::size_t>(status.st_size));
+  for (std::size_t got = 0; got < bytes.size();) {
+    const ssize_t n =
+        pread(kPointsFd, bytes.data() + got, bytes.size() - got, static_cast<off_t>(got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw Error("the points are cut short");
+    got += static_cast<std::size_t>(n);
+  }
+  return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes))).points;
+}
+
+Message evaluate(std::span<const Point> points, const RunMessage& run, StageCache& cache,
+                 bool allow_test_methods) {
+  try {
+    if (allow_test_methods) run_test_method(run.settings, kChannelFd);
+    return MeshMessage{run.ticket, run_chain(points, run.settings, cache)};
+  } catch (const std::bad_alloc&) {
+    return FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}};
+  } catch (const std::exception& e) {
+    return FailureMessage{run.ticket, {FailureReason::kError, e.what()}};
+  }
+}
+
+void serve(bool allow_test_methods) {
+  verify_arithmetic();
+  const std::vector<Point> points = read_points();
+  send(ReadyMessage{});
+  StageCache cache;
+  for (bool first = true;; first = false) {
+    const Message answer =
+        evaluate(points, std::get<RunMessage>(receive()), cache, allow_test_methods);
+    // A library may have changed the rounding or flush mode when it was first used.
+    if (first) verify_arithmetic();
+    send(answer);
+  }
+}
+
+int run(std::span<char*> arguments) {
+  if (arguments.size() < 2 || fcntl(kChannelFd, F_GETFD) < 0 || fcntl(kPointsFd, F_GETFD) < 0) {
+    std::fputs("emax_worker: emax starts this program itself; run emax instead\n", stderr);
+    return 1;
+  }
+  const std::string_view memory = arguments[1];
+  std::uint64_t memory_limit = 0;
+  std::from_chars(memory.data(), memory.data() + memory.size(), memory_limit);
+  if (memory_limit != 0) limit(RLIMIT_AS, memory_limit);
+  limit(RLIMIT_CORE, 0);
+  leave_on_hangup();
+  try {
+    serve(arguments.size() > 2 && arguments[2] == std::string_view("--allow-test-methods"));
+  } catch (const std::exception& e) {
+    send(UnusableMessage{e.what()});
+  }
+  leave(1);
+}
+
+}  // namespace
+}  // namespace emax
+
+int main(int argc, char** argv) {
+  return emax::run(std::span(argv, static_cast<std::size_t>(argc)));
+}

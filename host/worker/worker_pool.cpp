@@ -1,0 +1,233 @@
+#include "host/worker/worker_pool.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <vector>
+
+#include "host/reconstruct/reconstruction_parameters.h"
+#include "host/worker/worker_process.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// An answer that is arriving is let in although its time is over: the program may have been away
+// for long, and the worker waited for it to read.
+constexpr std::chrono::seconds kArrivalGrace{2};
+
+struct Worker {
+  std::unique_ptr<WorkerProcess> process;
+  bool ready = false;
+  std::optional<RunMessage> run;  // what it works on
+  Clock::time_point deadline;
+};
+
+std::string describe(const RunMessage& run) {
+  return "evaluation " + std::to_string(run.ticket) + " (" + run.settings.method + ")";
+}
+
+std::string seconds(std::chrono::milliseconds time) {
+  std::string text = std::to_string(time.count() / 1000);
+  if (time.count() % 1000 != 0) text += "." + std::to_string(1000 + time.count() % 1000).substr(1);
+  return text + " s";
+}
+
+}  // namespace
+
+class WorkerPool::Implementation {
+ public:
+  Implementation(std::span<const Point> points, const WorkerPoolOptions& options)
+      : time_limit_(options.time_limit),
+        command_{options.program, options.memory_limit, options.log, options.allow_test_methods},
+        points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}}))),
+        workers_(std::max(1u, options.jobs)) {
+    if (command_.program.empty()) {
+      command_.program =
+          std::filesystem::read_symlink("/proc/self/exe").parent_path() / "emax_worker";
+    }
+    for (Worker& worker : workers_) replace(worker);
+  }
+
+  void submit(std::uint64_t ticket, const ChainSettings& settings) {
+    queue_.push_back({ticket, settings});
+    hand_out();
+  }
+
+  std::optional<Completed> wait_until(std::optional<Clock::time_point> end) {
+    if (outstanding() == 0) throw Error("no evaluation is outstanding");
+    while (completed_.empty()) {
+      hand_out();
+      if (!completed_.empty()) break;
+      if (!poll_once(end)) return std::nullopt;
+    }
+    Completed first = std::move(completed_.front());
+    completed_.pop_front();
+    hand_out();
+    return first;
+  }
+
+  std::size_t outstanding() const {
+    const auto busy = std::count_if(workers_.begin(), workers_.end(),
+                                    [](const Worker& w) { return w.run.has_value(); });
+    return queue_.size() + completed_.size() + static_cast<std::size_t>(busy);
+  }
+
+ private:
+  void replace(Worker& worker) {
+    worker.process.reset();  // first, so that never more than `jobs` run
+    worker.ready = false;
+    worker.run.reset();
+    worker.process = std::make_unique<WorkerProcess>(command_, points_);
+  }
+
+  void hand_out() {
+    for (Worker& worker : workers_) {
+      if (queue_.empty()) return;
+      if (worker.run) continue;
+      const RunMessage& next = queue_.front();
+      if (!worker.process->send(encode(next))) {
+        if (!worker.ready) throw not_ready(worker);
+        replace(worker);  // it died while it was idle; a fresh one takes a message always
+        if (!worker.process->send(encode(next))) throw not_ready(worker);
+      }
+      worker.run = std::move(queue_.front());
+      worker.deadline = Clock::now() + time_limit_;
+      queue_.pop_front();
+    }
+  }
+
+  // Waits until something happens and deals with it. False when `end` or a signal comes first.
+  bool poll_once(std::optional<Clock::time_point> end) {
+    std::vector<pollfd> polled;
+    Clock::time_point until = end.value_or(Clock::time_point::max());
+    for (const Worker& worker : workers_) {
+      polled.push_back({worker.process->channel(), POLLIN, 0});
+      if (worker.run) until = std::min(until, worker.deadline);
+    }
+    // Rounded up, so that the wait never ends just short of a deadline.
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    const int timeout = static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
+    const int events = poll(polled.data(), polled.size(), timeout);
+    if (events < 0 && errno == EINTR) return false;
+    if (events < 0) throw Error(std::string("cannot wait for workers: ") + std::strerror(errno));
+    for (std::size_t i = 0; i < workers_.size(); ++i) {
+      if (polled[i].revents != 0) {
+        listen(workers_[i]);
+      } else if (workers_[i].run && Clock::now() >= workers_[i].deadline) {
+        give_up(workers_[i],
+                {FailureReason::kTimedOut, "took longer than " + seconds(time_limit_)});
+      }
+    }
+    return events > 0 || !end || Clock::now() < *end || !completed_.empty();
+  }
+
+  void listen(Worker& worker) {
+    const WorkerProcess::Received received = worker.process->receive();
+    if (received == WorkerProcess::Received::kEnd) {
+      if (!worker.ready) throw not_ready(worker);
+      give_up(worker, worker.process->end());
+      return;
+    }
+    if (worker.run) worker.deadline = std::max(worker.deadline, Clock::now() + kArrivalGrace);
+    std::optional<Failure> garbled;
+    try {
+      while (auto message = worker.process->next_message()) {
+        if (!take(worker, std::move(*message))) return;
+      }
+    } catch (const UnusableWorker&) {
+      throw;
+    } catch (const Error& e) {
+      garbled = {FailureReason::kGarbled, e.what()};
+    }
+    if (garbled) give_up(worker, *garbled);
+  }
+
+  struct UnusableWorker : Error {
+    using Error::Error;
+  };
+
+  // False when the worker was replaced and has nothing more to say.
+  bool take(Worker& worker, Message message) {
+    if (const auto* unusable = std::get_if<UnusableMessage>(&message)) {
+      throw UnusableWorker("a worker cannot be trusted: " + unusable->message);
+    }
+    if (std::holds_alternative<ReadyMessage>(message) && !worker.ready) {
+      worker.ready = true;
+      if (worker.run) worker.deadline = Clock::now() + time_limit_;
+      return true;
+    }
+    if (auto* mesh = std::get_if<MeshMessage>(&message);
+        mesh && worker.run && mesh->ticket == worker.run->ticket) {
+      const bool used_up = single_use(worker.run->settings.method);
+      completed_.push_back({mesh->ticket, std::move(mesh->result)});
+      worker.run.reset();
+      if (used_up) replace(worker);
+      return !used_up;
+    }
+    if (auto* failure = std::get_if<FailureMessage>(&message);
+        failure && worker.run && failure->ticket == worker.run->ticket) {
+      const bool sound = failure->failure.reason == FailureReason::kError &&
+                         !single_use(worker.run->settings.method);
+      fail(worker, failure->failure);
+      if (!sound) replace(worker);
+      return sound;
+    }
+    throw Error("an answer that nothing asked for");
+  }
+
+  void fail(Worker& worker, const Failure& failure) {
+    if (!worker.run) return;
+    completed_.push_back({worker.run->ticket,
+                          Failure{failure.reason, describe(*worker.run) + ": " + failure.message}});
+    worker.run.reset();
+  }
+
+  void give_up(Worker& worker, const Failure& failure) {
+    fail(worker, failure);
+    replace(worker);
+  }
+
+  Error not_ready(Worker& worker) const {
+    const std::string why = worker.process->end().message;
+    std::string remedy = command_.memory_limit != 0 ? "; raise the memory limit" : "";
+    if (!command_.log.empty()) remedy += "; see " + command_.log.string();
+    return UnusableWorker("the worker " + command_.program.string() +
+                          " ended before it was ready: " + why + remedy);
+  }
+
+  std::chrono::milliseconds time_limit_;
+  WorkerProcess::Command command_;
+  FileDescriptor points_;
+  std::vector<Worker> workers_;
+  std::deque<RunMessage> queue_;
+  std::deque<Completed> completed_;
+};
+
+WorkerPool::WorkerPool(std::span<const Point> points, const WorkerPoolOptions& options)
+    : implementation_(std::make_unique<Implementation>(points, options)) {}
+
+WorkerPool::~WorkerPool() = default;
+
+void WorkerPool::submit(std::uint64_t ticket, const ChainSettings& settings) {
+  implementation_->submit(ticket, settings);
+}
+
+Completed WorkerPool::wait() {
+  while (true) {
+    if (auto completed = implementation_->wait_until(std::nullopt)) return std::move(*completed);
+  }
+}
+
+std::optional<Completed> WorkerPool::wait_for(std::chrono::milliseconds duration) {
+  return implementation_->wait_until(Clock::now() + duration);
+}
+
+std::size_t WorkerPool::outstanding() const { return implementation_->outstanding(); }
+
+}  // namespace emax

@@ -1,0 +1,190 @@
+#include "host/reconstruct/reconstruction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "host/geometry/mesh_validity.h"
+#include "host/reconstruct/reconstruction_parameters.h"
+#include "sw_model/error.h"
+#include "tests/host/reconstruct/surface_clouds.h"
+
+namespace emax::test {
+namespace {
+
+ParameterValues standards(std::string_view method) {
+  ParameterValues values;
+  for (const ParameterSpec& spec : reconstruction_parameters(method)) {
+    values[spec.name] = spec.standard;
+  }
+  if (method == "hoppe") values["hoppe.resolution"] = 32;
+  if (method == "poisson") values["poisson.depth"] = 6;
+  return values;
+}
+
+Reconstruction reconstruct(std::string_view method, const std::vector<Point>& points) {
+  return reconstruction_method(method).reconstruct(points, standards(method));
+}
+
+// Greatest distance of a vertex from the sphere of radius 1 around `centre`.
+double departure(const TriangleMesh& mesh, const Point& centre = Point::Zero()) {
+  double greatest = 0;
+  for (const Point& p : mesh.vertices) {
+    greatest = std::max(greatest, std::abs((p - centre).norm() - 1));
+  }
+  return greatest;
+}
+
+void expect_closed_sphere(const TriangleMesh& mesh, double tolerance) {
+  const MeshValidity validity = check_mesh(mesh.view());
+  EXPECT_EQ(validity.boundary_edges, 0u);
+  EXPECT_EQ(validity.non_manifold_edges, 0u);
+  EXPECT_EQ(validity.inconsistent_edges, 0u);
+  EXPECT_EQ(validity.components, 1u);
+  EXPECT_NEAR(signed_volume(mesh), 4 * std::numbers::pi / 3, 0.1);
+  EXPECT_LT(departure(mesh), tolerance);
+}
+
+std::string message_of(std::string_view method, const std::vector<Point>& points) {
+  try {
+    reconstruct(method, points);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(ReconstructionParameters, HaveStandardsInTheirDomainsAndNamesOfTheirOwn) {
+  for (const std::string_view method : reconstruction_methods()) {
+    std::set<std::string> names;
+    for (const ParameterSpec& spec : reconstruction_parameters(method)) {
+      EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+      EXPECT_LT(spec.lower, spec.upper) << spec.name;
+      EXPECT_LE(spec.lower, spec.standard) << spec.name;
+      EXPECT_LE(spec.standard, spec.upper) << spec.name;
+    }
+    EXPECT_EQ(reconstruction_method(method).name(), method);
+  }
+  EXPECT_THROW(reconstruction_parameters("ball pivoting"), Error);
+  EXPECT_THROW(reconstruction_method("ball pivoting"), Error);
+}
+
+TEST(Gp3, ClosesASphereOnTheCloudsOwnPoints) {
+  const std::vector<Point> cloud = sphere_cloud(800);
+  const Reconstruction result = reconstruct("gp3", cloud);
+  expect_closed_sphere(result.mesh, 2 * kGrain);
+  EXPECT_EQ(result.mesh.triangles.size(), 2 * cloud.size() - 4);
+  EXPECT_EQ(result.mesh.vertices, cloud);
+  EXPECT_EQ(result.unmeshed_points, 0u);
+}
+
+TEST(Gp3, KeepsMillimetresTenThousandKilometresAway) {
+  const Point far(1e7, -1e7, 5e6);
+  const std::vector<Point> cloud = torus_cloud(40, 20);
+  const Reconstruction near = reconstruct("gp3", cloud);
+  Reconstruction there = reconstruct("gp3", moved(cloud, far));
+  EXPECT_EQ(there.mesh.triangles, near.mesh.triangles);
+  EXPECT_EQ(moved(there.mesh.vertices, -far), near.mesh.vertices);
+}
+
+TEST(Gp3, CountsFarPointsAndTheirDuplicates) {
+  std::vector<Point> cloud = sphere_cloud(800);
+  cloud.push_back(cloud[7]);  // on a vertex: meshed
+  cloud.push_back({3, 0, 0});
+  cloud.push_back({3, 0, 0});
+  EXPECT_EQ(reconstruct("gp3", cloud).unmeshed_points, 2u);
+}
+
+TEST(Gp3, MeshesTheSquareAndLeavesItsHole) {
+  constexpr std::uint64_t kSeed = 4;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  const TriangleMesh mesh = reconstruct("gp3", square_cloud(30, 0.5, kSeed)).mesh;
+  const MeshValidity validity = check_mesh(mesh.view());
+  EXPECT_EQ(validity.non_manifold_edges, 0u);
+  EXPECT_EQ(validity.inconsistent_edges, 0u);
+  EXPECT_GT(validity.boundary_edges, 4u * 25);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.view().corners(t);
+    EXPECT_GT(((a + b + c) / 3).norm(), 0.4);
+  }
+}
+
+TEST(Hoppe, WeldsASphere) {
+  const Reconstruction result = reconstruct("hoppe", sphere_cloud(3000));
+  expect_closed_sphere(result.mesh, 0.02);
+  EXPECT_LT(result.mesh.vertices.size(), result.mesh.triangles.size());
+}
+
+TEST(Hoppe, StaysPreciseFarFromTheOrigin) {
+  const Point far(1e7, -1e7, 5e6);
+  const Reconstruction near = reconstruct("hoppe", sphere_cloud(3000));
+  const Reconstruction there = reconstruct("hoppe", moved(sphere_cloud(3000), far));
+  EXPECT_EQ(there.mesh.triangles, near.mesh.triangles);
+  EXPECT_LT(departure(there.mesh, far), 0.02);
+}
+
+TEST(Hoppe, ContoursAFlatCloud) {
+  constexpr std::uint64_t kSeed = 5;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  const TriangleMesh mesh = reconstruct("hoppe", square_cloud(40, 0, kSeed)).mesh;
+  double flat = 0;
+  for (const Point& p : mesh.vertices) flat = std::max(flat, std::abs(p.z()));
+  EXPECT_LT(flat, 1e-3);
+  EXPECT_EQ(check_mesh(mesh.view()).inconsistent_edges, 0u);
+}
+
+// The only one in this program: Poisson runs once in a process.
+TEST(Poisson, ClosesASphereFarFromTheOrigin) {
+  const Point far(1e7, -1e7, 5e6);
+  TriangleMesh mesh = reconstruct("poisson", moved(sphere_cloud(2000), far)).mesh;
+  mesh.vertices = moved(mesh.vertices, -far);
+  expect_closed_sphere(mesh, 0.03);
+}
+
+TEST(Reconstruction, RepeatsItsBytes) {
+  for (const std::string_view method : {"gp3", "hoppe"}) {
+    const std::vector<Point> cloud = torus_cloud(30, 14);
+    EXPECT_TRUE(same_bytes(reconstruct(method, cloud).mesh, reconstruct(method, cloud).mesh))
+        << method;
+  }
+}
+
+// All searches ask for more neighbours than there are points.
+TEST(Reconstruction, TakesFewerPointsThanNeighbours) {
+  const std::vector<Point> octahedron = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                         {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+  for (const std::string_view method : {"gp3", "hoppe"}) {
+    for (const double k : {3.0, 40.0}) {
+      ParameterValues values = standards(method);
+      values["normals.k"] = k;
+      EXPECT_GT(reconstruction_method(method).reconstruct(octahedron, values).mesh.triangles.size(),
+                0u)
+          << method << " k " << k;
+    }
+  }
+}
+
+TEST(Reconstruction, RefusesWhatSpansNoSurface) {
+  EXPECT_NE(message_of("gp3", {}).find("only 0 points"), std::string::npos);
+  EXPECT_NE(message_of("gp3", {{0, 0, 0}, {1, 0, 0}}).find("only 2 points"), std::string::npos);
+  EXPECT_NE(message_of("gp3", std::vector<Point>(9, Point(1, 2, 3))).find("only 1 distinct"),
+            std::string::npos);
+  std::vector<Point> line;
+  for (int i = 0; i < 50; ++i) line.emplace_back(i, 2 * i, 0);
+  EXPECT_NE(message_of("gp3", line).find("are they on one line"), std::string::npos);
+}
+
+TEST(Reconstruction, NamesAMissingParameter) {
+  ParameterValues values = standards("gp3");
+  values.erase("gp3.mu");
+  try {
+    reconstruction_method("gp3").reconstruct(sphere_cloud(50), values);
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("gp3.mu"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace emax::test

@@ -1,0 +1,111 @@
+#include "host/worker/message.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "sw_model/error.h"
+#include "tests/host/reconstruct/surface_clouds.h"
+
+namespace emax::test {
+namespace {
+
+std::span<const std::uint8_t> body(const Bytes& bytes) {
+  return std::span(bytes).subspan(kLengthBytes);
+}
+
+template <typename T>
+T round_trip(const T& message) {
+  const Bytes bytes = encode(message);
+  EXPECT_EQ(announced_length(std::span(bytes).template first<kLengthBytes>()),
+            bytes.size() - kLengthBytes);
+  return std::get<T>(decode(body(bytes)));
+}
+
+MeshMessage tetrahedron() {
+  return {7,
+          {{{{0, 0, 0}, {1e7 + 1e-3, 0, 0}, {0, 0.1, 0}, {0, 0, -0.0}},
+            {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}},
+           4,
+           1}};
+}
+
+TEST(Message, CarriesEveryBitOfPoints) {
+  std::vector<Point> points = sphere_cloud(50);
+  points.push_back({5e-324, -0.0, 1.7976931348623157e308});
+  const PointsMessage got = round_trip(PointsMessage{points});
+  EXPECT_EQ(got.points, points);
+  EXPECT_TRUE(std::signbit(got.points.back().y()));
+}
+
+TEST(Message, CarriesSettings) {
+  const RunMessage sent{~std::uint64_t{0},
+                        {"gp3", "schroeder", {{"a", 0.1}, {"b", 3}, {"c", 1e-300}, {"d", -0.0}}}};
+  const RunMessage got = round_trip(sent);
+  EXPECT_EQ(got.ticket, sent.ticket);
+  EXPECT_EQ(got.settings.method, "gp3");
+  EXPECT_EQ(got.settings.decimator, "schroeder");
+  EXPECT_EQ(got.settings.parameters, sent.settings.parameters);
+}
+
+TEST(Message, CarriesAMesh) {
+  const MeshMessage sent = tetrahedron();
+  const MeshMessage got = round_trip(sent);
+  EXPECT_EQ(got.ticket, 7u);
+  EXPECT_TRUE(same_bytes(got.result.mesh, sent.result.mesh));
+  EXPECT_EQ(got.result.reconstruction_triangles, 4u);
+  EXPECT_EQ(got.result.unmeshed_points, 1u);
+}
+
+TEST(Message, CarriesFailures) {
+  for (const auto reason : {FailureReason::kError, FailureReason::kOutOfMemory}) {
+    const FailureMessage got = round_trip(FailureMessage{3, {reason, "why"}});
+    EXPECT_EQ(got.ticket, 3u);
+    EXPECT_EQ(got.failure.reason, reason);
+    EXPECT_EQ(got.failure.message, "why");
+  }
+  EXPECT_EQ(round_trip(UnusableMessage{"bad"}).message, "bad");
+  round_trip(ReadyMessage{});
+}
+
+TEST(Message, RefusesEveryTruncation) {
+  const Bytes bytes = encode(tetrahedron());
+  for (std::size_t length = 0; length < bytes.size() - kLengthBytes; ++length) {
+    EXPECT_THROW(decode(body(bytes).first(length)), Error) << length;
+  }
+}
+
+// No byte of garbage may do more than throw Error; what decodes nevertheless is a sound mesh.
+TEST(Message, SurvivesEveryChangedByte) {
+  const Bytes bytes = encode(tetrahedron());
+  std::size_t refused = 0;
+  for (std::size_t at = kLengthBytes; at < bytes.size(); ++at) {
+    for (const std::uint8_t change : Bytes{0x01, 0x20, 0x80, 0xff}) {
+      Bytes changed = bytes;
+      changed[at] = static_cast<std::uint8_t>(changed[at] ^ change);
+      try {
+        const Message message = decode(body(changed));
+        if (const auto* mesh = std::get_if<MeshMessage>(&message)) {
+          for (const Triangle& t : mesh->result.mesh.triangles) {
+            for (const std::uint32_t v : t) ASSERT_LT(v, mesh->result.mesh.vertices.size());
+          }
+        }
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, bytes.size() / 2);
+}
+
+TEST(Message, RefusesIndicesWithoutVertexAndPointsThatAreNotFinite) {
+  MeshMessage message = tetrahedron();
+  message.result.mesh.triangles[2][1] = 4;
+  EXPECT_THROW(decode(body(encode(message))), Error);
+  message = tetrahedron();
+  message.result.mesh.vertices[1].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(decode(body(encode(message))), Error);
+}
+
+}  // namespace
+}  // namespace emax::test

@@ -1,0 +1,156 @@
+#include "host/worker/worker_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "sw_model/error.h"
+#include "tests/host/reconstruct/surface_clouds.h"
+
+namespace emax::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+ChainSettings settings(const std::string& method) {
+  ChainSettings result{method, "schroeder", standard_values(chain_parameters(method, "schroeder"))};
+  if (method == "hoppe") result.parameters["hoppe.resolution"] = 32;
+  if (method == "poisson") result.parameters["poisson.depth"] = 6;
+  return result;
+}
+
+ChainSettings failing(const std::string& method) { return {method, "schroeder", {}}; }
+
+WorkerPoolOptions options(unsigned jobs) {
+  WorkerPoolOptions result;
+  result.jobs = jobs;
+  result.time_limit = 60s;
+  result.allow_test_methods = true;
+  return result;
+}
+
+std::map<std::uint64_t, ChainResult> evaluate(unsigned jobs,
+                                              const std::vector<ChainSettings>& candidates) {
+  const std::vector<Point> cloud = torus_cloud(40, 18);
+  WorkerPool pool(cloud, options(jobs));
+  for (std::size_t i = 0; i < candidates.size(); ++i) pool.submit(i, candidates[i]);
+  EXPECT_EQ(pool.outstanding(), candidates.size());
+  std::map<std::uint64_t, ChainResult> results;
+  while (pool.outstanding() > 0) {
+    Completed completed = pool.wait();
+    if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
+      ADD_FAILURE() << failure->message;
+      continue;
+    }
+    results[completed.ticket] = std::get<ChainResult>(std::move(completed.outcome));
+  }
+  return results;
+}
+
+// A failure, then a sound evaluation by the same pool.
+Failure failure_of(const std::string& method, WorkerPoolOptions pool_options) {
+  WorkerPool pool(torus_cloud(30, 12), pool_options);
+  pool.submit(5, failing(method));
+  pool.submit(6, settings("gp3"));
+  const Completed failed = pool.wait();
+  EXPECT_EQ(failed.ticket, 5u);
+  const Completed sound = pool.wait();
+  EXPECT_EQ(sound.ticket, 6u);
+  EXPECT_TRUE(std::holds_alternative<ChainResult>(sound.outcome));
+  EXPECT_EQ(pool.outstanding(), 0u);
+  return std::get<Failure>(failed.outcome);
+}
+
+TEST(WorkerPool, GivesTheSameMeshesForAnyNumberOfJobs) {
+  std::vector<ChainSettings> candidates;
+  for (int i = 0; i < 8; ++i) {
+    candidates.push_back(settings(i % 4 == 3 ? "hoppe" : "gp3"));
+    candidates.back().parameters["schroeder.reduction"] = 0.3 + 0.05 * i;
+    candidates.back().parameters["normals.k"] = i < 4 ? 10 : 12;
+  }
+  const auto one = evaluate(1, candidates);
+  const auto two = evaluate(2, candidates);
+  ASSERT_EQ(one.size(), candidates.size());
+  ASSERT_EQ(two.size(), candidates.size());
+  for (const auto& [ticket, result] : one) {
+    EXPECT_TRUE(same_bytes(result.mesh, two.at(ticket).mesh)) << ticket;
+    EXPECT_EQ(result.reconstruction_triangles, two.at(ticket).reconstruction_triangles);
+    EXPECT_EQ(result.unmeshed_points, two.at(ticket).unmeshed_points);
+  }
+}
+
+TEST(WorkerPool, RunsPoissonAgainAndAgain) {
+  const auto results = evaluate(1, std::vector<ChainSettings>(3, settings("poisson")));
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_TRUE(same_bytes(results.at(0).mesh, results.at(1).mesh));
+  EXPECT_TRUE(same_bytes(results.at(0).mesh, results.at(2).mesh));
+}
+
+TEST(WorkerPool, ReportsACrash) {
+  const Failure failure = failure_of("test.crash", options(1));
+  EXPECT_EQ(failure.reason, FailureReason::kCrashed);
+  EXPECT_NE(failure.message.find("signal 6"), std::string::npos) << failure.message;
+}
+
+TEST(WorkerPool, ReportsAnExit) {
+  const Failure failure = failure_of("test.exit", options(1));
+  EXPECT_EQ(failure.reason, FailureReason::kCrashed);
+  EXPECT_NE(failure.message.find("exit code 3"), std::string::npos) << failure.message;
+}
+
+TEST(WorkerPool, EndsAHangByItsTimeLimit) {
+  WorkerPoolOptions impatient = options(1);
+  impatient.time_limit = 3s;
+  const auto start = std::chrono::steady_clock::now();
+  const Failure failure = failure_of("test.hang", impatient);
+  EXPECT_EQ(failure.reason, FailureReason::kTimedOut);
+  EXPECT_NE(failure.message.find("longer than 3 s"), std::string::npos) << failure.message;
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 3s);
+}
+
+TEST(WorkerPool, RefusesRubbish) {
+  for (const std::string method : {"test.garbage", "test.huge", "test.strange"}) {
+    const Failure failure = failure_of(method, options(1));
+    EXPECT_EQ(failure.reason, FailureReason::kGarbled) << method << ": " << failure.message;
+  }
+}
+
+TEST(WorkerPool, HandsOnTheErrorsOfTheChain) {
+  const Failure failure = failure_of("test.error", options(1));
+  EXPECT_EQ(failure.reason, FailureReason::kError);
+  EXPECT_NE(failure.message.find("an error on purpose"), std::string::npos) << failure.message;
+}
+
+#ifndef __SANITIZE_ADDRESS__  // whose own address space is larger than any limit
+TEST(WorkerPool, HoldsAWorkerToItsMemoryLimit) {
+  WorkerPoolOptions small = options(1);
+  small.memory_limit = std::uint64_t{1} << 30;
+  EXPECT_EQ(failure_of("test.memory", small).reason, FailureReason::kOutOfMemory);
+}
+
+TEST(WorkerPool, NamesAMemoryLimitTooSmallToStart) {
+  WorkerPoolOptions tiny = options(1);
+  tiny.memory_limit = std::uint64_t{1} << 20;
+  WorkerPool pool(torus_cloud(30, 12), tiny);
+  pool.submit(1, settings("gp3"));
+  EXPECT_THROW(pool.wait(), Error);
+}
+#endif
+
+// A sound evaluation goes on beside a hanging one, and wait_for comes back from it.
+TEST(WorkerPool, WaitsNoLongerThanAsked) {
+  WorkerPool pool(torus_cloud(30, 12), options(2));
+  pool.submit(1, failing("test.hang"));
+  pool.submit(2, settings("gp3"));
+  EXPECT_EQ(pool.wait().ticket, 2u);
+  EXPECT_FALSE(pool.wait_for(50ms).has_value());
+  EXPECT_EQ(pool.outstanding(), 1u);
+}
+
+TEST(WorkerPool, HasNothingToWaitForWhenNothingWasSubmitted) {
+  WorkerPool pool(torus_cloud(30, 12), options(1));
+  EXPECT_THROW(pool.wait(), Error);
+}
+
+}  // namespace
+}  // namespace emax::test
