@@ -227,6 +227,20 @@ class Search {
   std::uint32_t epoch_ = 0;
 };
 
+void send_all_pairs(Pipeline& pipeline, std::size_t points, std::size_t records,
+                    std::size_t block_points) {
+  std::vector<std::uint32_t> all(records);
+  std::iota(all.begin(), all.end(), 0u);
+  for (std::uint32_t first = 0; first < points;) {
+    Block block;
+    block.candidates = all;
+    pipeline.make_room();
+    while (first < points && block.points.size() < block_points) block.points.push_back(first++);
+    pipeline.submit(std::move(block));
+  }
+  pipeline.drain();
+}
+
 }  // namespace
 
 EmaxResult search_emax(const PreparedCloud& cloud, const TriangleTree& mesh, Evaluator& evaluator,
@@ -247,20 +261,16 @@ std::vector<std::uint32_t> search_nearest(const PreparedCloud& cloud, const Tria
 EmaxResult brute_force_emax(const PreparedCloud& cloud, const TriangleTree& mesh,
                             Evaluator& evaluator, const SearchOptions& options) {
   Pipeline pipeline(cloud, mesh, evaluator, options, nullptr);
-  std::vector<std::uint32_t> all(mesh.records().size());
-  std::iota(all.begin(), all.end(), 0u);
-  const auto points = static_cast<std::uint32_t>(cloud.points().size());
-  for (std::uint32_t first = 0; first < points;) {
-    Block block;
-    block.candidates = all;
-    pipeline.make_room();
-    while (first < points && block.points.size() < evaluator.block_points()) {
-      block.points.push_back(first++);
-    }
-    pipeline.submit(std::move(block));
-  }
-  pipeline.drain();
+  send_all_pairs(pipeline, cloud.points().size(), mesh.records().size(), evaluator.block_points());
   return *pipeline.worst();
+}
+
+std::vector<std::uint32_t> brute_force_nearest(const PreparedCloud& cloud, const TriangleTree& mesh,
+                                               Evaluator& evaluator, const SearchOptions& options) {
+  std::vector<std::uint32_t> squared_bits(cloud.points().size());
+  Pipeline pipeline(cloud, mesh, evaluator, options, &squared_bits);
+  send_all_pairs(pipeline, cloud.points().size(), mesh.records().size(), evaluator.block_points());
+  return squared_bits;
 }
 
 }  // namespace emax

@@ -36,5 +36,8 @@ std::vector<std::uint32_t> search_nearest(const PreparedCloud& cloud, const Tria
 // All pairs, in blocks of consecutive points. O(points * triangles).
 EmaxResult brute_force_emax(const PreparedCloud& cloud, const TriangleTree& mesh,
                             Evaluator& evaluator, const SearchOptions& options = {});
+std::vector<std::uint32_t> brute_force_nearest(const PreparedCloud& cloud, const TriangleTree& mesh,
+                                               Evaluator& evaluator,
+                                               const SearchOptions& options = {});
 
 }  // namespace emax

@@ -31,8 +31,9 @@ TEST(EmaxSearch, EqualsTheModelOnEveryStimulus) {
       EXPECT_EQ(by_search(p), expected);
       SimdEvaluator cpu;
       EXPECT_EQ(brute_force_emax(p.cloud, p.mesh, cpu), expected);
-      EXPECT_EQ(search_nearest(p.cloud, p.mesh, cpu),
-                nearest_squared_bits(p.cloud.points(), p.mesh.records()));
+      const auto nearest = nearest_squared_bits(p.cloud.points(), p.mesh.records());
+      EXPECT_EQ(search_nearest(p.cloud, p.mesh, cpu), nearest);
+      EXPECT_EQ(brute_force_nearest(p.cloud, p.mesh, cpu), nearest);
     }
   }
 }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/app/scan.h"
+
+namespace emax {
+
+// The subcommands. Each prints its result on standard output and returns the exit code.
+
+struct OptimizeOptions {
+  CommonOptions common;
+  std::string max_error;
+  std::string output;
+  std::string method = "gp3";
+  std::string decimator = "schroeder";
+  std::string config;
+  std::optional<std::uint64_t> budget;  // of the configuration, if not given
+  std::optional<double> seconds;
+  unsigned jobs = 0;  // 0: one per processor
+};
+int run_optimize(const OptimizeOptions& options);
+
+struct ErrorOptions {
+  CommonOptions common;
+  std::string mesh;
+  std::string max_error;  // empty: only measure
+};
+int run_error(const ErrorOptions& options);
+
+struct VerifyOptions {
+  std::string certificate;
+  std::string cloud, mesh;  // empty: looked for by the names in the certificate
+};
+int run_verify(const VerifyOptions& options);
+
+}  // namespace emax

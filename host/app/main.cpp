@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <new>
+#include <system_error>
+
+#include "host/app/commands.h"
+#include "host/app/interrupt.h"
+#include "host/decimate/chain_parameters.h"
+#include "host/emax_search/emax_search.h"
+#include "host/optimize/config.h"
+#include "sw_model/error.h"
+#include "sw_model/self_test.h"
+
+namespace emax {
+namespace {
+
+void add_common(CLI::App& command, CommonOptions& options) {
+  command.add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .pts .obj .off")
+      ->required();
+  command
+      .add_option("--device", options.device,
+                  "who evaluates the kernel: cpu, sim or sim:board=NAME")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "seed of every random choice")->capture_default_str();
+  command.add_option("--json", options.json, "also write the result to this file");
+  command
+      .add_option("--exclude-outliers", options.excluded_share,
+                  "share of the points (N or N%) that may lie beyond the tolerance; they are named")
+      ->capture_default_str();
+  command.add_flag("--skip-invalid", options.skip_invalid,
+                   "leave out points with NaN or infinite coordinates");
+  command.add_flag("--brute-force", options.brute_force, "evaluate all pairs instead of searching");
+}
+
+void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
+  command.add_option("--method", method, "reconstruction")
+      ->check(CLI::IsMember({"gp3", "poisson", "hoppe"}))
+      ->capture_default_str();
+  command.add_option("--decimator", decimator, "decimation")
+      ->check(CLI::IsMember({"schroeder"}))
+      ->capture_default_str();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "emax: a triangle mesh with as few triangles as possible, certified to lie within a "
+      "tolerance "
+      "of every point of a scan.");
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("emax: {}; see emax --help\n", error.what());
+  });
+  std::function<int()> chosen;
+
+  OptimizeOptions optimize;
+  CLI::App& optimize_command =
+      *app.add_subcommand("optimize", "search the parameters of reconstruction and decimation");
+  add_common(optimize_command, optimize.common);
+  optimize_command
+      .add_option("--max-error", optimize.max_error,
+                  "tolerance: N in the cloud's unit, or N% of its width")
+      ->required();
+  optimize_command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off")
+      ->required();
+  add_chain(optimize_command, optimize.method, optimize.decimator);
+  std::string bound = "one-sided";
+  optimize_command
+      .add_option("--bound", bound, "one-sided: every point of the cloud within the tolerance")
+      ->check(CLI::IsMember({"one-sided"}))
+      ->capture_default_str();
+  optimize_command.add_option("--budget", optimize.budget, "evaluations (default: as configured)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
+  optimize_command.add_option("--time", optimize.seconds, "stop after this many seconds")
+      ->check(CLI::PositiveNumber);
+  optimize_command
+      .add_option("--jobs", optimize.jobs, "worker processes (default: one per processor)")
+      ->check(CLI::Range(1u, 256u));
+  optimize_command.add_option("--config", optimize.config,
+                              "settings and domains; `emax config` prints the defaults");
+  optimize_command.callback([&] { chosen = [&optimize] { return run_optimize(optimize); }; });
+
+  ErrorOptions error;
+  CLI::App& error_command =
+      *app.add_subcommand("error", "measure and certify the maximum error of a mesh");
+  add_common(error_command, error.common);
+  error_command.add_option("MESH", error.mesh, "mesh: .ply .obj .stl .off")->required();
+  error_command.add_option("--max-error", error.max_error,
+                           "tolerance: exit code 2 when it is not kept");
+  error_command.callback([&] { chosen = [&error] { return run_error(error); }; });
+
+  VerifyOptions verify;
+  CLI::App& verify_command = *app.add_subcommand(
+      "verify", "recompute what a certificate says; exit code 0 for yes, 2 for no");
+  verify_command.add_option("CERTIFICATE", verify.certificate)->required();
+  verify_command.add_option("--cloud", verify.cloud,
+                            "the cloud, if it is neither beside the certificate nor here");
+  verify_command.add_option("--mesh", verify.mesh, "the mesh, if it is not beside the certificate");
+  verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
+
+  std::string config_method = "gp3", config_decimator = "schroeder";
+  CLI::App& config_command =
+      *app.add_subcommand("config", "print the default settings and domains, commented");
+  add_chain(config_command, config_method, config_decimator);
+  config_command.callback([&] {
+    chosen = [&] {
+      fmt::print("{}", default_config_text(chain_parameters(config_method, config_decimator)));
+      return kExitOk;
+    };
+  });
+
+  if (argc == 1) {
+    fmt::print(stderr, "{}", app.help());
+    return kExitError;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& parse_error) {
+    return app.exit(parse_error) == 0 ? kExitOk : kExitError;
+  }
+  verify_arithmetic();
+  note_interrupts();
+  return chosen();
+}
+
+}  // namespace
+}  // namespace emax
+
+int main(int argc, char** argv) {
+  int code = emax::kExitError;
+  try {
+    code = emax::run(argc, argv);
+  } catch (const emax::Error& error) {
+    fmt::print(stderr, "emax: {}\n", error.what());
+  } catch (const emax::Interrupted&) {
+    fmt::print(stderr, "emax: interrupted; nothing was written\n");
+    code = emax::kExitInterrupted;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "emax: out of memory; use a smaller cloud or fewer --jobs\n");
+  } catch (const std::system_error& error) {
+    fmt::print(stderr, "emax: {}\n", error.what());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "emax: {} (a defect of the program; please report it)\n", error.what());
+  }
+  if (std::fflush(stdout) != 0) {
+    fmt::print(stderr, "emax: standard output cannot be written: {}\n", std::strerror(errno));
+    return emax::kExitError;
+  }
+  return code;
+}

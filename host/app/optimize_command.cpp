@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+#include "host/app/commands.h"
+#include "host/app/interrupt.h"
+#include "host/app/progress.h"
+#include "host/geometry/atomic_file.h"
+#include "host/geometry/mesh_validity.h"
+#include "host/geometry/sha256.h"
+#include "host/geometry/tolerance.h"
+#include "host/optimize/optimize.h"
+#include "host/report/certificate_file.h"
+#include "host/report/result_json.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+std::string describe_failures(const OptimizeState& state) {
+  std::string text;
+  for (const auto& [reason, count] : state.failures) {
+    text += fmt::format(", {} failed ({})", count, reason);
+  }
+  if (!state.last_failure.empty()) text += fmt::format("; last: {}", state.last_failure);
+  return text;
+}
+
+OptimizeSettings make_settings(const OptimizeOptions& options) {
+  OptimizeSettings settings;
+  settings.method = options.method;
+  settings.decimator = options.decimator;
+  const auto parameters = chain_parameters(options.method, options.decimator);
+  settings.config =
+      options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
+  if (options.budget) settings.config.search.budget = *options.budget;
+  settings.seed = options.common.seed;
+  if (options.seconds) settings.time = std::chrono::duration<double>(*options.seconds);
+  settings.jobs =
+      options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  settings.output = options.output;
+  settings.interrupted = was_interrupted;
+  return settings;
+}
+
+// The mesh and its certificate appear together, or not at all.
+void write_result(const std::filesystem::path& path, const std::string& mesh,
+                  const std::string& certificate) {
+  AtomicFile mesh_file(path);
+  AtomicFile certificate_file(certificate_path(path));
+  mesh_file.write(mesh);
+  certificate_file.write(certificate);
+  mesh_file.commit();
+  certificate_file.commit();
+}
+
+EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud) {
+  result.worst_point = cloud.index_in_file(result.worst_point);
+  return result;
+}
+
+class OptimizeCommand {
+ public:
+  explicit OptimizeCommand(const OptimizeOptions& options)
+      : options_(options),
+        settings_(make_settings(options)),
+        address_(DeviceAddress::parse(options.common.device)),
+        evaluator_(make_evaluator(address_)) {
+    const double share = parse_share(options.common.excluded_share);
+    const Tolerance tolerance = parse_tolerance(options.max_error);
+    check_output(options.output, mesh_endings());
+    if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
+    scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
+    epsilon_ = tolerance.in_units(scan_.width);
+    constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
+    fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
+               grouped(scan_.cloud.points.size()), scan_.width);
+    fmt::print("tolerance      {}\n", to_text(tolerance, scan_.width));
+    fmt::print("search         {} + {}, {} evaluations, seed {}, {} jobs, device {}\n",
+               settings_.method, settings_.decimator, settings_.config.search.budget,
+               settings_.seed, settings_.jobs, options.common.device);
+    std::fflush(stdout);
+  }
+
+  int run() {
+    const auto start = std::chrono::steady_clock::now();
+    {
+      Progress progress(*constraint_, settings_.time);
+      state_ = optimize(scan_.cloud.points, *constraint_, *evaluator_, settings_,
+                        [&progress](const OptimizeState& state) { progress.show(state); });
+    }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    if (!state_.best && !state_.least_error) {
+      if (state_.interrupted) throw Interrupted{};
+      throw Error(fmt::format("{}: no mesh could be made of it in {} evaluations{}",
+                              scan_.path.string(), state_.evaluations, describe_failures(state_)));
+    }
+    const BestMesh& shown = state_.best ? *state_.best : *state_.least_error;
+    validity_ = check_mesh(shown.mesh.view());
+    certified_ = certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded);
+    if (state_.best) {
+      keep(*state_.best);
+    } else {
+      refuse(*state_.least_error);
+    }
+    print_common(shown, took.count());
+    write_json(shown);
+    if (state_.interrupted) return kExitInterrupted;
+    return state_.best ? kExitOk : kExitNo;
+  }
+
+ private:
+  void keep(const BestMesh& best) {
+    if (!certified_.within(epsilon_)) {
+      throw Error(
+          fmt::format("the certificate ({:.9g}) contradicts the kernel's e_max: nothing is "
+                      "written; this is a defect of the program, please report it",
+                      certified_.e_max_upper));
+    }
+    const std::string bytes = mesh_bytes(best.mesh, mesh_format(settings_.output));
+    Certificate certificate;
+    certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
+    certificate.mesh_sha256 = sha256(bytes);
+    certificate.cloud_file = scan_.path.filename().string();
+    certificate.cloud_sha256 = sha256_of_file(scan_.path);
+    certificate.skip_invalid = options_.common.skip_invalid;
+    certificate.epsilon = epsilon_;
+    certificate.error = in_file_indices(certified_, scan_.cloud);
+    certificate.kernel = in_file_indices(best.error.kept, scan_.cloud);
+    certificate.vertices = best.mesh.vertices.size();
+    certificate.triangles = best.mesh.triangles.size();
+    certificate.validity = validity_;
+    certificate.transform = constraint_->cloud().normalization();
+    certificate.chain = {settings_.method, settings_.decimator, best.parameters};
+    certificate.seed = settings_.seed;
+    certificate.evaluations = state_.evaluations;
+    write_result(options_.output, bytes, to_json_text(certificate));
+    fmt::print("result         {}: {} triangles; {}\n", options_.output,
+               grouped(best.mesh.triangles.size()), describe(validity_));
+    fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",
+               certified_.e_max_upper, epsilon_, 100 * certified_.e_max_upper / scan_.width);
+    fmt::print("certificate    {}\n", certificate_path(options_.output).string());
+  }
+
+  void refuse(const BestMesh& least) const {
+    fmt::print("result         infeasible: no mesh within {:.9g} was found, none is written\n",
+               epsilon_);
+    fmt::print(
+        "e_max          {:.9g} is the least found ({:.4g}% of the width), with {} "
+        "triangles; raise --max-error, raise --budget or exclude outliers\n",
+        certified_.e_max_upper, 100 * certified_.e_max_upper / scan_.width,
+        grouped(least.mesh.triangles.size()));
+  }
+
+  void print_common(const BestMesh& shown, double seconds) const {
+    print_excluded(certified_, constraint_->excludable());
+    fmt::print("worst point    {}\n", scan_.cloud.index_in_file(shown.error.kept.worst_point));
+    fmt::print("reconstruction {} triangles, {} points left unmeshed\n",
+               grouped(shown.reconstruction_triangles), grouped(shown.unmeshed_points));
+    fmt::print("kernel         e_max^2 bits 0x{:08x}\n", shown.error.kept.squared_bits);
+    fmt::print("evaluations    {} in {:.0f} s{}{}\n", state_.evaluations, seconds,
+               describe_failures(state_),
+               state_.interrupted   ? "; interrupted"
+               : state_.out_of_time ? "; out of time"
+                                    : "");
+    fmt::print("device {:<7} {}\n", options_.common.device,
+               describe_counters(evaluator_->counters()));
+    if (address_.board) print_prediction(*address_.board, evaluator_->counters());
+  }
+
+  void write_json(const BestMesh& shown) const {
+    if (options_.common.json.empty()) return;
+    ResultReport report;
+    report.feasible = state_.best.has_value();
+    report.validity = validity_;
+    report.triangles = shown.mesh.triangles.size();
+    report.epsilon = epsilon_;
+    report.certified = in_file_indices(certified_, scan_.cloud);
+    report.kernel = in_file_indices(shown.error.kept, scan_.cloud);
+    report.points = scan_.cloud.points.size();
+    report.transform = constraint_->cloud().normalization();
+    report.evaluations = state_.evaluations;
+    report.seed = settings_.seed;
+    report.reconstruction_triangles = shown.reconstruction_triangles;
+    report.unmeshed_points = shown.unmeshed_points;
+    report.device = options_.common.device;
+    report.counters = evaluator_->counters();
+    report.board = address_.board;
+    write_atomically(options_.common.json, to_json_text(report));
+  }
+
+  const OptimizeOptions& options_;
+  OptimizeSettings settings_;
+  DeviceAddress address_;
+  std::unique_ptr<Evaluator> evaluator_;
+  Scan scan_;
+  double epsilon_ = 0;
+  std::optional<ErrorConstraint> constraint_;
+  OptimizeState state_;
+  MeshValidity validity_;
+  CertifiedError certified_;
+};
+
+}  // namespace
+
+int run_optimize(const OptimizeOptions& options) { return OptimizeCommand(options).run(); }
+
+}  // namespace emax

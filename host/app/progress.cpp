@@ -1,0 +1,71 @@
+#include "host/app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "host/app/scan.h"
+
+namespace emax {
+
+Progress::Progress(const ErrorConstraint& constraint,
+                   std::optional<std::chrono::duration<double>> time)
+    : constraint_(constraint), time_(time), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+std::string Progress::time_left(const OptimizeState& state) const {
+  const std::chrono::duration<double> elapsed = Clock::now() - start_;
+  double left = -1;
+  if (state.evaluations > 0) {
+    left = elapsed.count() * static_cast<double>(state.budget - state.evaluations) /
+           static_cast<double>(state.evaluations);
+  }
+  if (time_) {
+    const double until = std::max(0.0, (*time_ - elapsed).count());
+    left = left < 0 ? until : std::min(left, until);
+  }
+  if (left < 0) return "estimating the time left";
+  const auto seconds = static_cast<long>(left + 0.5);
+  return fmt::format("{}:{:02} left", seconds / 60, seconds % 60);
+}
+
+std::string Progress::line(const OptimizeState& state) const {
+  std::string best = "nothing measured yet";
+  if (state.best) {
+    best = fmt::format(
+        "best {} triangles, e_max {:.4g} of {:.4g}", grouped(state.best->mesh.triangles.size()),
+        constraint_.in_file_units(state.best->error.kept.squared_bits), constraint_.epsilon());
+  } else if (state.least_error) {
+    best = fmt::format("none within {:.4g} yet, least e_max {:.4g}", constraint_.epsilon(),
+                       constraint_.in_file_units(state.least_error->error.kept.squared_bits));
+  }
+  return fmt::format("{}/{} evaluations, {}, {}", state.evaluations, state.budget, best,
+                     time_left(state));
+}
+
+void Progress::show(const OptimizeState& state) {
+  const auto now = Clock::now();
+  const std::optional<std::size_t> triangles =
+      state.best ? std::optional(state.best->mesh.triangles.size()) : std::nullopt;
+  if (terminal_) {
+    if (now - shown_ < std::chrono::milliseconds(100)) return;
+    fmt::print(stderr, "\r\033[K{}", line(state));
+    std::fflush(stderr);
+    open_line_ = true;
+    shown_ = now;
+    return;
+  }
+  const std::uint64_t tenth = 10 * state.evaluations / std::max<std::uint64_t>(state.budget, 1);
+  if (triangles == best_triangles_ && tenth == tenth_) return;
+  best_triangles_ = triangles;
+  tenth_ = tenth;
+  fmt::print(stderr, "{}\n", line(state));
+}
+
+void Progress::finish() {
+  if (open_line_) fmt::print(stderr, "\n");
+  open_line_ = false;
+}
+
+}  // namespace emax

@@ -1,0 +1,91 @@
+#include "host/app/scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+#include "host/geometry/bounds.h"
+#include "host/geometry/cloud_file.h"
+#include "sw_model/error.h"
+
+namespace emax {
+
+Scan read_scan(const std::filesystem::path& path, bool skip_invalid) {
+  Scan scan = {path, read_cloud(path, {skip_invalid}), 0};
+  check_cloud(scan.cloud, path.string());
+  scan.width = bounds_of(scan.cloud.points).width();
+  return scan;
+}
+
+double parse_share(std::string_view text) {
+  const bool percent = text.ends_with('%');
+  const std::string_view digits = text.substr(0, text.size() - (percent ? 1 : 0));
+  double value = 0;
+  const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (percent) value /= 100;
+  if (failure != std::errc{} || end != digits.data() + digits.size() ||
+      !(value >= 0 && value < 1)) {
+    throw Error(fmt::format(
+        "--exclude-outliers '{}': give a share of the points from 0 to below 1, or N%", text));
+  }
+  return value;
+}
+
+CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud) {
+  error.worst_point = cloud.index_in_file(error.worst_point);
+  for (std::uint32_t& point : error.excluded) point = cloud.index_in_file(point);
+  return error;
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ',');
+  return text;
+}
+
+std::string describe_counters(const DeviceCounters& counters) {
+  std::string text =
+      fmt::format("{} blocks, {} pairs", grouped(counters.blocks), grouped(counters.pairs));
+  if (counters.words_in > 0) {
+    text += fmt::format(", {} words in, {} out", grouped(counters.words_in),
+                        grouped(counters.words_out));
+  }
+  if (counters.cycles) {
+    text += fmt::format(", {} cycles ({:.0f}% busy)", grouped(*counters.cycles),
+                        100.0 * static_cast<double>(counters.busy.value_or(0)) /
+                            static_cast<double>(std::max<std::uint64_t>(*counters.cycles, 1)));
+  }
+  return text;
+}
+
+std::string describe(const MeshValidity& v) {
+  if (v.valid()) return "valid: manifold, consistently oriented, free of self-intersections";
+  std::string text = "not valid:";
+  const auto count = [&text](std::size_t number, const char* what) {
+    if (number > 0) text += fmt::format(" {} {},", grouped(number), what);
+  };
+  count(v.non_manifold_edges, "non-manifold edges");
+  count(v.non_manifold_vertices, "non-manifold vertices");
+  count(v.inconsistent_edges, "inconsistently oriented edges");
+  count(v.degenerate_triangles, "degenerate triangles");
+  count(v.self_intersections, "self-intersections");
+  text.pop_back();
+  return text;
+}
+
+void print_excluded(const CertifiedError& certified, std::size_t excludable) {
+  if (excludable == 0) return;
+  fmt::print("outliers       {} of at most {} points excluded; e_max over all points {:.9g}\n",
+             grouped(certified.excluded.size()), grouped(excludable), certified.e_max_upper_all);
+}
+
+void print_prediction(const BoardModel& board, const DeviceCounters& counters) {
+  const double seconds =
+      predicted_seconds(board, counters.cycles.value_or(0), counters.words_in, counters.words_out);
+  fmt::print("predicted      {:.3g} s on {} ({}, {} elements at {:.0f} MHz; estimated)\n", seconds,
+             board.name, board.device, board.elements, board.clock_hz / 1e6);
+}
+
+}  // namespace emax

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/device/device_address.h"
+#include "host/geometry/mesh_validity.h"
+#include "host/geometry/point_cloud.h"
+#include "sw_model/certificate.h"
+
+namespace emax {
+
+inline constexpr std::array<std::string_view, 1> kJsonEndings = {".json"};
+
+// Options that optimize and error share.
+struct CommonOptions {
+  std::string cloud;
+  std::string device = "cpu";
+  std::string json;
+  std::string excluded_share = "0";
+  std::uint64_t seed = 1;
+  bool skip_invalid = false;
+  bool brute_force = false;
+};
+
+// A cloud that was read and found fit.
+struct Scan {
+  std::filesystem::path path;
+  PointCloud cloud;
+  double width;
+};
+
+Scan read_scan(const std::filesystem::path& path, bool skip_invalid);
+
+// "N" or "N%" of the points, 0 <= N < 1 (100%). Throws Error.
+double parse_share(std::string_view text);
+
+// Indices of the file instead of the cloud's, where points were skipped.
+CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud);
+
+// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number);
+
+// "blocks 12, pairs 3,456,789, ..."
+std::string describe_counters(const DeviceCounters& counters);
+
+// "valid: ..." or "not valid: 3 non-manifold edges, ..."
+std::string describe(const MeshValidity& validity);
+
+// Prints how many points were left out, where that is allowed, and e_max over all of them.
+void print_excluded(const CertifiedError& certified, std::size_t excludable);
+
+// Prints what `board` would take for the work.
+void print_prediction(const BoardModel& board, const DeviceCounters& counters);
+
+}  // namespace emax

@@ -1,0 +1,87 @@
+#include "host/optimize/error_constraint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sw_model/error_bound.h"
+#include "sw_model/float_bits.h"
+
+namespace emax {
+namespace {
+
+double distance_of(std::uint32_t squared_bits) {
+  return std::sqrt(static_cast<double>(bits_float(squared_bits)));
+}
+
+}  // namespace
+
+ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
+                                 double excluded_share, bool brute_force)
+    : cloud_(cloud),
+      epsilon_(epsilon),
+      excludable_(
+          static_cast<std::size_t>(std::floor(excluded_share * static_cast<double>(cloud.size())))),
+      brute_force_(brute_force) {}
+
+double ErrorConstraint::in_file_units(std::uint32_t squared_bits) const {
+  return distance_of(squared_bits) / cloud_.normalization().scale;
+}
+
+std::optional<std::uint32_t> ErrorConstraint::threshold(MeshView mesh) const {
+  const Normalization& normalization = cloud_.normalization();
+  double longest = 0, farthest = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto corners = mesh.corners(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
+      farthest = std::max(farthest, (corners[k] - normalization.origin).norm());
+    }
+  }
+  const double epsilon = normalization.length(epsilon_);
+  const double reach = epsilon + 2 * normalization.length(longest) + normalization.length(farthest);
+  return largest_feasible_bits(epsilon, reach);
+}
+
+MeasuredError ErrorConstraint::measure(MeshView mesh, Evaluator& evaluator,
+                                       const SearchOptions& options) const {
+  const TriangleTree tree(mesh, cloud_.normalization());
+  const std::optional<std::uint32_t> allowed = threshold(mesh);
+  MeasuredError measured;
+  if (excludable_ == 0) {
+    const auto emax = brute_force_ ? brute_force_emax : search_emax;
+    measured.all = measured.kept = emax(cloud_, tree, evaluator, options);
+  } else {
+    const auto nearest = brute_force_ ? brute_force_nearest : search_nearest;
+    exclude(nearest(cloud_, tree, evaluator, options), allowed.value_or(0), measured);
+  }
+  measured.feasible = allowed && measured.kept.squared_bits <= *allowed;
+  const double epsilon = cloud_.normalization().length(epsilon_);
+  const double greatest = allowed ? std::max(distance_of(*allowed), epsilon / 1e3) : epsilon;
+  const double excess = distance_of(measured.kept.squared_bits) / greatest - 1;
+  measured.violation = measured.feasible ? std::min(excess, 0.0) : std::max(excess, 1e-12);
+  return measured;
+}
+
+// Leaves out the farthest points beyond `allowed`, as many as may be; of equals, the higher index.
+void ErrorConstraint::exclude(std::span<const std::uint32_t> bits, std::uint32_t allowed,
+                              MeasuredError& measured) const {
+  measured.all = worst_of(bits);
+  std::vector<std::uint32_t> order(bits.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, [&bits](std::uint32_t a, std::uint32_t b) {
+    return bits[a] != bits[b] ? bits[a] > bits[b] : a > b;
+  });
+  auto kept = order.begin();
+  while (kept - order.begin() < static_cast<std::ptrdiff_t>(excludable_) && bits[*kept] > allowed) {
+    ++kept;
+  }
+  measured.excluded.assign(order.begin(), kept);
+  std::ranges::sort(measured.excluded);
+  // The last of those that equal the worst kept point has the lowest index.
+  auto worst = kept;
+  while (worst + 1 != order.end() && bits[*(worst + 1)] == bits[*kept]) ++worst;
+  measured.kept = {bits[*kept], *worst};
+}
+
+}  // namespace emax

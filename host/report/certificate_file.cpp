@@ -1,0 +1,106 @@
+#include "host/report/certificate_file.h"
+
+#include <charconv>
+#include <fstream>
+#include <sstream>
+
+#include "hls/kernel/command_words.h"
+#include "host/report/json_parts.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+constexpr const char* kSchema = "emax-certificate-1";
+
+std::uint32_t parse_bits(const std::string& text) {
+  std::uint32_t bits = 0;
+  const char* end = text.data() + text.size();
+  if (text.size() != 10 || !text.starts_with("0x") ||
+      std::from_chars(text.data() + 2, end, bits, 16).ptr != end) {
+    throw Error("'" + text + "' is not 0x and eight hexadecimal digits");
+  }
+  return bits;
+}
+
+Certificate parse(const Json& json) {
+  if (json.at("schema") != kSchema) throw Error("its schema is not " + std::string(kSchema));
+  if (json.at("kernel_version") != kKernelVersion) {
+    throw Error("it was made by another version of the kernel; use the program that made it");
+  }
+  if (json.at("bound") != kBound) throw Error("its bound is not " + std::string(kBound));
+  Certificate c;
+  const Json& mesh = json.at("mesh");
+  const Json& cloud = json.at("cloud");
+  mesh.at("file").get_to(c.mesh_file);
+  mesh.at("sha256").get_to(c.mesh_sha256);
+  mesh.at("vertices").get_to(c.vertices);
+  cloud.at("file").get_to(c.cloud_file);
+  cloud.at("sha256").get_to(c.cloud_sha256);
+  cloud.at("skip_invalid").get_to(c.skip_invalid);
+  json.at("triangles").get_to(c.triangles);
+  json.at("epsilon").get_to(c.epsilon);
+  json.at("e_max").get_to(c.error.e_max_upper);
+  json.at("worst_point").get_to(c.kernel.worst_point);
+  json.at("points").get_to(c.error.points);
+  for (const Json& point : json.at("excluded")) {
+    c.error.excluded.push_back(point.at("point").get<std::uint32_t>());
+    c.error.excluded_distances.push_back(point.at("distance").get<double>());
+  }
+  json.at("e_max_all").get_to(c.error.e_max_upper_all);
+  c.kernel.squared_bits = parse_bits(json.at("e_max_squared_bits").get<std::string>());
+  c.validity = validity_from_json(json.at("validity"));
+  return c;
+}
+
+}  // namespace
+
+std::filesystem::path certificate_path(const std::filesystem::path& mesh) {
+  return mesh.string() + ".certificate.json";
+}
+
+std::string to_json_text(const Certificate& c) {
+  const Json json = {
+      {"schema", kSchema},
+      {"kernel_version", kKernelVersion},
+      {"bound", kBound},
+      {"epsilon", c.epsilon},
+      {"e_max", c.error.e_max_upper},
+      {"e_max_all", c.error.e_max_upper_all},
+      {"e_max_squared_bits", bits_text(c.kernel.squared_bits)},
+      {"worst_point", c.kernel.worst_point},
+      {"points", c.error.points},
+      {"excluded", excluded_to_json(c.error)},
+      {"triangles", c.triangles},
+      {"valid", c.validity.valid()},
+      {"validity", to_json(c.validity)},
+      {"mesh", {{"file", c.mesh_file}, {"sha256", c.mesh_sha256}, {"vertices", c.vertices}}},
+      {"cloud",
+       {{"file", c.cloud_file}, {"sha256", c.cloud_sha256}, {"skip_invalid", c.skip_invalid}}},
+      {"transform", to_json(c.transform)},
+      {"method", c.chain.method},
+      {"decimator", c.chain.decimator},
+      {"parameters", c.chain.parameters},
+      {"seed", c.seed},
+      {"evaluations", c.evaluations}};
+  return json.dump(2) + "\n";
+}
+
+Certificate read_certificate(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (std::filesystem::is_directory(path) || !(text << file.rdbuf())) {
+    throw Error(path.string() + ": cannot be read; name a certificate made by optimize");
+  }
+  try {
+    return parse(Json::parse(text.str()));
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
+  } catch (const nlohmann::json::exception&) {
+    throw Error(
+        path.string() +
+        ": is not a certificate; name the .certificate.json beside a mesh made by optimize");
+  }
+}
+
+}  // namespace emax

@@ -1,0 +1,61 @@
+#include "host/report/json_parts.h"
+
+#include <fmt/format.h>
+
+namespace emax {
+namespace {
+
+Json or_null(const std::optional<std::uint64_t>& value) { return value ? Json(*value) : Json(); }
+
+constexpr std::pair<const char*, std::size_t MeshValidity::*> kValidityCounts[] = {
+    {"boundary_edges", &MeshValidity::boundary_edges},
+    {"non_manifold_edges", &MeshValidity::non_manifold_edges},
+    {"non_manifold_vertices", &MeshValidity::non_manifold_vertices},
+    {"inconsistent_edges", &MeshValidity::inconsistent_edges},
+    {"degenerate_triangles", &MeshValidity::degenerate_triangles},
+    {"self_intersections", &MeshValidity::self_intersections},
+    {"self_intersecting_triangles", &MeshValidity::self_intersecting_triangles},
+    {"components", &MeshValidity::components}};
+
+}  // namespace
+
+std::string bits_text(std::uint32_t bits) { return fmt::format("0x{:08x}", bits); }
+
+Json to_json(const Normalization& transform) {
+  const Point& o = transform.origin;
+  return {{"origin", {o.x(), o.y(), o.z()}}, {"scale", transform.scale}};
+}
+
+Json to_json(const MeshValidity& validity) {
+  Json json;
+  for (const auto& [key, member] : kValidityCounts) json[key] = validity.*member;
+  return json;
+}
+
+MeshValidity validity_from_json(const Json& json) {
+  MeshValidity validity;
+  for (const auto& [key, member] : kValidityCounts) json.at(key).get_to(validity.*member);
+  return validity;
+}
+
+Json to_json(const DeviceCounters& c) {
+  return {{"blocks", c.blocks},
+          {"pairs", c.pairs},
+          {"words_in", c.words_in},
+          {"words_out", c.words_out},
+          {"cycles", or_null(c.cycles)},
+          {"busy", or_null(c.busy)},
+          {"stalled", or_null(c.stalled)},
+          {"idle", or_null(c.idle)},
+          {"resends", or_null(c.resends)}};
+}
+
+Json excluded_to_json(const CertifiedError& error) {
+  Json points = Json::array();
+  for (std::size_t i = 0; i < error.excluded.size(); ++i) {
+    points.push_back({{"point", error.excluded[i]}, {"distance", error.excluded_distances[i]}});
+  }
+  return points;
+}
+
+}  // namespace emax

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host/geometry/mesh_validity.h"
+#include "sw_model/certificate.h"
+#include "sw_model/device.h"
+#include "sw_model/normalization.h"
+
+namespace emax {
+
+// Parts that results and certificates have in common. Keys keep their order.
+using Json = nlohmann::ordered_json;
+
+inline constexpr const char* kBound = "one-sided";  // every cloud point within epsilon of the mesh
+
+std::string bits_text(std::uint32_t bits);  // "0x%08x"
+Json to_json(const Normalization& transform);
+Json to_json(const MeshValidity& validity);
+MeshValidity validity_from_json(const Json& json);
+Json to_json(const DeviceCounters& counters);
+// The points left out, each with its index in the file and its distance.
+Json excluded_to_json(const CertifiedError& error);
+
+}  // namespace emax

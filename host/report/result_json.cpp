@@ -1,0 +1,50 @@
+#include "host/report/result_json.h"
+
+#include "hls/kernel/command_words.h"
+#include "host/report/json_parts.h"
+
+namespace emax {
+namespace {
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+}  // namespace
+
+std::string to_json_text(const ResultReport& r) {
+  Json json = {{"schema", "emax-result-1"},
+               {"kernel_version", kKernelVersion},
+               {"bound", kBound},
+               {"feasible", or_null(r.feasible)},
+               {"valid", r.validity ? Json(r.validity->valid()) : Json()},
+               {"triangles", or_null(r.triangles)},
+               {"epsilon", or_null(r.epsilon)},
+               {"e_max", r.certified ? Json(r.certified->e_max_upper) : Json()},
+               {"e_max_all", r.certified ? Json(r.certified->e_max_upper_all) : Json()},
+               {"e_max_squared_bits", r.kernel ? Json(bits_text(r.kernel->squared_bits)) : Json()},
+               {"worst_point", r.kernel ? Json(r.kernel->worst_point) : Json()},
+               {"points", r.points},
+               {"excluded", r.certified ? excluded_to_json(*r.certified) : Json::array()},
+               {"transform", to_json(r.transform)},
+               {"evaluations", or_null(r.evaluations)},
+               {"seed", or_null(r.seed)},
+               {"device", r.device},
+               {"device_counters", to_json(r.counters)},
+               {"validity", r.validity ? to_json(*r.validity) : Json()},
+               {"reconstruction_triangles", or_null(r.reconstruction_triangles)},
+               {"unmeshed_points", or_null(r.unmeshed_points)},
+               {"predicted", Json()}};
+  if (r.board && r.counters.cycles) {
+    json["predicted"] = {{"board", r.board->name},
+                         {"clock_hz", r.board->clock_hz},
+                         {"elements", r.board->elements},
+                         {"seconds", predicted_seconds(*r.board, *r.counters.cycles,
+                                                       r.counters.words_in, r.counters.words_out)},
+                         {"basis", "estimated"}};
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace emax

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/geometry/mesh_validity.h"
+#include "host/optimize/error_constraint.h"
+#include "sw_model/certificate.h"
+#include "sw_model/cycle_model.h"
+#include "sw_model/device.h"
+
+namespace emax {
+
+// What `optimize` and `error` write to --json. The keys are stable; a thing that was not asked for
+// or not reached is null.
+struct ResultReport {
+  std::optional<bool> feasible;  // null without an epsilon
+  std::optional<MeshValidity> validity;
+  std::optional<std::size_t> triangles;     // of the best mesh, or of the one with the least error
+  std::optional<double> epsilon;            // file units
+  std::optional<CertifiedError> certified;  // indices are the file's
+  std::optional<EmaxResult> kernel;         // over the kept points; the index is the file's
+  std::size_t points = 0;
+  Normalization transform;
+  std::optional<std::uint64_t> evaluations;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
+  std::string device;
+  DeviceCounters counters;
+  std::optional<BoardModel> board;  // whose time is to be predicted
+};
+
+std::string to_json_text(const ResultReport& report);
+
+}  // namespace emax

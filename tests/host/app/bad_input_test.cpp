@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/host/app/program.h"
+#include "tests/host/geometry/temporary_folder.h"
+
+namespace emax {
+namespace {
+
+using test::ProgramRun;
+
+class BadInput : public testing::Test {
+ protected:
+  BadInput() {
+    test::write_scan(folder_.path() / "scan.xyz", 400, 1);
+    test::write_surface(folder_.path() / "surface.off", 8, 10);
+    before_ = test::files_in(folder_.path());
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.path() / name, std::ios::binary) << text;
+    before_ = test::files_in(folder_.path());
+  }
+
+  ProgramRun optimize(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "optimize");
+    return test::run_emax(arguments, folder_.path());
+  }
+
+  // One line that holds every one of `words`; exit code 1; no file more than before.
+  void expect_refusal(const ProgramRun& run, const std::vector<std::string>& words) {
+    EXPECT_EQ(run.exit_code, 1) << run.errors;
+    EXPECT_EQ(std::ranges::count(run.errors, '\n'), 1) << run.errors;
+    EXPECT_TRUE(run.errors.starts_with("emax: ")) << run.errors;
+    for (const std::string& word : words) {
+      EXPECT_NE(run.errors.find(word), std::string::npos)
+          << "no '" << word << "' in " << run.errors;
+    }
+    EXPECT_EQ(test::files_in(folder_.path()), before_);
+  }
+
+  void expect_cloud_refused(const std::string& name, const std::vector<std::string>& words) {
+    SCOPED_TRACE(name);
+    std::vector<std::string> all = words;
+    all.push_back(name);
+    expect_refusal(optimize({name, "--max-error", "1%", "-o", "out.ply"}), all);
+    expect_refusal(test::run_emax({"error", name, "surface.off"}, folder_.path()), all);
+  }
+
+  test::TemporaryFolder folder_;
+  std::vector<std::string> before_;
+};
+
+TEST_F(BadInput, CloudFiles) {
+  write("empty.xyz", "");
+  write("nan.xyz", "0 0 0\n1 nan 0\n0 1 0\n0 0 1\n1 1 1\n");
+  write("three.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  write("equal.xyz", "1 2 3\n1 2 3\n1 2 3\n1 2 3\n1 2 3\n");
+  write("line.xyz", "0 0 0\n1 1 1\n2 2 2\n3 3 3\n4 4 4\n");
+  write("plane.xyz", "0 0 5\n1 0 5\n0 1 5\n1 1 5\n3 2 5\n");
+  write("words.xyz", "0 0 0\n1 0 0\nfour five six\n");
+  write("garbage.ply", std::string("\x7f"
+                                   "ELF\0\1\2\3 what is this",
+                                   20));
+  write("truncated.off", "OFF\n5 0 0\n0 0 0\n1 0 0\n");
+  write("picture.png", "not a cloud");
+  expect_cloud_refused("missing.ply", {});
+  expect_cloud_refused("empty.xyz", {});
+  expect_cloud_refused("nan.xyz", {"--skip-invalid"});
+  expect_cloud_refused("three.xyz", {"4"});
+  expect_cloud_refused("equal.xyz", {});
+  expect_cloud_refused("line.xyz", {});
+  expect_cloud_refused("plane.xyz", {});
+  expect_cloud_refused("words.xyz", {"3"});
+  expect_cloud_refused("garbage.ply", {});
+  expect_cloud_refused("truncated.off", {});
+  expect_cloud_refused("picture.png", {".ply"});
+  expect_cloud_refused(".", {});
+}
+
+TEST_F(BadInput, Tolerances) {
+  for (const char* bad : {"0", "-1", "nan", "inf", "0%", "-2%", "5mm", "1 %", "", "%", "1e999"}) {
+    SCOPED_TRACE(bad);
+    expect_refusal(optimize({"scan.xyz", "--max-error", bad, "-o", "out.ply"}), {"--max-error"});
+  }
+}
+
+TEST_F(BadInput, Outputs) {
+  const auto to = [this](const std::string& name) {
+    return optimize({"scan.xyz", "--max-error", "1%", "-o", name});
+  };
+  expect_refusal(to("no/such/folder/out.ply"), {"no/such/folder"});
+  expect_refusal(to("out.step"), {"out.step", ".ply"});
+  expect_refusal(to("out"), {"out", ".ply"});
+  expect_refusal(to("/proc/out.ply"), {"/proc"});
+  expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", "--json", "a.txt"}),
+                 {"a.txt", ".json"});
+}
+
+TEST_F(BadInput, Options) {
+  expect_refusal(optimize({"scan.xyz", "-o", "out.ply"}), {"--max-error"});
+  const auto with = [this](const std::string& option, const std::string& value) {
+    return optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", option, value});
+  };
+  expect_refusal(with("--method", "magic"), {"gp3"});
+  expect_refusal(with("--decimator", "magic"), {"schroeder"});
+  expect_refusal(with("--bound", "two-sided"), {"one-sided"});
+  expect_refusal(with("--device", "toaster"), {"toaster", "cpu", "sim"});
+  expect_refusal(with("--device", "sim:board=toaster"), {"toaster", "ulx3s"});
+  expect_refusal(with("--budget", "0"), {"--budget"});
+  expect_refusal(with("--jobs", "-1"), {"--jobs"});
+  expect_refusal(with("--time", "soon"), {"--time"});
+  expect_refusal(with("--seed", "x"), {"--seed"});
+  expect_refusal(with("--exclude-outliers", "1.5"), {"--exclude-outliers"});
+  expect_refusal(with("--config", "none.toml"), {"none.toml"});
+  write("bad.toml", "[search]\nbudgett = 3\n");
+  expect_refusal(with("--config", "bad.toml"), {"bad.toml", "budgett"});
+}
+
+TEST_F(BadInput, Meshes) {
+  write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  write("none.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
+  for (const char* mesh : {"missing.off", "open.off", "scan.xyz"}) {
+    expect_refusal(test::run_emax({"error", "scan.xyz", mesh}, folder_.path()), {mesh});
+  }
+  expect_refusal(test::run_emax({"error", "scan.xyz", "none.off"}, folder_.path()), {"triangles"});
+}
+
+TEST_F(BadInput, Certificates) {
+  write("not.json", "{]");
+  write("other.json", "{\"schema\": \"something else\"}");
+  for (const char* name : {"missing.json", "not.json", "other.json", "."}) {
+    expect_refusal(test::run_emax({"verify", name}, folder_.path()), {name});
+  }
+}
+
+// STL holds 32 bits: far from the origin it would move vertices by more than epsilon / 100.
+TEST_F(BadInput, StlThatWouldRoundTooMuch) {
+  std::ifstream scan(folder_.path() / "scan.xyz");
+  std::string far;
+  for (double x, y, z; scan >> x >> y >> z;) {
+    far += std::to_string(1e7 + x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  }
+  write("far.xyz", far);
+  expect_refusal(optimize({"far.xyz", "--max-error", "5%", "-o", "out.stl", "--budget", "4"}),
+                 {"out.stl", ".ply"});
+}
+
+TEST_F(BadInput, NothingAtAll) {
+  const ProgramRun run = test::run_emax({}, folder_.path());
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.errors.find("optimize"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace emax

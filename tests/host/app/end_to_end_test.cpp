@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/app/program.h"
+#include "tests/host/geometry/temporary_folder.h"
+
+namespace emax {
+namespace {
+
+using nlohmann::json;
+using test::ProgramRun;
+
+class EndToEnd : public testing::Test {
+ protected:
+  EndToEnd() { test::write_scan(folder_.path() / "scan.xyz", 1500, 2); }
+
+  ProgramRun emax(const std::vector<std::string>& arguments) {
+    return test::run_emax(arguments, folder_.path());
+  }
+  ProgramRun optimize(const std::string& output, std::vector<std::string> more = {},
+                      const std::string& max_error = "3%", const std::string& budget = "24") {
+    std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", max_error,
+                                          "-o",       output,     "--budget",    budget};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return emax(arguments);
+  }
+  json read(const std::string& name) { return json::parse(text(name)); }
+  std::string text(const std::string& name) { return test::file_text(folder_.path() / name); }
+  bool exists(const std::string& name) { return std::filesystem::exists(folder_.path() / name); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(EndToEnd, FindsACertifiedMeshWithinTheTolerance) {
+  const ProgramRun run = optimize("mesh.ply", {"--json", "result.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const json result = read("result.json"), certificate = read("mesh.ply.certificate.json");
+  EXPECT_EQ(result.at("feasible"), true);
+  EXPECT_LE(result.at("e_max").get<double>(), result.at("epsilon").get<double>());
+  EXPECT_GT(result.at("e_max").get<double>(), 0);
+  EXPECT_EQ(result.at("points"), 1500);
+  EXPECT_EQ(result.at("evaluations"), 24);
+  EXPECT_LT(result.at("triangles"), result.at("reconstruction_triangles"));
+  for (const char* key : {"e_max", "epsilon", "e_max_squared_bits", "worst_point", "triangles",
+                          "valid", "transform", "bound", "seed"}) {
+    EXPECT_EQ(result.at(key), certificate.at(key)) << key;
+  }
+  for (const char* key : {"schema", "kernel_version", "excluded", "device", "device_counters"}) {
+    EXPECT_TRUE(result.contains(key)) << key;
+  }
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+}
+
+TEST_F(EndToEnd, SameSeedSameBytesForAnyJobsAndDevice) {
+  ASSERT_EQ(optimize("one.ply", {"--jobs", "1"}).exit_code, 0);
+  ASSERT_EQ(optimize("two.ply", {"--jobs", "2"}).exit_code, 0);
+  ASSERT_EQ(optimize("sim.ply", {"--jobs", "2", "--device", "sim"}).exit_code, 0);
+  ASSERT_EQ(optimize("other.ply", {"--seed", "7"}).exit_code, 0);
+  const auto certificate = [this](const std::string& mesh) {
+    json c = read(mesh + ".certificate.json");
+    c.at("mesh").erase("file");  // the name we gave it
+    return c.dump();
+  };
+  EXPECT_EQ(text("one.ply"), text("two.ply"));
+  EXPECT_EQ(certificate("one.ply"), certificate("two.ply"));
+  EXPECT_EQ(text("one.ply"), text("sim.ply"));
+  EXPECT_EQ(certificate("one.ply"), certificate("sim.ply"));
+  EXPECT_NE(certificate("one.ply"), certificate("other.ply"));
+}
+
+TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
+  test::write_surface(folder_.path() / "surface.off", 10, 14);
+  std::vector<json> results;
+  for (const std::vector<std::string>& how :
+       std::vector<std::vector<std::string>>{{"--device", "cpu"},
+                                             {"--device", "sim"},
+                                             {"--device", "sim:board=ulx3s"},
+                                             {"--device", "cpu", "--brute-force"},
+                                             {"--device", "sim", "--brute-force"}}) {
+    std::vector<std::string> arguments = {"error", "scan.xyz", "surface.off", "--json", "r.json"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    ASSERT_EQ(emax(arguments).exit_code, 0);
+    results.push_back(read("r.json"));
+  }
+  for (const json& result : results) {
+    for (const char* key : {"e_max_squared_bits", "worst_point", "e_max"}) {
+      EXPECT_EQ(result.at(key), results[0].at(key)) << result.at("device");
+    }
+  }
+  EXPECT_EQ(results[1].at("device_counters").at("pairs"),
+            results[2].at("device_counters").at("pairs"));
+  EXPECT_GT(results[2].at("predicted").at("seconds").get<double>(), 0);
+  EXPECT_EQ(results[3].at("device_counters").at("pairs"),
+            results[4].at("device_counters").at("pairs"));
+}
+
+TEST_F(EndToEnd, InfeasibleToleranceIsSaidAndNothingWritten) {
+  const ProgramRun run = optimize("mesh.ply", {"--json", "result.json"}, "0.0001%");
+  EXPECT_EQ(run.exit_code, 2) << run.errors;
+  EXPECT_NE(run.output.find("infeasible"), std::string::npos) << run.output;
+  EXPECT_EQ(read("result.json").at("feasible"), false);
+  EXPECT_GT(read("result.json").at("e_max").get<double>(),
+            read("result.json").at("epsilon").get<double>());
+  EXPECT_FALSE(exists("mesh.ply"));
+  EXPECT_FALSE(exists("mesh.ply.certificate.json"));
+}
+
+TEST_F(EndToEnd, ErrorSaysWhetherAToleranceIsKept) {
+  test::write_surface(folder_.path() / "surface.off", 10, 14);
+  EXPECT_EQ(emax({"error", "scan.xyz", "surface.off", "--max-error", "50%"}).exit_code, 0);
+  EXPECT_EQ(emax({"error", "scan.xyz", "surface.off", "--max-error", "0.001%"}).exit_code, 2);
+}
+
+TEST_F(EndToEnd, VerifyCatchesEveryFalseClaim) {
+  ASSERT_EQ(optimize("mesh.ply").exit_code, 0);
+  const std::string name = "mesh.ply.certificate.json";
+  const json honest = read(name);
+  const auto verdict = [&](const json& certificate) {
+    std::ofstream(folder_.path() / "claim.json") << certificate;
+    return emax({"verify", "claim.json"}).exit_code;
+  };
+  ASSERT_EQ(verdict(honest), 0);
+  const auto altered = [&honest](auto change) {
+    json claim = honest;
+    change(claim);
+    return claim;
+  };
+  const double e_max = honest.at("e_max");
+  EXPECT_EQ(verdict(altered([&](json& c) { c["e_max"] = e_max / 2; })), 2);
+  EXPECT_EQ(verdict(altered([&](json& c) { c["epsilon"] = e_max / 2; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["triangles"] = 4; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["points"] = 9; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["worst_point"] = 1499; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["e_max_squared_bits"] = "0x00000000"; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["validity"]["components"] = 77; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["mesh"]["sha256"] = "00"; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["cloud"]["sha256"] = "00"; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) {
+              c["excluded"] = json::array({{{"point", 123456}, {"distance", 1.0}}});
+            })),
+            2);
+  EXPECT_EQ(verdict(altered([](json& c) { c.erase("epsilon"); })), 1);
+
+  // The mesh itself: one bit of a coordinate.
+  std::string bytes = text("mesh.ply");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(folder_.path() / "mesh.ply", std::ios::binary) << bytes;
+  EXPECT_EQ(emax({"verify", name}).exit_code, 2);
+}
+
+TEST_F(EndToEnd, OutliersAreNamed) {
+  std::ofstream(folder_.path() / "scan.xyz", std::ios::app) << "3 0 0\n0 4 0\n";
+  ASSERT_EQ(optimize("mesh.ply", {"--exclude-outliers", "0.5%", "--json", "r.json"}).exit_code, 0);
+  const json certificate = read("mesh.ply.certificate.json");
+  const json& excluded = certificate.at("excluded");
+  ASSERT_GE(excluded.size(), 2u);
+  ASSERT_LE(excluded.size(), 7u);
+  std::vector<int> points;
+  for (const json& point : excluded) {
+    points.push_back(point.at("point").get<int>());
+    EXPECT_GT(point.at("distance").get<double>(), certificate.at("epsilon").get<double>());
+  }
+  EXPECT_NE(std::ranges::find(points, 1500), points.end());
+  EXPECT_NE(std::ranges::find(points, 1501), points.end());
+  EXPECT_GT(certificate.at("e_max_all").get<double>(), 2);
+  EXPECT_EQ(certificate.at("points").get<std::size_t>() + excluded.size(), 1502u);
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+}
+
+TEST_F(EndToEnd, SkippedPointsKeepTheFilesIndices) {
+  const std::string scan = text("scan.xyz");
+  std::ofstream(folder_.path() / "scan.xyz") << "nan 0 0\n0 inf 0\n" << scan;
+  EXPECT_EQ(optimize("mesh.ply").exit_code, 1);
+  ASSERT_EQ(optimize("mesh.ply", {"--skip-invalid"}).exit_code, 0);
+  const json skipped = read("mesh.ply.certificate.json");
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+  std::ofstream(folder_.path() / "scan.xyz") << scan;
+  ASSERT_EQ(optimize("mesh.ply").exit_code, 0);
+  const json plain = read("mesh.ply.certificate.json");
+  EXPECT_EQ(skipped.at("worst_point").get<int>(), plain.at("worst_point").get<int>() + 2);
+  EXPECT_EQ(skipped.at("e_max"), plain.at("e_max"));
+}
+
+TEST_F(EndToEnd, InterruptedRunEndsCleanly) {
+  const ProgramRun run = test::run_emax(
+      {"optimize", "scan.xyz", "--max-error", "3%", "-o", "mesh.ply", "--budget", "100000"},
+      folder_.path(), 6);
+  EXPECT_EQ(run.exit_code, 130) << run.errors;
+  // Either the best so far, whole and true, or nothing.
+  if (exists("mesh.ply")) {
+    EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+    EXPECT_EQ(test::files_in(folder_.path()).size(), 3u);
+  } else {
+    EXPECT_EQ(test::files_in(folder_.path()).size(), 1u);
+  }
+}
+
+TEST_F(EndToEnd, TimeLimitWritesTheBestSoFar) {
+  const ProgramRun run = test::run_emax({"optimize", "scan.xyz", "--max-error", "3%", "-o",
+                                         "mesh.ply", "--budget", "100000", "--time", "8"},
+                                        folder_.path());
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_NE(run.output.find("out of time"), std::string::npos) << run.output;
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+}
+
+TEST_F(EndToEnd, AllMethodsAndMeshFormats) {
+  for (const char* method : {"gp3", "poisson", "hoppe"}) {
+    SCOPED_TRACE(method);
+    ASSERT_EQ(optimize("mesh.obj", {"--method", method}, "8%", "6").exit_code, 0);
+    EXPECT_EQ(emax({"verify", "mesh.obj.certificate.json"}).exit_code, 0);
+  }
+  for (const char* name : {"mesh.off", "mesh.stl", "mesh.ply"}) {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(optimize(name, {}, "8%", "4").exit_code, 0);
+    EXPECT_EQ(emax({"verify", std::string(name) + ".certificate.json"}).exit_code, 0);
+  }
+}
+
+}  // namespace
+}  // namespace emax
