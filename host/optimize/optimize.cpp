@@ -1,5 +1,7 @@
 #include "host/optimize/optimize.h"
 
+#include <unistd.h>
+
 #include <utility>
 
 #include "host/genocop/look_ahead_scheduler.h"
@@ -69,6 +71,12 @@ std::string_view monotone_gene(std::string_view decimator) {
   return decimator == "schroeder" ? "schroeder.reduction" : "";
 }
 
+// A worker may have its share of the memory: one that outgrows it fails, and not the machine.
+std::uint64_t physical_memory() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 ParameterValues values_of(const Problem& problem, const Genes& genes) {
   ParameterValues values;
   for (std::size_t i = 0; i < genes.size(); ++i) values[problem.genes[i].name] = genes[i];
@@ -88,6 +96,7 @@ OptimizeState optimize(std::span<const Point> cloud, const ErrorConstraint& cons
   LookAheadScheduler scheduler(genocop, search.budget);
   WorkerPoolOptions pool_options;
   pool_options.jobs = settings.jobs;
+  pool_options.memory_limit = physical_memory() / settings.jobs;
   WorkerPool pool(cloud, pool_options);
 
   OptimizeState state;
