@@ -11,7 +11,8 @@
 namespace emax {
 namespace {
 
-// Shorter than this, normalised, squares of lengths underflow and no frame has a meaning: a segment.
+// Shorter than this, normalised, squares of lengths underflow and no frame has a meaning: a
+// segment.
 constexpr double kSmallestLength = 0x1p-500;
 
 // Any unit vector across `axis`, the same one for the same axis.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "host/app/scan.h"
@@ -26,7 +27,7 @@ std::string Progress::time_left(const OptimizeState& state) const {
     left = left < 0 ? until : std::min(left, until);
   }
   if (left < 0) return "estimating the time left";
-  const auto seconds = static_cast<long>(left + 0.5);
+  const long seconds = std::lround(left);
   return fmt::format("{}:{:02} left", seconds / 60, seconds % 60);
 }
 

@@ -18,7 +18,7 @@ namespace {
 std::filesystem::path locate(const std::string& named, const std::string& file, const char* option,
                              const std::filesystem::path& certificate, bool also_here) {
   if (!named.empty()) return named;
-  const std::filesystem::path beside = certificate.parent_path() / file;
+  std::filesystem::path beside = certificate.parent_path() / file;
   if (std::filesystem::exists(beside)) return beside;
   if (also_here && std::filesystem::exists(file)) return file;
   throw Error(fmt::format("{}: its {} is not found; name it with --{}", certificate.string(), file,

@@ -11,9 +11,9 @@ namespace emax {
 struct ParameterSpec {
   enum class Kind { kContinuous, kInteger };
 
-  std::string name;     // unique in its chain, e.g. "gp3.mu"
+  std::string name;  // unique in its chain, e.g. "gp3.mu"
   Kind kind;
-  double lower;         // domain, both ends included
+  double lower;  // domain, both ends included
   double upper;
   double standard;      // the value used where no search is made
   std::string meaning;  // one line with the unit, shown in the configuration file
