@@ -84,8 +84,7 @@ TEST(Forms, AgreeOnEveryStimulus) {
 }
 
 TEST(Forms, VisibleEdgeEqualsThreeEdgeOnSlivers) {
-  const test::Stimulus s = test::all_stimuli(13)[2];
-  ASSERT_EQ(s.name, "slivers");
+  const test::Stimulus s = test::named_stimulus("slivers", 13);
   const Normalization normalization = normalization_of(s.cloud);
   const auto points = normalized_points(s.cloud, normalization);
   for (const TriangleRecord<float>& record : make_records(s.mesh(), normalization)) {

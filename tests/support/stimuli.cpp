@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace emax::test {
 namespace {
@@ -171,6 +172,13 @@ std::vector<Stimulus> all_stimuli(std::uint64_t seed) {
   for (Point& p : shifted.vertices) p += Point(1e7, -3e6, 2.5e5);
   all.push_back(shifted);
   return all;
+}
+
+Stimulus named_stimulus(const std::string& name, std::uint64_t seed) {
+  for (Stimulus& s : all_stimuli(seed)) {
+    if (s.name == name) return s;
+  }
+  throw std::out_of_range("no stimulus '" + name + "'");
 }
 
 }  // namespace emax::test

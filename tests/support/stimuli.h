@@ -42,6 +42,9 @@ struct Stimulus {
 // Random, degenerate, sliver, duplicated, far-from-origin and surface-like stimuli.
 std::vector<Stimulus> all_stimuli(std::uint64_t seed);
 
+// The one of them with that name. Throws std::out_of_range.
+Stimulus named_stimulus(const std::string& name, std::uint64_t seed);
+
 // A bumpy sphere of rings x segments vertices, closed and consistently oriented.
 Stimulus bumpy_sphere(std::uint32_t rings, std::uint32_t segments, std::size_t points,
                       std::uint64_t seed);
