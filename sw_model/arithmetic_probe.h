@@ -17,9 +17,10 @@ namespace emax {
 namespace {
 
 // The kernel's own source on the processor's binary32. Not inlined, so that the change of mode
-// around the call holds for all of it.
-[[gnu::noinline]] float native_squared_distance(const TriangleRecord<float>& record,
-                                                const Vector3<float>& point) {
+// around the call holds for all of it; flattened, so that it is this unit's compilation of the
+// source and not one that the linker took from another.
+[[gnu::noinline, gnu::flatten]] float native_squared_distance(const TriangleRecord<float>& record,
+                                                              const Vector3<float>& point) {
   return squared_distance(record, (record.tag & kSegmentFlag) != 0, point);
 }
 

@@ -3,7 +3,7 @@
 //
 //   emax_csim [--seed N] [--blocks N] [--fault]
 //
-// --fault sends the top one record with a changed bit, which must be caught.
+// --fault sends the top one point with a changed bit, which must be caught.
 
 #include <cstdio>
 #include <cstdlib>
@@ -40,16 +40,17 @@ Block random_block(std::mt19937_64& engine) {
     return Point(x, y, z);
   };
   Block block;
-  const std::size_t points = 1 + engine() % (engine() % 8 == 0 ? kMaxBlockPoints : 64);
-  for (std::size_t i = 0; i < points; ++i) {
+  const std::uint64_t most = engine() % 8 == 0 ? kMaxBlockPoints : 64;
+  const std::uint64_t points = 1 + engine() % most;
+  for (std::uint64_t i = 0; i < points; ++i) {
     const Eigen::Vector3f p = point().cast<float>();
     block.points.push_back({p.x(), p.y(), p.z()});
   }
-  const std::size_t records = 1 + engine() % 40;
+  const std::uint64_t records = 1 + engine() % 40;
   for (std::uint32_t i = 0; i < records; ++i) {
-    const Point a = point(), b = point();
-    const Point c =
-        i % 4 == 3 ? Point(a + number() * (b - a) + 1e-6 * number() * point()) : point();
+    const Point a = point(), b = point(), off = point();
+    const double along = number();
+    const Point c = i % 4 == 3 ? Point(a + along * (b - a) + 1e-6 * off) : off;
     block.records.push_back(make_record(make_frame({a, b, c}), i));
   }
   return block;
@@ -84,9 +85,7 @@ int run(const Options& options) {
     append_load_points(words, block.points);
     append_records(words, block.records);
     append_reduce(words, true);
-    // The first record's V1.x, behind the points and two headers.
-    if (options.fault && i == options.blocks / 2)
-      words[2 + kPointWords * block.points.size()] ^= 1u << 22;
+    if (options.fault && i == options.blocks / 2) words[1] ^= 1u << 22;  // the first point's x
     const std::vector<Word> answer = run_top(words), expected = expected_answer(block);
     for (std::size_t w = 0; w < expected.size(); ++w) {
       if (w < answer.size() && answer[w] == expected[w]) continue;

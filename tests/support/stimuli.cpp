@@ -17,7 +17,8 @@ void add_triangle(Stimulus& s, const Point& a, const Point& b, const Point& c) {
 Stimulus random_soup(Random& random, std::size_t triangles, std::size_t points) {
   Stimulus s{"random soup", {}, {}, {}};
   for (std::size_t i = 0; i < triangles; ++i) {
-    add_triangle(s, random.point(-1, 1), random.point(-1, 1), random.point(-1, 1));
+    const Point a = random.point(-1, 1), b = random.point(-1, 1), c = random.point(-1, 1);
+    add_triangle(s, a, b, c);
   }
   for (std::size_t i = 0; i < points; ++i) s.cloud.push_back(random.point(-1.2, 1.2));
   return s;
@@ -29,7 +30,8 @@ Stimulus slivers(Random& random) {
   for (int i = 0; i < 200; ++i) {
     const Point a = random.point(-1, 1), b = random.point(-1, 1);
     const double ratio = std::pow(10.0, random.uniform(-8, -2));
-    const Point c = a + random.uniform(-0.2, 1.2) * (b - a) + ratio * random.point(-1, 1);
+    const double along = random.uniform(-0.2, 1.2);
+    const Point c = a + along * (b - a) + ratio * random.point(-1, 1);
     add_triangle(s, a, b, c);
   }
   for (int i = 0; i < 300; ++i) s.cloud.push_back(random.point(-1, 1));
@@ -70,8 +72,14 @@ Stimulus integer_grid(Random& random) {
     const double x = random.below(5), y = random.below(5), z = random.below(5);
     return Point(x, y, z);
   };
-  for (int i = 0; i < 60; ++i) add_triangle(s, corner(), corner(), corner());
-  for (int i = 0; i < 400; ++i) s.cloud.push_back(corner() + Point(0, 0, random.below(4)));
+  for (int i = 0; i < 60; ++i) {
+    const Point a = corner(), b = corner(), c = corner();
+    add_triangle(s, a, b, c);
+  }
+  for (int i = 0; i < 400; ++i) {
+    const Point p = corner();
+    s.cloud.push_back(p + Point(0, 0, random.below(4)));
+  }
   return s;
 }
 
@@ -84,8 +92,9 @@ Stimulus level_ties(Random& random) {
       add_triangle(s, Point(x + 1, y + 1, 0), Point(x, y + 1, 0), Point(x + 1, y, 0));
     }
   }
-  for (int i = 0; i < 900; ++i) {
-    s.cloud.emplace_back(random.uniform(0, 8), random.uniform(0, 8), random.below(2) == 0 ? -1 : 1);
+  for (int i = 0; i < 4000; ++i) {
+    const double x = random.uniform(0, 8), y = random.uniform(0, 8);
+    s.cloud.emplace_back(x, y, random.below(2) == 0 ? -1 : 1);
   }
   return s;
 }
@@ -109,7 +118,8 @@ Stimulus huge_triangles(Random& random) {
                  Point(5 * size, 0, 0.01 * i));
   }
   for (int i = 0; i < 400; ++i) {
-    s.cloud.emplace_back(random.uniform(0, 1e-4), random.uniform(-1, 1), random.uniform(0, 0.6));
+    const double x = random.uniform(0, 1e-4), y = random.uniform(-1, 1), z = random.uniform(0, 0.6);
+    s.cloud.emplace_back(x, y, z);
   }
   return s;
 }
@@ -147,8 +157,8 @@ Stimulus bumpy_sphere(std::uint32_t rings, std::uint32_t segments, std::size_t p
   }
   for (std::size_t i = 0; i < points; ++i) {
     const double theta = std::acos(random.uniform(-1, 1));
-    s.cloud.push_back(on_surface(theta, random.uniform(0, 2 * std::numbers::pi)) +
-                      1e-3 * random.point(-1, 1));
+    const double phi = random.uniform(0, 2 * std::numbers::pi);
+    s.cloud.push_back(on_surface(theta, phi) + 1e-3 * random.point(-1, 1));
   }
   return s;
 }
