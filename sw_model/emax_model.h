@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "hls/kernel/triangle_record.h"
+#include "sw_model/float_bits.h"
 
 namespace emax {
 
@@ -24,6 +26,11 @@ std::vector<std::uint32_t> nearest_squared_bits(std::span<const Vector3<float>> 
 EmaxResult worst_of(std::span<const std::uint32_t> squared_bits);
 EmaxResult emax_model(std::span<const Vector3<float>> points,
                       std::span<const TriangleRecord<float>> records);
+
+// The square root that a result is read with, in normalised units.
+inline double distance_of(std::uint32_t squared_bits) {
+  return std::sqrt(static_cast<double>(bits_float(squared_bits)));
+}
 
 // The kernel's squared distance of one pair on the flushing scalar.
 std::uint32_t pair_squared_bits(const Vector3<float>& point, const TriangleRecord<float>& record);

@@ -10,19 +10,15 @@
 
 #include "hls/kernel/point_triangle.h"
 #include "hls/kernel/reduce.h"
+#include "sw_model/emax_model.h"
 #include "sw_model/emax_simd.h"
 #include "sw_model/error_bound.h"
-#include "sw_model/float_bits.h"
 
 namespace emax {
 namespace {
 
 constexpr std::size_t kHintTriangles = 8;
 constexpr std::size_t kSeedGroups = 4;  // of each block that is prepared before R is known
-
-double distance_of(std::uint32_t squared_bits) {
-  return std::sqrt(static_cast<double>(bits_float(squared_bits)));
-}
 
 // Greater distance first, then the lower index.
 bool is_worse(const EmaxResult& a, const EmaxResult& b) {

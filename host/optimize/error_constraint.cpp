@@ -4,18 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "sw_model/emax_model.h"
 #include "sw_model/error_bound.h"
-#include "sw_model/float_bits.h"
 
 namespace emax {
-namespace {
-
-double distance_of(std::uint32_t squared_bits) {
-  return std::sqrt(static_cast<double>(bits_float(squared_bits)));
-}
-
-}  // namespace
-
 ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
                                  double excluded_share, bool brute_force)
     : cloud_(cloud),

@@ -2,23 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "hls/kernel/emax_kernel.h"
 #include "sw_model/commands.h"
 #include "sw_model/error_bound.h"
 #include "sw_model/exact_distance.h"
-#include "sw_model/float_bits.h"
 #include "sw_model/flush_mode.h"
 #include "sw_model/triangle_frame.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {
 namespace {
-
-double distance_of(std::uint32_t squared_bits) {
-  return std::sqrt(static_cast<double>(bits_float(squared_bits)));
-}
 
 // Pairs of the stimulus whose kernel distance is farther from the oracle's than the proven bound.
 int pairs_out_of_bound(const test::Stimulus& s, bool segment_rule) {

@@ -114,13 +114,20 @@ const std::vector<Family>& families() {
          return std::array<Point, 3>{r.point(-1, 1), r.point(-1, 1), r.point(-1, 1)};
        }},
       {"sliver",
-       [](test::Random& r) { return base_and_apex(log_uniform(r, -6, -4), foot_of_apex(r)); }},
+       [](test::Random& r) {
+         const double height = log_uniform(r, -6, -4);
+         return base_and_apex(height, foot_of_apex(r));
+       }},
       {"at the sliver ratio",
        [](test::Random& r) {
-         return base_and_apex(kSliverRatio * r.uniform(0.999, 1.001), foot_of_apex(r));
+         const double height = kSliverRatio * r.uniform(0.999, 1.001);
+         return base_and_apex(height, foot_of_apex(r));
        }},
       {"below the sliver ratio",
-       [](test::Random& r) { return base_and_apex(log_uniform(r, -9, -6), foot_of_apex(r)); }},
+       [](test::Random& r) {
+         const double height = log_uniform(r, -9, -6);
+         return base_and_apex(height, foot_of_apex(r));
+       }},
       {"needle",
        [](test::Random& r) {
          const double angle = r.uniform(0, 3.14159265358979), side = log_uniform(r, -6, -1);
@@ -128,7 +135,8 @@ const std::vector<Family>& families() {
        }},
       {"obtuse",
        [](test::Random& r) {
-         return base_and_apex(log_uniform(r, -3, -0.5), r.uniform(0.1, 0.9));
+         const double height = log_uniform(r, -3, -0.5);
+         return base_and_apex(height, r.uniform(0.1, 0.9));
        }},
       {"isosceles", [](test::Random& r) {
          const double angle = log_uniform(r, -6, 0);
@@ -144,9 +152,10 @@ Point adversarial_point(test::Random& random, const std::array<Point, 3>& corner
   const Point& b = corners[(i + 1) % 3];
   const Point& c = corners[(i + 2) % 3];
   const double size = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
-  const Point off = size * log_uniform(random, -9, 0.5) * any_direction(random);
-  const Point in_plane_off = log_uniform(random, -9, 0.5) *
-                             (random.uniform(-1, 1) * (b - a) + random.uniform(-1, 1) * (c - a));
+  const double far = log_uniform(random, -9, 0.5), in_plane_far = log_uniform(random, -9, 0.5);
+  const Point off = size * far * any_direction(random);
+  const double along_ab = random.uniform(-1, 1), along_ac = random.uniform(-1, 1);
+  const Point in_plane_off = in_plane_far * (along_ab * (b - a) + along_ac * (c - a));
   switch (random.below(6)) {
     case 0:
       return a + off;
@@ -154,22 +163,27 @@ Point adversarial_point(test::Random& random, const std::array<Point, 3>& corner
       return a + random.uniform(-0.5, 1.5) * (b - a) + off;
     case 2:
       return a + in_plane_off;
-    case 3:
-      return a + random.uniform(0, 0.5) * (b - a) + random.uniform(0, 0.5) * (c - a) + off;
+    case 3: {
+      const double along_b = random.uniform(0, 0.5), along_c = random.uniform(0, 0.5);
+      return a + along_b * (b - a) + along_c * (c - a) + off;
+    }
     case 4: {  // beside a sliver in its plane, where two edges show almost the same
       const TriangleFrame frame = make_frame(corners);
-      return frame.v1 + frame.v3.y() * frame.along + size * random.uniform(-1, 1) * frame.in_plane +
-             size * log_uniform(random, -5, 0) * random.uniform(-1, 1) * frame.along;
+      const double across = size * random.uniform(-1, 1), reach = size * log_uniform(random, -5, 0);
+      const double along = reach * random.uniform(-1, 1);
+      return frame.v1 + (frame.v3.y() + along) * frame.along + across * frame.in_plane;
     }
-    default:
-      return a + log_uniform(random, 0, 3) * size * any_direction(random);
+    default: {
+      const double away = log_uniform(random, 0, 3) * size;
+      return a + away * any_direction(random);
+    }
   }
 }
 
 Pair random_pair(test::Random& random, const Family& family) {
   std::array<Point, 3> corners = family.triangle(random);
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(random.uniform(0, 6.28), any_direction(random)).toRotationMatrix();
+  const double angle = random.uniform(0, 6.28);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, any_direction(random)).toRotationMatrix();
   const double scale = random.below(4) == 0 ? log_uniform(random, -9, 0) : random.uniform(0.1, 2);
   // At the origin V1 costs nothing; at 2^32 it costs everything.
   const double distance = random.below(2) == 0 ? 0 : log_uniform(random, -3, 9.4);
