@@ -104,7 +104,7 @@ int run(const Options& options) {
     append_load_points(words, block.points);
     append_records(words, block.records);
     append_reduce(words, true);
-    if (options.fault && i == options.blocks / 2) words[1] ^= 1u << 22;  // the first point's x
+    if (options.fault && i == options.blocks / 2) words[1] ^= 1u << 30;  // of the first x
     const std::vector<Word> answer = run_top(words, options.flush);
     const std::vector<Word> expected = expected_answer(block);
     if (file != nullptr) {

@@ -1,9 +1,55 @@
 // The mutants of the mutation build, one a line: its number, its name, its fault. The active one is
 // chosen at run time with +mutant=NUMBER; 0 is the unchanged design.
 `ifdef EMAX_MUTATION
+/* verilator lint_off DECLFILENAME */  // one list beside mutation.svh
+/* verilator lint_off UNUSEDPARAM */  // a design uses its own part of the list
 package emax_mutation;
   int active /*verilator public_flat_rw*/ = 0;
 
   localparam int ADD_LOST_STICKY = 1;  // fp_add: bits shifted out in alignment do not reach rounding
+  localparam int ADD_ORDER_BY_EXPONENT = 2;  // fp_add: operands ordered by exponent alone
+  localparam int ADD_SUBNORMAL_OPERAND = 3;  // fp_add: a zero or subnormal operand has a hidden bit
+  localparam int ADD_NO_BORROW = 4;  // fp_add: bits shifted out borrow nothing from a difference
+  localparam int ADD_TIES_UP = 5;  // fp_add: ties round away from zero, not to even
+  localparam int ADD_ZERO_SIGN = 6;  // fp_add: x - x has the sign of x
+  localparam int ADD_NO_FLUSH = 7;  // fp_add: a sum below the normal range is not flushed
+  localparam int ADD_OVERFLOW_FRACTION = 8;  // fp_add: an overflow by carry keeps its fraction
+  localparam int MULTIPLY_LOST_STICKY = 21;  // fp_multiply: the product's low half does not reach rounding
+  localparam int MULTIPLY_TIES_UP = 22;  // fp_multiply: ties round away from zero, not to even
+  localparam int MULTIPLY_TINY_BEFORE_ROUNDING = 23;  // fp_multiply: flushed when tiny before rounding
+  localparam int MULTIPLY_NO_FLUSH = 24;  // fp_multiply: an exponent below zero wraps around
+  localparam int MULTIPLY_NO_OVERFLOW = 25;  // fp_multiply: an exponent past infinity's is kept
+  localparam int MULTIPLY_ZERO_BY_INFINITY = 26;  // fp_multiply: zero times infinity is infinity
+  localparam int MULTIPLY_SUBNORMAL_OPERAND = 27;  // fp_multiply: a subnormal operand counts as normal
+  localparam int SQUARE_SIGN = 31;  // fp_square: keeps its operand's sign
+  localparam int SQUARE_NAN_IS_INFINITY = 32;  // fp_square: a NaN's fraction is not looked at
+  localparam int LESS_OR_EQUAL = 41;  // fp_less: <= for <
+  localparam int LESS_IGNORES_SIGN = 42;  // fp_less: negative numbers compare as positive ones
+  localparam int LESS_NAN_IS_ORDERED = 43;  // fp_less: a NaN compares as beyond infinity
+  localparam int LESS_SUBNORMALS_DIFFER = 44;  // fp_less: subnormals are told from zero
+  localparam int LESS_SIGNED_ZEROS_DIFFER = 45;  // fp_less: -0 < +0
+  localparam int ZERO_COMPARE_SUBNORMAL = 51;  // fp_zero_compare: a subnormal is not zero
+  localparam int ZERO_COMPARE_NAN = 52;  // fp_zero_compare: a NaN has a side
+  localparam int DELAY_ONE_SHORT = 61;  // delay_line: RAM lines are one edge short
+  localparam int FIELD_ALWAYS_WRITTEN = 62;  // field_memory: writes without write_enable
+
+  localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
+  localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back
+  localparam int FIFO_IGNORES_STALL = 103;  // axis_fifo: the output moves on before its word is taken
+  localparam int VALID_OUTLIVES_RESET = 104;  // valid_line: what is in flight survives a reset
+  localparam int SLOT_FREED_EARLY = 105;  // record_ring: a slot is free before its last skewed read
+  localparam int RING_SKIPS_A_SLOT = 106;  // record_ring: advances by two slots
+  localparam int RING_OVERFILLED = 107;  // record_ring: takes records into a full ring
+  localparam int FIRST_IGNORED = 108;  // running_minimum: a new block goes on with the old minimum
+  localparam int FIRST_WITHOUT_INFINITY = 109;  // running_minimum: the first distance counts, even NaN
+  localparam int MINIMUM_WRITTEN_ASIDE = 110;  // running_minimum: written at the next pair's index
+  localparam int MINIMUM_NOT_KEPT = 111;  // running_minimum: the latest distance is written instead
+  localparam int WORST_NEVER_STARTS_ANEW = 112;  // worst_point: the block before goes on counting
+  localparam int WORST_TAKES_LAST_OF_EQUALS = 113;  // worst_point: >= for >
+  localparam int FINAL_IGNORED = 114;  // emax_element: every minimum comes out
+  localparam int LAST_LOST = 115;  // emax_element: the last beat of a block is not marked
+  localparam int EDGES_SWAPPED = 116;  // emax_element: fields of edge13 and edge23 change places
 endpackage
+/* verilator lint_on UNUSEDPARAM */
+/* verilator lint_on DECLFILENAME */
 `endif

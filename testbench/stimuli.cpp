@@ -1,4 +1,4 @@
-#include "tests/support/stimuli.h"
+#include "testbench/stimuli.h"
 
 #include <cmath>
 #include <numbers>

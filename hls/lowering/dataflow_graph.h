@@ -1,0 +1,145 @@
+// The dataflow graph of a function of the kernel: what recorded_value.h records, schedule.h places
+// in time and systemverilog.h writes as a pipeline.
+//
+// Nodes are shared as they are recorded (hash-consing): an operation on the same operands is one
+// node. Rewrites, each keeping every bit of the numeric contract (docs/numerics.md):
+//   a + b = b + a, a * b = b * a     rounding, flushing, signed zeros and the one NaN are symmetric
+//   both, either                     symmetric
+//   a * a -> square(a)               the same product
+//   a < 0 -> less_zero(a), 0 < a -> greater_zero(a)   a comparison with either zero is one of sign
+//   negated(negated(a)) -> a
+// Nothing else: no reassociation, no x - 0 or x * 1 (they flush and canonicalise), no folding.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+namespace emax {
+
+using NodeId = std::uint32_t;
+constexpr NodeId kNoNode = ~NodeId{0};
+
+enum class ValueKind : std::uint8_t { kReal, kCondition, kWord };
+
+enum class Operation : std::uint8_t {
+  kInput,
+  kConstant,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kSquare,
+  kMagnitude,
+  kLess,
+  kLessZero,
+  kGreaterZero,
+  kSelect,  // operands: condition, if true, if false
+  kBoth,
+  kEither,
+  kNegated,
+  kWordLess,
+  kWordSelect,
+};
+constexpr std::size_t kOperations = 16;
+
+struct OperationInfo {
+  std::string_view name;    // in schedules and reports
+  std::string_view result;  // in names of nodes: what the operation gives
+  std::size_t operands;
+  ValueKind kind;
+};
+const OperationInfo& info(Operation operation);
+
+// Bits of a value of the kind.
+constexpr int width(ValueKind kind) { return kind == ValueKind::kCondition ? 1 : 32; }
+
+// Where in the source an operation stands. `file` and `function` outlive the graph (literals).
+struct SourcePlace {
+  std::string_view file;
+  std::uint32_t line = 0, column = 0;
+  std::string_view function;  // with its signature, as the compiler writes it
+
+  auto operator<=>(const SourcePlace&) const = default;
+};
+
+struct Node {
+  Operation operation;
+  ValueKind kind;
+  std::array<NodeId, 3> operands = {kNoNode, kNoNode, kNoNode};
+  std::uint32_t word = 0;  // kConstant: its bits; kInput: its place in inputs()
+  SourcePlace place = {};
+  std::string name = {};
+};
+
+// How an input reaches the pipeline: with the sample, at cycle 0, or out of a memory that is read
+// at the cycle that needs it.
+enum class Arrival : std::uint8_t { kSample, kMemory };
+
+struct Input {
+  std::string name;
+  Arrival arrival;
+  std::uint32_t record_bit;  // lowest bit in the record, for memory
+  NodeId node;
+};
+
+struct Output {
+  std::string name;
+  NodeId node;
+};
+
+// Every operand's id is lower than its consumer's. Recording costs O(log n) a node.
+class DataflowGraph {
+ public:
+  enum class Sharing : std::uint8_t { kOn, kOff };  // off: the brute-force twin, no rewrite at all
+  explicit DataflowGraph(Sharing sharing = Sharing::kOn) : sharing_(sharing) {}
+
+  NodeId add_input(std::string name, ValueKind kind, Arrival arrival, std::uint32_t record_bit = 0);
+  NodeId add_constant(ValueKind kind, std::uint32_t word);
+  // Throws std::invalid_argument where an operand is missing or of the wrong kind.
+  NodeId add_operation(Operation operation, std::array<NodeId, 3> operands, SourcePlace place);
+  void add_output(std::string name, NodeId node);
+
+  // Keeps what the outputs need, in the order of a walk from them with operands left to right, so
+  // that the order does not depend on the order in which a compiler evaluates operands. Returns the
+  // new id of each old node (kNoNode where it is gone).
+  std::vector<NodeId> remove_dead();
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const Node& node(NodeId id) const { return nodes_[id]; }
+  const std::vector<Input>& inputs() const { return inputs_; }
+  const std::vector<Output>& outputs() const { return outputs_; }
+  void set_name(NodeId id, std::string name) { nodes_[id].name = std::move(name); }
+
+  // The operands a node has: a view of its first ones.
+  struct Operands {
+    const NodeId *first, *last;
+    const NodeId* begin() const { return first; }
+    const NodeId* end() const { return last; }
+  };
+  Operands operands(NodeId id) const {
+    const Node& node = nodes_[id];
+    return {node.operands.data(), node.operands.data() + info(node.operation).operands};
+  }
+  bool is_operation(NodeId id) const {
+    return nodes_[id].operation != Operation::kInput &&
+           nodes_[id].operation != Operation::kConstant;
+  }
+  std::size_t count(Operation operation) const;
+
+ private:
+  bool is_zero(NodeId id) const;
+  NodeId append(Node node);
+
+  Sharing sharing_;
+  std::vector<Node> nodes_;
+  std::vector<Input> inputs_;
+  std::vector<Output> outputs_;
+  std::map<std::tuple<Operation, std::array<NodeId, 3>, std::uint32_t, ValueKind>, NodeId> known_;
+};
+
+}  // namespace emax

@@ -1,0 +1,180 @@
+#include "hls/lowering/designs.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "hls/kernel/forms/barycentric.h"
+#include "hls/kernel/forms/three_edge.h"
+#include "hls/kernel/point_triangle.h"
+#include "hls/kernel/reduce.h"
+#include "hls/lowering/kernel_sources.h"
+#include "hls/lowering/naming.h"
+#include "hls/lowering/recorded_value.h"
+
+namespace emax {
+namespace {
+
+constexpr int kBarycentricWords = sizeof(BarycentricRecord<float>) / 4;
+
+// In the order of kForms.
+constexpr FormInfo kFormInfo[] = {
+    {"visible_edge", "squared_distance", "hls/kernel/point_triangle.h", "emax_distance",
+     kRecordWords},
+    {"three_edge", "squared_distance_three_edge", "hls/kernel/forms/three_edge.h",
+     "emax_distance_three_edge", kRecordWords},
+    {"barycentric", "squared_distance_barycentric", "hls/kernel/forms/barycentric.h",
+     "emax_distance_barycentric", kBarycentricWords},
+    {"minimum", "minimum", "hls/kernel/reduce.h", "emax_minimum", 0},
+    {"maximum", "maximum", "hls/kernel/reduce.h", "emax_maximum", 0},
+};
+
+// Inputs named by the way to them; those of a record in the order of its words.
+class Inputs {
+ public:
+  explicit Inputs(DataflowGraph& graph) : graph_(graph) {}
+
+  RecordedValue sample(const std::string& name) {
+    return RecordedValue(graph_.add_input(name, ValueKind::kReal, Arrival::kSample));
+  }
+  RecordedWord word(const std::string& name) {
+    return RecordedWord(graph_.add_input(name, ValueKind::kWord, Arrival::kSample));
+  }
+  Vector3<RecordedValue> point(const std::string& name) {
+    return {sample(name + "_x"), sample(name + "_y"), sample(name + "_z")};
+  }
+  RecordedValue field(const std::string& name) {
+    return RecordedValue(graph_.add_input(name, ValueKind::kReal, Arrival::kMemory, 32 * words_++));
+  }
+  Vector3<RecordedValue> vector3(const std::string& name) {
+    return {field(name + "_x"), field(name + "_y"), field(name + "_z")};
+  }
+  Vector2<RecordedValue> vector2(const std::string& name) {
+    return {field(name + "_y"), field(name + "_z")};
+  }
+  PlanarEdge<RecordedValue> edge(const std::string& name) {
+    return {vector2(name + "_direction"), field(name + "_length")};
+  }
+  TriangleRecord<RecordedValue> record(const std::string& name, RecordedCondition& segment) {
+    TriangleRecord<RecordedValue> t{vector3(name + "_v1"),       vector3(name + "_normal"),
+                                    vector3(name + "_in_plane"), vector3(name + "_along"),
+                                    field(name + "_length12"),   edge(name + "_edge13"),
+                                    edge(name + "_edge23"),      0};
+    constexpr std::uint32_t kSegmentBit = 31;
+    static_assert(kSegmentFlag == 1u << kSegmentBit, "the flag is the highest bit of the tag");
+    segment = RecordedCondition(graph_.add_input("segment", ValueKind::kCondition, Arrival::kMemory,
+                                                 32 * words_++ + kSegmentBit));
+    return t;
+  }
+
+ private:
+  DataflowGraph& graph_;
+  std::uint32_t words_ = 0;
+};
+
+// The functions that `squared_distance` calls, called again for the names of what they return: the
+// graph gives the same nodes.
+void label_view(const TriangleRecord<RecordedValue>& t, const Vector3<RecordedValue>& p,
+                Labels& labels) {
+  const Vector3<RecordedValue> frame = to_frame(t, p);
+  const TriangleView<RecordedValue> view = view_edges(t, frame.y, frame.z);
+  labels[view.edge12.residual.node()] = "residual12";
+  labels[view.edge13.residual.node()] = "residual13";
+  labels[view.edge23.residual.node()] = "residual23";
+}
+
+void record(Form form, DataflowGraph& graph, Labels& labels) {
+  const Recording recording(graph);
+  Inputs inputs(graph);
+  switch (form) {
+    case Form::kVisibleEdge:
+    case Form::kThreeEdge: {
+      const Vector3<RecordedValue> p = inputs.point("p");
+      RecordedCondition segment;
+      const TriangleRecord<RecordedValue> t = inputs.record("t", segment);
+      const RecordedValue result = form == Form::kVisibleEdge
+                                       ? squared_distance(t, segment, p)
+                                       : squared_distance_three_edge(t, segment, p);
+      graph.add_output("squared_distance", result.node());
+      label_view(t, p, labels);
+      break;
+    }
+    case Form::kBarycentric: {
+      const Vector3<RecordedValue> p = inputs.point("p");
+      RecordedCondition segment;
+      const TriangleRecord<RecordedValue> frame = inputs.record("t_frame", segment);
+      const BarycentricRecord<RecordedValue> t{frame,
+                                               inputs.vector2("t_v3"),
+                                               inputs.field("t_inverse_determinant"),
+                                               inputs.field("t_inverse_length12_squared"),
+                                               inputs.field("t_inverse_length13_squared"),
+                                               inputs.field("t_inverse_length23_squared")};
+      graph.add_output("squared_distance", squared_distance_barycentric(t, segment, p).node());
+      break;
+    }
+    case Form::kMinimum: {
+      const RecordedWord so_far = inputs.word("so_far"), next = inputs.word("next");
+      graph.add_output("result", minimum(so_far, next).node());
+      break;
+    }
+    case Form::kMaximum: {
+      const WorstPoint<RecordedWord> so_far{inputs.word("so_far_squared_distance"),
+                                            inputs.word("so_far_index")};
+      const WorstPoint<RecordedWord> next{inputs.word("next_squared_distance"),
+                                          inputs.word("next_index")};
+      const WorstPoint<RecordedWord> result = maximum(so_far, next);
+      graph.add_output("result_squared_distance", result.squared_distance.node());
+      graph.add_output("result_index", result.index.node());
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+const FormInfo& info(Form form) { return kFormInfo[static_cast<int>(form)]; }
+
+std::string_view DelayStyles::style(int bits, int cycles) const {
+  const bool narrow = bits < kNarrowBits;
+  if (cycles <= (narrow ? narrow_registers_up_to : registers_up_to)) return "registers";
+  return narrow || cycles <= memory_up_to ? memory : "block_ram";
+}
+
+DelayStyles delay_styles(Family family) {
+  DelayStyles styles;
+  if (family == Family::kXilinx) {
+    styles = {1, 1, 128, "shift_register"};  // a lookup table delays one bit by up to 32 cycles
+  }
+  return styles;
+}
+
+int LoweredDesign::last_read() const {
+  int last = 0;
+  for (const Input& input : graph.inputs()) {
+    if (input.arrival == Arrival::kMemory) last = std::max(last, schedule.start[input.node] - 1);
+  }
+  return last;
+}
+
+LoweredDesign lower(Form form, const LoweringOptions& options) {
+  LoweredDesign design{form, options, DataflowGraph(), {}, {}};
+  if (design.options.module.empty()) design.options.module = info(form).module;
+  Labels recorded, labels;
+  record(form, design.graph, recorded);
+  const std::vector<NodeId> renamed = design.graph.remove_dead();
+  for (const auto& [node, label] : recorded) {
+    if (renamed[node] != kNoNode) labels[renamed[node]] = label;
+  }
+  name_nodes(design.graph, kernel_source, labels);
+  design.schedule = make_schedule(design.graph, options.latencies);
+  for (NodeId id = 0; id < design.graph.nodes().size(); ++id) {
+    if (design.graph.is_operation(id)) design.probes.push_back(id);
+  }
+  return design;
+}
+
+const LoweredDesign& emax_distance_design() {
+  static const LoweredDesign design = lower(Form::kVisibleEdge, {});
+  return design;
+}
+
+}  // namespace emax

@@ -1,0 +1,68 @@
+// The functions of the kernel that can be lowered, and the designs that are checked in.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hls/lowering/dataflow_graph.h"
+#include "hls/lowering/schedule.h"
+
+namespace emax {
+
+enum class Form { kVisibleEdge, kThreeEdge, kBarycentric, kMinimum, kMaximum };
+constexpr Form kForms[] = {Form::kVisibleEdge, Form::kThreeEdge, Form::kBarycentric, Form::kMinimum,
+                           Form::kMaximum};
+
+struct FormInfo {
+  std::string_view name;      // on the command line
+  std::string_view function;  // in the source
+  std::string_view source;    // path in the repository
+  std::string_view module;    // of the datapath, unless another is asked for
+  int record_words;           // of the record memory beside it; 0 for none
+};
+const FormInfo& info(Form form);
+
+// Which kind of delay line holds how much. Narrow values (below kNarrowBits) stay in registers
+// longer: a memory's address counter costs more than they do.
+struct DelayStyles {
+  int registers_up_to = 2;
+  int narrow_registers_up_to = 8;
+  int memory_up_to = 66;  // beyond it block RAM
+  std::string_view memory = "distributed_ram";
+
+  std::string_view style(int bits, int cycles) const;
+};
+constexpr int kNarrowBits = 8;
+
+enum class Family { kEcp5, kXilinx };
+DelayStyles delay_styles(Family family);
+
+struct LoweringOptions {
+  std::string module;  // empty: the form's own
+  Latencies latencies;
+  DelayStyles delays = delay_styles(Family::kEcp5);
+};
+
+struct LoweredDesign {
+  Form form;
+  LoweringOptions options;  // with the module's name
+  DataflowGraph graph;
+  Schedule schedule;
+  // The nodes on the module's `probes` port, 32 bits each from bit 0 on; node i holds its value at
+  // schedule.ready[i].
+  std::vector<NodeId> probes;
+
+  // Cycles after a slot is presented to the unit in which its record is still read.
+  int last_read() const;
+};
+
+// Records, shares, names and schedules. Throws std::invalid_argument for latencies that cannot be
+// built.
+LoweredDesign lower(Form form, const LoweringOptions& options);
+
+// The design of hls/rtl/generated/emax_distance.sv, emax_distance_unit.sv and
+// emax_distance_schedule.svh, with the options they are generated with.
+const LoweredDesign& emax_distance_design();
+
+}  // namespace emax

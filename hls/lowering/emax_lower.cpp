@@ -1,0 +1,167 @@
+// emax_lower: from a function of the kernel to SystemVerilog.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "hls/lowering/designs.h"
+#include "hls/lowering/report.h"
+#include "hls/lowering/systemverilog.h"
+
+namespace emax {
+namespace {
+
+constexpr const char* kHelp = R"(usage: emax_lower FORM [OPTION...] [-o FILE]
+
+Lowers a function of the kernel to a pipeline and writes it to FILE, or to standard output.
+FORM is visible_edge (the kernel's), three_edge, barycentric, minimum or maximum.
+
+what to write (the datapath unless one of these is given)
+  --unit              the record memory beside the datapath, module NAME_unit
+  --schedule          macros with the schedule's figures for what stands beside the unit
+  --dot               the graph, for Graphviz
+  --report            operations, latency and delay bits, as JSON
+
+how to lower
+  --module NAME       name of the datapath's module
+  --latency K=N,...   cycles of add (12), multiply (10), square (10), less (2), select (1),
+                      zero_compare (0), logic (0); levels=N: lookup tables between registers (3)
+  --family FAMILY     ecp5 (the default) or xilinx: what delays are made of
+  --delay K=N,...     longest delay in registers, narrow_registers (of conditions and slots) and
+                      memory; longer ones take block RAM
+  -o FILE             written whole or not at all
+  --help
+)";
+
+// "a=1,b=2" into the numbers that `fields` names.
+void read_numbers(const std::string& option, const std::string& text,
+                  const std::map<std::string, int*>& fields) {
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::size_t equals = part.find('=');
+    const auto field = fields.find(part.substr(0, equals));
+    if (equals == std::string::npos || field == fields.end()) {
+      std::string known;
+      for (const auto& [name, unused] : fields) known += (known.empty() ? "" : ", ") + name;
+      throw std::invalid_argument(option + ": '" + part + "' is not NAME=NUMBER with one of " +
+                                  known);
+    }
+    const std::string number = part.substr(equals + 1);
+    if (number.empty() || number.size() > 4 ||
+        number.find_first_not_of("0123456789") != std::string::npos) {
+      throw std::invalid_argument(option + ": '" + number + "' in '" + part +
+                                  "' is not a number from 0 to 9999");
+    }
+    *field->second = std::stoi(number);
+  }
+}
+
+Form form_of(const std::string& name) {
+  std::string known;
+  for (const Form form : kForms) {
+    if (info(form).name == name) return form;
+    known += (known.empty() ? "" : ", ") + std::string(info(form).name);
+  }
+  throw std::invalid_argument("unknown form '" + name + "': take one of " + known);
+}
+
+// Beside the file first, then in its place.
+void write_file(const std::string& path, const std::string& text) {
+  const std::string partial = path + ".partial";
+  std::ofstream file(partial, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(partial, path, error);
+  if (!file || error) {
+    std::filesystem::remove(partial, error);
+    throw std::runtime_error(path + ": cannot be written; is its folder there and writable?");
+  }
+}
+
+int run(const std::vector<std::string>& arguments) {
+  LoweringOptions options;
+  std::string form, file, delay;
+  std::string (*writer)(const LoweredDesign&) = datapath_module;
+  const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
+      {"--unit", unit_module},
+      {"--schedule", schedule_header},
+      {"--dot", dot_graph},
+      {"--report", report_json}};
+  bool has_writer = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const auto value = [&] {
+      if (i + 1 == arguments.size()) throw std::invalid_argument(argument + " needs a value");
+      return arguments[++i];
+    };
+    if (argument == "--help" || argument == "-h") {
+      std::cout << kHelp;
+      return 0;
+    }
+    if (const auto found = writers.find(argument); found != writers.end()) {
+      if (has_writer) throw std::invalid_argument(argument + ": one thing to write at a time");
+      has_writer = true;
+      writer = found->second;
+    } else if (argument == "--module") {
+      options.module = value();
+    } else if (argument == "--latency") {
+      Latencies& l = options.latencies;
+      read_numbers("--latency", value(),
+                   {{"add", &l.add},
+                    {"multiply", &l.multiply},
+                    {"square", &l.square},
+                    {"less", &l.less},
+                    {"select", &l.select},
+                    {"zero_compare", &l.zero_compare},
+                    {"logic", &l.logic},
+                    {"levels", &l.levels}});
+    } else if (argument == "--family") {
+      const std::string family = value();
+      if (family != "ecp5" && family != "xilinx") {
+        throw std::invalid_argument("unknown family '" + family + "': take ecp5 or xilinx");
+      }
+      options.delays = delay_styles(family == "ecp5" ? Family::kEcp5 : Family::kXilinx);
+    } else if (argument == "--delay") {
+      delay = value();
+    } else if (argument == "-o") {
+      file = value();
+    } else if (argument.starts_with("-") || !form.empty()) {
+      throw std::invalid_argument("'" + argument + "' is not understood");
+    } else {
+      form = argument;
+    }
+  }
+  if (form.empty()) throw std::invalid_argument("no form is given");
+  DelayStyles& delays = options.delays;  // after the family, wherever it stands
+  read_numbers("--delay", delay,
+               {{"registers", &delays.registers_up_to},
+                {"narrow_registers", &delays.narrow_registers_up_to},
+                {"memory", &delays.memory_up_to}});
+  const std::string text = writer(lower(form_of(form), options));
+  if (file.empty()) {
+    std::cout << text;
+  } else {
+    write_file(file, text);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace emax
+
+int main(int argc, char** argv) {
+  try {
+    return emax::run({argv + 1, argv + argc});
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "emax_lower: " << error.what() << " (emax_lower --help)\n";
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "emax_lower: " << error.what() << "\n";
+    return 1;
+  }
+}

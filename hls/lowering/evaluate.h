@@ -1,0 +1,78 @@
+// The value of every node of a graph, on a scalar of one's choice.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hls/kernel/scalar.h"
+#include "hls/kernel/word.h"
+#include "hls/lowering/dataflow_graph.h"
+
+namespace emax {
+
+// The word of each node (a condition as 0 or 1) for the words of the inputs, in the order of
+// graph.inputs(). With the model's flushing scalar these are the words that the hardware gives.
+// Scalar is constructible from float and has to_word, magnitude and the operators. O(nodes).
+template <class Scalar>
+std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inputs) {
+  std::vector<Word> words;
+  words.reserve(graph.nodes().size());
+  for (const Node& node : graph.nodes()) {
+    const auto word = [&](std::size_t operand) { return words[node.operands[operand]]; };
+    const auto real = [&](std::size_t operand) { return Scalar(to_float(word(operand))); };
+    const Scalar zero(0.0f);
+    Word result = 0;
+    switch (node.operation) {
+      case Operation::kInput:
+        result = inputs[node.word];
+        break;
+      case Operation::kConstant:
+        result = node.word;
+        break;
+      case Operation::kAdd:
+        result = to_word(real(0) + real(1));
+        break;
+      case Operation::kSubtract:
+        result = to_word(real(0) - real(1));
+        break;
+      case Operation::kMultiply:
+        result = to_word(real(0) * real(1));
+        break;
+      case Operation::kSquare:
+        result = to_word(real(0) * real(0));
+        break;
+      case Operation::kMagnitude:
+        result = to_word(magnitude(real(0)));
+        break;
+      case Operation::kLess:
+        result = real(0) < real(1) ? 1 : 0;
+        break;
+      case Operation::kLessZero:
+        result = real(0) < zero ? 1 : 0;
+        break;
+      case Operation::kGreaterZero:
+        result = zero < real(0) ? 1 : 0;
+        break;
+      case Operation::kSelect:
+      case Operation::kWordSelect:
+        result = word(0) != 0 ? word(1) : word(2);
+        break;
+      case Operation::kBoth:
+        result = word(0) & word(1);
+        break;
+      case Operation::kEither:
+        result = word(0) | word(1);
+        break;
+      case Operation::kNegated:
+        result = word(0) ^ 1u;
+        break;
+      case Operation::kWordLess:
+        result = word(0) < word(1) ? 1 : 0;
+        break;
+    }
+    words.push_back(result);
+  }
+  return words;
+}
+
+}  // namespace emax

@@ -1,0 +1,122 @@
+// Scalars that record. A function on the kernel's scalar template, called with them, appends its
+// operations to a DataflowGraph in place of computing. A recorded condition has no truth value: a
+// function that branches on data does not compile.
+//
+// An operation's first parameter is implicitly made from a recorded value and takes the place of
+// the call in the source with it, so the kernel needs no annotation.
+#pragma once
+
+#include <source_location>
+
+#include "hls/kernel/word.h"
+#include "hls/lowering/dataflow_graph.h"
+
+namespace emax {
+
+// While it lives, this thread records into `graph`. Recordings nest.
+class Recording {
+ public:
+  explicit Recording(DataflowGraph& graph) : outer_(active_) { active_ = &graph; }
+  ~Recording() { active_ = outer_; }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  static DataflowGraph& graph() { return *active_; }
+
+ private:
+  static inline thread_local DataflowGraph* active_ = nullptr;
+  DataflowGraph* outer_;
+};
+
+template <class Recorded>
+struct Located {
+  // Implicit: this conversion is where the place of the operation is taken.
+  Located(const Recorded& recorded,  // NOLINT(google-explicit-constructor)
+          std::source_location at = std::source_location::current())
+      : node(recorded.node()), place{at.file_name(), at.line(), at.column(), at.function_name()} {}
+
+  NodeId node;
+  SourcePlace place;
+};
+
+// What is common to them: a node of the graph. CRTP only keeps the kinds apart.
+template <class Recorded>
+class RecordedNode {
+ public:
+  RecordedNode() = default;
+  explicit RecordedNode(NodeId node) : node_(node) {}
+  NodeId node() const { return node_; }
+
+ private:
+  NodeId node_ = kNoNode;
+};
+
+template <class Result, class First>
+Result recorded(Operation operation, const Located<First>& a, NodeId b = kNoNode,
+                NodeId c = kNoNode) {
+  return Result(Recording::graph().add_operation(operation, {a.node, b, c}, a.place));
+}
+
+class RecordedCondition : public RecordedNode<RecordedCondition> {
+  using Here = Located<RecordedCondition>;
+
+ public:
+  using RecordedNode::RecordedNode;
+
+  friend RecordedCondition both(const Here& a, const RecordedCondition& b) {
+    return recorded<RecordedCondition>(Operation::kBoth, a, b.node());
+  }
+  friend RecordedCondition either(const Here& a, const RecordedCondition& b) {
+    return recorded<RecordedCondition>(Operation::kEither, a, b.node());
+  }
+  friend RecordedCondition negated(const Here& a) {
+    return recorded<RecordedCondition>(Operation::kNegated, a);
+  }
+};
+
+// A binary32 value.
+class RecordedValue : public RecordedNode<RecordedValue> {
+  using Here = Located<RecordedValue>;
+
+ public:
+  using RecordedNode::RecordedNode;
+  explicit RecordedValue(float value)
+      : RecordedNode(Recording::graph().add_constant(ValueKind::kReal, to_word(value))) {}
+
+  friend RecordedValue operator+(const Here& a, const RecordedValue& b) {
+    return recorded<RecordedValue>(Operation::kAdd, a, b.node());
+  }
+  friend RecordedValue operator-(const Here& a, const RecordedValue& b) {
+    return recorded<RecordedValue>(Operation::kSubtract, a, b.node());
+  }
+  friend RecordedValue operator*(const Here& a, const RecordedValue& b) {
+    return recorded<RecordedValue>(Operation::kMultiply, a, b.node());
+  }
+  friend RecordedCondition operator<(const Here& a, const RecordedValue& b) {
+    return recorded<RecordedCondition>(Operation::kLess, a, b.node());
+  }
+  friend RecordedValue magnitude(const Here& a) {
+    return recorded<RecordedValue>(Operation::kMagnitude, a);
+  }
+  friend RecordedValue select(const Located<RecordedCondition>& condition,
+                              const RecordedValue& if_true, const RecordedValue& if_false) {
+    return recorded<RecordedValue>(Operation::kSelect, condition, if_true.node(), if_false.node());
+  }
+};
+
+// An unsigned 32-bit integer.
+class RecordedWord : public RecordedNode<RecordedWord> {
+ public:
+  using RecordedNode::RecordedNode;
+
+  friend RecordedCondition operator<(const Located<RecordedWord>& a, const RecordedWord& b) {
+    return recorded<RecordedCondition>(Operation::kWordLess, a, b.node());
+  }
+  friend RecordedWord select(const Located<RecordedCondition>& condition,
+                             const RecordedWord& if_true, const RecordedWord& if_false) {
+    return recorded<RecordedWord>(Operation::kWordSelect, condition, if_true.node(),
+                                  if_false.node());
+  }
+};
+
+}  // namespace emax

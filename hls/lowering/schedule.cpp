@@ -1,0 +1,210 @@
+#include "hls/lowering/schedule.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "hls/lowering/max_closure.h"
+
+namespace emax {
+
+int Latencies::of(Operation operation) const {
+  switch (operation) {
+    case Operation::kAdd:
+    case Operation::kSubtract:
+      return add;
+    case Operation::kMultiply:
+      return multiply;
+    case Operation::kSquare:
+      return square;
+    case Operation::kLess:
+      return less;
+    case Operation::kSelect:
+      return select;
+    case Operation::kLessZero:
+    case Operation::kGreaterZero:
+      return zero_compare;
+    case Operation::kBoth:
+    case Operation::kEither:
+      return logic;
+    default:
+      return 0;
+  }
+}
+
+int Latencies::levels_of(Operation operation) const {
+  switch (operation) {
+    case Operation::kLessZero:
+    case Operation::kGreaterZero:
+      return 2;  // sign and exponent, with four-input tables
+    case Operation::kSelect:
+    case Operation::kBoth:
+    case Operation::kEither:
+      return 1;
+    case Operation::kAdd:
+    case Operation::kSubtract:
+    case Operation::kMultiply:
+    case Operation::kSquare:
+    case Operation::kLess:
+      return levels;  // they fill their first stage: operands come from registers
+    default:
+      return 0;  // wires, an inverter that its user absorbs, or words, whose user pipelines
+  }
+}
+
+namespace {
+
+// A value, the node that uses it, and the cycles that must lie between being ready and the use: 1
+// where a register has to cut a chain of combinational nodes, else 0.
+struct Use {
+  NodeId value, user;
+  int gap;
+};
+
+void check(const Latencies& l) {
+  const auto require = [](bool holds, const std::string& message) {
+    if (!holds) throw std::invalid_argument(message);
+  };
+  for (const auto& [name, cycles] : {std::pair{"add", l.add},
+                                     {"multiply", l.multiply},
+                                     {"square", l.square},
+                                     {"less", l.less}}) {
+    require(cycles >= 1 && cycles <= 64,
+            std::string("latency ") + name + " must be 1 to 64, not " + std::to_string(cycles));
+  }
+  for (const auto& [name, cycles] :
+       {std::pair{"select", l.select}, {"zero_compare", l.zero_compare}, {"logic", l.logic}}) {
+    require(cycles == 0 || cycles == 1,
+            std::string("latency ") + name + " must be 0 or 1, not " + std::to_string(cycles));
+  }
+  require(l.levels >= 2, "levels must be at least 2: a comparison with zero takes two");
+}
+
+// Cut where levels would exceed their limit if every combinational node shared its operands' cycle:
+// more registers than a given schedule needs at times, but then any schedule that keeps the gaps is
+// sound.
+std::vector<Use> uses_with_gaps(const DataflowGraph& graph, const Latencies& latencies) {
+  std::vector<int> depth(graph.nodes().size(), 0);
+  std::vector<Use> uses;
+  for (NodeId id = 0; id < graph.nodes().size(); ++id) {
+    const Operation operation = graph.node(id).operation;
+    const int own = latencies.levels_of(operation);
+    int before = 0;
+    for (const NodeId operand : graph.operands(id)) {
+      if (graph.node(operand).operation == Operation::kConstant) continue;
+      const bool cut = depth[operand] > 0 && depth[operand] + own > latencies.levels;
+      if (!cut) before = std::max(before, depth[operand]);
+      uses.push_back({operand, id, cut ? 1 : 0});
+    }
+    if (graph.is_operation(id) && latencies.of(operation) == 0) depth[id] = before + own;
+  }
+  return uses;
+}
+
+class Scheduler {
+ public:
+  Scheduler(const DataflowGraph& graph, const Latencies& latencies)
+      : graph_(graph), latencies_(latencies) {
+    check(latencies);
+    uses_ = uses_with_gaps(graph, latencies);
+    start_.assign(graph.nodes().size(), 0);
+    for (const Input& input : graph.inputs()) {
+      if (input.arrival == Arrival::kMemory) start_[input.node] = 1;
+    }
+    for (const Use& use : uses_) {  // in the order of users, so operands are placed
+      start_[use.user] = std::max(start_[use.user], ready(use.value) + use.gap);
+    }
+    for (const Output& output : graph.outputs()) latency_ = std::max(latency_, ready(output.node));
+  }
+
+  // The delay bits are an L-natural-convex function of the starts: moving up by one, again and
+  // again, the set of nodes that saves the most, from the least schedule there is, ends at the
+  // global minimum. Which set that is, is a closure problem: an item for every node, which saves
+  // the wait of its result and needs its tight users to move along, and one for the end of every
+  // value's chain, which costs when a last user moves.
+  void move_slack() {
+    const std::size_t nodes = graph_.nodes().size();
+    while (true) {
+      const std::vector<int> end = last_uses();
+      ClosureProblem problem;
+      problem.profit.assign(2 * nodes, 0);
+      constexpr long kForbidden = 1L << 30;
+      for (NodeId id = 0; id < nodes; ++id) {
+        const long bits = width(graph_.node(id).kind);
+        problem.profit[id] = movable(id) ? bits : -kForbidden;
+        problem.profit[nodes + id] = -bits;
+      }
+      for (const Output& output : graph_.outputs()) {
+        if (ready(output.node) == latency_) problem.profit[output.node] = -kForbidden;
+      }
+      for (const Use& use : uses_) {
+        if (ready(use.value) + use.gap == start_[use.user]) {
+          problem.needs.emplace_back(use.value, use.user);
+        }
+        if (start_[use.user] == end[use.value]) {
+          problem.needs.emplace_back(use.user, nodes + use.value);
+        }
+      }
+      const std::vector<bool> chosen = max_closure(problem);
+      bool moved = false;
+      for (NodeId id = 0; id < nodes; ++id) {
+        if (!chosen[id]) continue;
+        ++start_[id];
+        moved = true;
+      }
+      if (!moved) return;
+    }
+  }
+
+  Schedule result() const {
+    Schedule schedule;
+    schedule.start = start_;
+    schedule.last_use = last_uses();
+    schedule.latency = latency_;
+    for (NodeId id = 0; id < start_.size(); ++id) {
+      schedule.ready.push_back(ready(id));
+      schedule.delay_bits +=
+          long{width(graph_.node(id).kind)} * (schedule.last_use[id] - schedule.ready[id]);
+    }
+    return schedule;
+  }
+
+ private:
+  bool movable(NodeId id) const {
+    const Node& node = graph_.node(id);
+    if (node.operation == Operation::kInput) {
+      return graph_.inputs()[node.word].arrival == Arrival::kMemory;
+    }
+    return node.operation != Operation::kConstant;
+  }
+  int ready(NodeId id) const { return start_[id] + latencies_.of(graph_.node(id).operation); }
+  std::vector<int> last_uses() const {
+    std::vector<int> last;
+    for (NodeId id = 0; id < start_.size(); ++id) last.push_back(ready(id));
+    for (const Use& use : uses_) last[use.value] = std::max(last[use.value], start_[use.user]);
+    for (const Output& output : graph_.outputs()) {
+      if (graph_.node(output.node).operation != Operation::kConstant) last[output.node] = latency_;
+    }
+    return last;
+  }
+
+  const DataflowGraph& graph_;
+  const Latencies latencies_;
+  std::vector<Use> uses_;
+  std::vector<int> start_;
+  int latency_ = 0;
+};
+
+}  // namespace
+
+Schedule make_schedule(const DataflowGraph& graph, const Latencies& latencies) {
+  Scheduler scheduler(graph, latencies);
+  scheduler.move_slack();
+  return scheduler.result();
+}
+
+Schedule make_earliest_schedule(const DataflowGraph& graph, const Latencies& latencies) {
+  return Scheduler(graph, latencies).result();
+}
+
+}  // namespace emax

@@ -1,0 +1,49 @@
+// When each node of a graph computes, in a pipeline that takes a sample every cycle.
+//
+// A node that starts at cycle c reads its operands in cycle c and gives its result in cycle
+// c + latency, its ready cycle. A value waits in a chain of delays from its ready cycle to its last
+// use, tapped by every use before. Inputs of a sample are there at cycle 0; inputs out of a memory
+// from cycle 1 on, at the one cycle that the schedule chooses.
+//
+// The latency of the whole is the least that the operators' latencies permit, and among the
+// schedules of that latency the one found has the fewest delay bits (sum of width * cycles waited).
+#pragma once
+
+#include <vector>
+
+#include "hls/lowering/dataflow_graph.h"
+
+namespace emax {
+
+// Cycles of each operator. What has latency 0 is combinational and shares a cycle with what follows
+// as long as at most `levels` levels of lookup tables lie between registers.
+struct Latencies {
+  int add = 12;  // and subtract
+  int multiply = 10;
+  int square = 10;
+  int less = 2;
+  int select = 1;        // 0 or 1
+  int zero_compare = 0;  // 0 or 1
+  int logic = 0;         // 0 or 1
+  int levels = 3;
+
+  int of(Operation operation) const;
+  // Levels of lookup tables between an operand and the operator's first register, or its result.
+  int levels_of(Operation operation) const;
+};
+
+struct Schedule {
+  std::vector<int> start, ready;  // by node; constants at 0
+  std::vector<int> last_use;  // the cycle of a node's last use; its ready cycle if there is none
+  int latency = 0;            // the cycle in which the outputs are valid
+  long delay_bits = 0;
+};
+
+// Throws std::invalid_argument for latencies that cannot be built.
+// O(latency * nodes * edges) at worst; milliseconds for the kernel's forms.
+Schedule make_schedule(const DataflowGraph& graph, const Latencies& latencies);
+
+// As soon as possible, the slack not yet used: the start of make_schedule, and its yardstick.
+Schedule make_earliest_schedule(const DataflowGraph& graph, const Latencies& latencies);
+
+}  // namespace emax

@@ -1,0 +1,76 @@
+// `q` is `d` DEPTH clock edges ago. DEPTH 0 is a wire.
+//
+// STYLE "registers" and "shift_register" hold every value in a chain (the latter lets Xilinx tools
+// take SRLs). "distributed_ram" and "block_ram" are circular buffers whose last step is a register;
+// no reset: what leaves within the first DEPTH edges is unknown. Distributed RAM is cut into pieces
+// of at most 17 edges, the depth of one 16-word LUT RAM and its register.
+module delay_line #(
+    parameter int WIDTH = 32,
+    parameter int DEPTH = 1,
+    parameter logic [127:0] STYLE = "registers"
+) (
+    input  logic             clk,
+    input  logic [WIDTH-1:0] d,
+    output logic [WIDTH-1:0] q
+);
+  // Names of one width, so that tools compare them without a warning.
+  localparam logic [127:0] CHAIN = "registers", SHIFT = "shift_register";
+  localparam logic [127:0] LUT_RAM = "distributed_ram", RAM = "block_ram";
+  localparam bit DISTRIBUTED = STYLE == LUT_RAM;
+  localparam bit BLOCK = STYLE == RAM;
+  localparam int PIECE = 17;
+
+  if (STYLE != CHAIN && STYLE != SHIFT && !DISTRIBUTED && !BLOCK) begin : bad_style
+    $error("delay_line: STYLE is registers, shift_register, distributed_ram or block_ram");
+  end
+  if (WIDTH < 1 || DEPTH < 0) begin : bad_size
+    $error("delay_line: WIDTH must be at least 1 and DEPTH at least 0");
+  end
+
+  if (DEPTH <= 0) begin : wires
+    wire unused = clk;
+    assign q = d;
+  end else if (DEPTH == 1) begin : one
+    always_ff @(posedge clk) q <= d;
+  end else if (DISTRIBUTED && DEPTH > PIECE) begin : pieces
+    logic [WIDTH-1:0] between;
+    delay_line #(.WIDTH(WIDTH), .DEPTH(PIECE), .STYLE(STYLE)) first (.clk, .d, .q(between));
+    delay_line #(.WIDTH(WIDTH), .DEPTH(DEPTH - PIECE), .STYLE(STYLE)) rest (
+        .clk, .d(between), .q
+    );
+  end else if (DISTRIBUTED && DEPTH > 2) begin : distributed
+    localparam int WORDS = DEPTH - 1;
+    localparam int BITS = $clog2(WORDS);
+    (* ram_style = "distributed" *) logic [WIDTH-1:0] words[WORDS];
+    logic [BITS-1:0] place = '0;
+    always_ff @(posedge clk) begin
+      place <= place == BITS'(WORDS - 1) ? '0 : place + 1'b1;
+      words[place] <= d;
+      q <= words[place];
+    end
+  end else if (BLOCK && DEPTH > 3) begin : block
+    // The place read is another than the one written, and the memory's own output is a register of
+    // its own: both are what block RAM has.
+    localparam int WORDS = DEPTH - 1;
+    localparam int BITS = $clog2(WORDS);
+    (* ram_style = "block" *) logic [WIDTH-1:0] words[WORDS];
+    logic [BITS-1:0] place = '0;
+    logic [BITS-1:0] next;
+    logic [WIDTH-1:0] word;
+    assign next = place == BITS'(WORDS - 1) ? '0 : place + 1'b1;
+    always_ff @(posedge clk) begin
+      place <= next;
+      words[place] <= d;
+      word <= words[next];
+      q <= word;
+    end
+  end else begin : chain
+    (* shreg_extract = STYLE == SHIFT ? "yes" : "no" *)
+    logic [WIDTH-1:0] stage[DEPTH];
+    always_ff @(posedge clk) begin
+      stage[0] <= d;
+      for (int i = 1; i < DEPTH; i++) stage[i] <= stage[i-1];
+    end
+    assign q = stage[DEPTH-1];
+  end
+endmodule

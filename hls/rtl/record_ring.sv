@@ -1,0 +1,64 @@
+// The accounting of a ring of 2^SLOT_BITS record slots; the words themselves lie in the memories of
+// emax_distance_unit.
+//
+// A record that arrives is written into `write_slot` with `write_enable`; pairs read `slot`, the
+// oldest record, until `advance` (the record's last pair enters). The datapath reads the fields of a
+// record at several cycles, the last of them LAST_READ cycles after the pair entered: only then is
+// the slot free again. `loaded_next` says whether the next cycle has a record to read.
+// s_axis_record_tready is a register. A different record every cycle is sustained when
+// 2^SLOT_BITS >= LAST_READ + 3.
+`include "mutation.svh"
+
+module record_ring #(
+    parameter int SLOT_BITS = 4,
+    parameter int LAST_READ = 40
+) (
+    input  logic                 clk,
+    input  logic                 aresetn,
+    input  logic                 s_axis_record_tvalid,
+    output logic                 s_axis_record_tready,
+    output logic                 write_enable,
+    output logic [SLOT_BITS-1:0] write_slot,
+    input  logic                 advance,
+    output logic [SLOT_BITS-1:0] slot,
+    output logic                 loaded_next
+);
+  localparam logic [SLOT_BITS:0] ALL = (SLOT_BITS + 1)'(1) << SLOT_BITS;
+
+  logic [SLOT_BITS:0] free, free_next, loaded, loaded_count_next;
+  logic release_late, release_slot;
+
+  assign write_enable = s_axis_record_tvalid && s_axis_record_tready;
+  assign free_next = free + (SLOT_BITS + 1)'(release_slot) - (SLOT_BITS + 1)'(write_enable);
+  assign loaded_count_next =
+      loaded + (SLOT_BITS + 1)'(write_enable) - (SLOT_BITS + 1)'(advance);
+  assign loaded_next = loaded_count_next != 0;
+  assign release_slot = `MUTATED(SLOT_FREED_EARLY, release_late, advance);
+
+  valid_line #(.DEPTH(LAST_READ)) release_line (
+      .clk, .aresetn, .d(advance), .q(release_late));
+
+  always_ff @(posedge clk) begin
+    if (!aresetn) begin
+      write_slot <= '0;
+      slot <= '0;
+      free <= ALL;
+      loaded <= '0;
+      s_axis_record_tready <= 1'b0;
+    end else begin
+      if (write_enable) write_slot <= write_slot + 1;
+      if (advance) slot <= slot + `MUTATED(RING_SKIPS_A_SLOT, 1, 2);
+      free <= free_next;
+      loaded <= loaded_count_next;
+      s_axis_record_tready <= `MUTATED(RING_OVERFILLED, free_next != 0, 1'b1);
+    end
+  end
+
+`ifndef SYNTHESIS
+  always_ff @(posedge clk) begin
+    if (aresetn) begin
+      assert (!(advance && loaded == 0)) else $error("a pair entered where no record was");
+    end
+  end
+`endif
+endmodule

@@ -1,0 +1,44 @@
+// The running minimum of each point over the records it has met: a memory of 2^POINT_BITS words,
+// read, compared and written once a cycle.
+//
+//   cycle  -2        -1        0                      1
+//          read      (fetch)   minimum(so_far, next)  `minimum` valid, written at its end
+//
+// A pair's index comes two cycles before its squared distance. Two pairs of one index must be at
+// least READ_MODIFY_WRITE cycles apart, unless the later one is the point's first: it does not read.
+// The memory is not reset; `first_pair` starts a point at infinity.
+`include "mutation.svh"
+
+module running_minimum #(
+    parameter int POINT_BITS = 10
+) (
+    input  logic                  clk,
+    input  logic [POINT_BITS-1:0] early_index,       // cycle -2
+    input  logic                  valid,             // cycle 0
+    input  logic                  first_pair,
+    input  logic [POINT_BITS-1:0] index,
+    input  logic [31:0]           squared_distance,
+    output logic [31:0]           minimum            // cycle 1
+);
+  localparam logic [31:0] INFINITY_WORD = 32'h7f800000;
+
+  logic [31:0] memory[2**POINT_BITS];
+  logic [31:0] fetched, stored, so_far, smaller;
+  logic [POINT_BITS-1:0] write_index;
+  logic write_enable;
+
+  assign so_far = `MUTATED(FIRST_IGNORED, first_pair, 1'b0) ? INFINITY_WORD : stored;
+
+  emax_minimum compare (.so_far(so_far), .next(squared_distance), .result(smaller));
+
+  always_ff @(posedge clk) begin
+    fetched <= memory[early_index];
+    stored <= fetched;
+    minimum <= `MUTATED(FIRST_WITHOUT_INFINITY, smaller, first_pair ? squared_distance : smaller);
+    write_enable <= valid;
+    write_index <= index;
+    if (write_enable)
+      memory[`MUTATED(MINIMUM_WRITTEN_ASIDE, write_index, index)] <=
+          `MUTATED(MINIMUM_NOT_KEPT, minimum, squared_distance);
+  end
+endmodule

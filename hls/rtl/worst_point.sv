@@ -1,0 +1,46 @@
+// The worst point of a block: the maximum of its final minima and the index of the first of them
+// that attains it. A value a cycle; `worst` and `done` come one cycle after the block's last value.
+// The block that follows may begin in the next cycle. aresetn forgets the block under way.
+`include "mutation.svh"
+
+module worst_point #(
+    parameter int POINT_BITS = 10
+) (
+    input  logic                  clk,
+    input  logic                  aresetn,
+    input  logic                  valid,
+    input  logic                  last,  // of the block
+    input  logic [31:0]           squared_distance,
+    input  logic [POINT_BITS-1:0] index,
+    output logic                  done,
+    output logic [63:0]           worst  // index, squared distance
+);
+  logic start;  // the next value is its block's first
+  logic [31:0] next_index, greater, greater_index;
+
+  assign next_index = 32'(index);
+
+  emax_maximum compare (
+      .so_far_squared_distance(worst[31:0]),
+      .so_far_index(worst[63:32]),
+      .next_squared_distance(squared_distance),
+      .next_index(next_index),
+      .result_squared_distance(greater),
+      .result_index(greater_index));
+
+  always_ff @(posedge clk) begin
+    if (!aresetn) begin
+      start <= 1'b1;
+      done  <= 1'b0;
+    end else begin
+      if (valid) start <= `MUTATED(WORST_NEVER_STARTS_ANEW, last, 1'b0);
+      done <= valid && last;
+    end
+    if (valid) begin
+      if (start) worst <= {next_index, squared_distance};
+      else if (`MUTATED(WORST_TAKES_LAST_OF_EQUALS, 1'b0, squared_distance == worst[31:0]))
+        worst <= {next_index, squared_distance};
+      else worst <= {greater_index, greater};
+    end
+  end
+endmodule
