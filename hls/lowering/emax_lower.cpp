@@ -69,8 +69,14 @@ Form form_of(const std::string& name) {
   throw std::invalid_argument("unknown form '" + name + "': take one of " + known);
 }
 
-// Beside the file first, then in its place.
+// Beside the file first, then in its place. A file that is right already keeps its time, so that
+// nothing is built again for it.
 void write_file(const std::string& path, const std::string& text) {
+  if (std::ifstream before(path, std::ios::binary); before) {
+    std::ostringstream content;
+    content << before.rdbuf();
+    if (content.str() == text) return;
+  }
   const std::string partial = path + ".partial";
   std::ofstream file(partial, std::ios::binary);
   file << text;

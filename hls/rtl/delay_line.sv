@@ -4,6 +4,8 @@
 // take SRLs). "distributed_ram" and "block_ram" are circular buffers whose last step is a register;
 // no reset: what leaves within the first DEPTH edges is unknown. Distributed RAM is cut into pieces
 // of at most 17 edges, the depth of one 16-word LUT RAM and its register.
+`include "mutation.svh"
+
 module delay_line #(
     parameter int WIDTH = 32,
     parameter int DEPTH = 1,
@@ -41,10 +43,11 @@ module delay_line #(
   end else if (DISTRIBUTED && DEPTH > 2) begin : distributed
     localparam int WORDS = DEPTH - 1;
     localparam int BITS = $clog2(WORDS);
+    localparam logic [BITS-1:0] LAST = BITS'(WORDS - 1);
     (* ram_style = "distributed" *) logic [WIDTH-1:0] words[WORDS];
     logic [BITS-1:0] place = '0;
     always_ff @(posedge clk) begin
-      place <= place == BITS'(WORDS - 1) ? '0 : place + 1'b1;
+      place <= place == `MUTATED(DELAY_ONE_SHORT, LAST, LAST - 1'b1) ? '0 : place + 1'b1;
       words[place] <= d;
       q <= words[place];
     end

@@ -1,6 +1,8 @@
 // One field of 2^SLOT_BITS records: simple dual port, read latency 1 (registered output). A word
 // written at a clock edge is read by any read_slot presented after that edge; a read at the edge of
 // its own slot's write gives the old word.
+`include "mutation.svh"
+
 module field_memory #(
     parameter int WIDTH = 32,
     parameter int SLOT_BITS = 4
@@ -18,7 +20,7 @@ module field_memory #(
 
   (* ram_style = "distributed" *) logic [WIDTH-1:0] words[1<<SLOT_BITS];
   always_ff @(posedge clk) begin
-    if (write_enable) words[write_slot] <= write_data;
+    if (`MUTATED(FIELD_ALWAYS_WRITTEN, write_enable, 1'b1)) words[write_slot] <= write_data;
     read_data <= words[read_slot];
   end
 endmodule

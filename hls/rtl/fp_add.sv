@@ -48,10 +48,15 @@ module fp_add #(
       .clk, .d({b[W-1] ^ SUBTRACT, b[W-2:0]}), .q(b_0)
   );
 
-  // Step 1: which magnitude is less; both differences of the exponents; which operands are zero.
+  // Step 1: which magnitude is less (a difference's top bit leaves a carry chain faster than a
+  // comparison does); both differences of the exponents; which operands are zero.
   logic [W-1:0] a_1, b_1;
   logic [EXPONENT-1:0] a_minus_b_1, b_minus_a_1;
   logic less_1, a_zero_1, b_zero_1;
+  /* verilator lint_off UNUSEDSIGNAL */  // only the sign matters
+  logic [W-1:0] order_0;
+  /* verilator lint_on UNUSEDSIGNAL */
+  assign order_0 = {1'b0, a_0[W-2:0]} - {1'b0, b_0[W-2:0]};
   delay_line #(.WIDTH(W), .DEPTH(32'(CUT[1]))) cut_1a (.clk, .d(a_0), .q(a_1));
   delay_line #(.WIDTH(W), .DEPTH(32'(CUT[1]))) cut_1b (.clk, .d(b_0), .q(b_1));
   delay_line #(.WIDTH(2 * EXPONENT + 3), .DEPTH(32'(CUT[1]))) cut_1c (
@@ -59,7 +64,7 @@ module fp_add #(
       .d({
         a_0[W-2-:EXPONENT] - b_0[W-2-:EXPONENT],
         b_0[W-2-:EXPONENT] - a_0[W-2-:EXPONENT],
-        `MUTATED(ADD_ORDER_BY_EXPONENT, a_0[W-2:0] < b_0[W-2:0],
+        `MUTATED(ADD_ORDER_BY_EXPONENT, order_0[W-1],
                  a_0[W-2-:EXPONENT] < b_0[W-2-:EXPONENT]),
         a_0[W-2-:EXPONENT] == '0,
         b_0[W-2-:EXPONENT] == '0
@@ -91,9 +96,11 @@ module fp_add #(
       .q({shift_2, small_zero_2, sign_2, negative_2, subtract_2})
   );
 
-  // Step 3: shift the smaller by eights; find out what is special. An infinite smaller operand
-  // shows as a shift of zero beside a larger one that is not finite.
+  // Step 3: shift the smaller by eights; find out what is special (the fraction is looked at in
+  // halves: fewer levels of logic). An infinite smaller operand shows as a shift of zero beside a
+  // larger one that is not finite.
   localparam int KINDS = 4;  // zero, special (infinity or NaN), NaN, negative
+  localparam int HALF = MANTISSA / 2;
   function automatic logic lost_bytes(input logic [31:0] value,
                                       input logic [SHIFT_BITS-1:0] shift);
     lost_bytes = 1'b0;
@@ -105,17 +112,16 @@ module fp_add #(
   logic [MANTISSA-1:0] larger_3;
   logic [EXPONENT-1:0] exponent_3;
   logic [2:0] shift_3;
-  logic far_3, small_zero_3, lost_3, sign_3, subtract_3, special_2;
-  logic [KINDS-1:0] kind_3;
+  logic far_3, small_zero_3, lost_3, sign_3, subtract_3;
+  logic zero_3, special_3, upper_3, lower_3, opposite_3, negative_3;
   assign smaller_0b = {1'b1, smaller_2, 2'b00};
-  assign special_2  = larger_2[W-2-:EXPONENT] == '1;
   delay_line #(.WIDTH(ALIGNED), .DEPTH(32'(CUT[3]))) cut_3a (
       .clk, .d(smaller_0b >> (shift_2[SHIFT_BITS-1:0] & ~SHIFT_BITS'(7))), .q(smaller_3)
   );
   delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[3]))) cut_3b (
       .clk, .d(larger_2), .q({exponent_3, larger_3})
   );
-  delay_line #(.WIDTH(8 + KINDS), .DEPTH(32'(CUT[3]))) cut_3c (
+  delay_line #(.WIDTH(14), .DEPTH(32'(CUT[3]))) cut_3c (
       .clk,
       .d({
         3'(shift_2),
@@ -125,11 +131,16 @@ module fp_add #(
         sign_2,
         subtract_2,
         larger_2[W-2-:EXPONENT] == '0,
-        special_2,
-        special_2 & (larger_2[MANTISSA-1:0] != '0 | (subtract_2 & shift_2 == '0)),
+        larger_2[W-2-:EXPONENT] == '1,
+        larger_2[MANTISSA-1:HALF] != '0,
+        larger_2[HALF-1:0] != '0,
+        subtract_2 & shift_2 == '0,
         negative_2
       }),
-      .q({shift_3, far_3, small_zero_3, lost_3, sign_3, subtract_3, kind_3})
+      .q({
+        shift_3, far_3, small_zero_3, lost_3, sign_3, subtract_3,
+        zero_3, special_3, upper_3, lower_3, opposite_3, negative_3
+      })
   );
 
   // Step 4: shift by twos; nothing is left of a zero, and only a sticky bit of what is far below.
@@ -153,7 +164,16 @@ module fp_add #(
   );
   delay_line #(.WIDTH(4 + KINDS), .DEPTH(32'(CUT[4]))) cut_4c (
       .clk,
-      .d({shift_3[0], ~small_zero_3 & lost_now_3, sign_3, subtract_3, kind_3}),
+      .d({
+        shift_3[0],
+        ~small_zero_3 & lost_now_3,
+        sign_3,
+        subtract_3,
+        zero_3,
+        special_3,
+        special_3 & (upper_3 | lower_3 | opposite_3),
+        negative_3
+      }),
       .q({shift_4, lost_4, sign_4, subtract_4, kind_4})
   );
 
@@ -269,22 +289,24 @@ module fp_add #(
       .q({exponent_10, sign_10, kind_10})
   );
 
-  // Step 11: round; the carry runs through the exponent, where the hidden bit adds one. An exponent
-  // that becomes all ones is infinity, whose fraction is already zero if rounding led there.
-  /* verilator lint_off UNUSEDSIGNAL */  // bit 0 makes the carry in
-  logic [EXPONENT+MANTISSA:0] rounded_10;
+  // Step 11: round; the carry runs through the exponent, where the hidden bit adds one. Whether to
+  // round up is decided inside the chain: adding the half bit to each reason in turn carries when
+  // the half bit and a reason before or here are set. An exponent that becomes all ones is infinity,
+  // whose fraction is already zero if rounding led there.
+  localparam int REASONS = 4;  // the fraction's last bit and the three places below the half bit
+  /* verilator lint_off UNUSEDSIGNAL */  // the low places make the carry in
+  logic [W-2+REASONS:0] rounded_10;
   /* verilator lint_on UNUSEDSIGNAL */
   logic [W-2:0] rounded_11;
-  logic zero_10, special_10, nan_10, negative_10, none_10, up_10, sign_11;
+  logic zero_10, special_10, nan_10, negative_10, none_10, sign_11;
   logic ones_exponent_11, clear_exponent_11, clear_fraction_11, nan_11;
   assign {zero_10, special_10, nan_10, negative_10} = kind_10;
   assign none_10 = zero_10 | ~total_10[31];
-  assign up_10 = total_10[LAST-1]
-      & (`MUTATED(ADD_TIES_UP, total_10[LAST], 1'b1) | (|total_10[LAST-2:0]));
-  assign rounded_10 = {exponent_10[EXPONENT-1:0], total_10[30:LAST], 1'b1}
-      + {EXPONENT'(1), MANTISSA'(0), up_10};
+  assign rounded_10 = {exponent_10[EXPONENT-1:0], total_10[30:LAST], {REASONS{total_10[LAST-1]}}}
+      + {EXPONENT'(1), MANTISSA'(0), total_10[LAST-2-:REASONS-1],
+         `MUTATED(ADD_TIES_UP, total_10[LAST], 1'b1)};
   delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[11]))) cut_11a (
-      .clk, .d(rounded_10[EXPONENT+MANTISSA:1]), .q(rounded_11)
+      .clk, .d(rounded_10[W-2+REASONS:REASONS]), .q(rounded_11)
   );
   delay_line #(.WIDTH(5), .DEPTH(32'(CUT[11]))) cut_11b (
       .clk,

@@ -32,10 +32,11 @@ module fp_product #(
   delay_line #(.WIDTH(W), .DEPTH(ENTRY)) entry_a (.clk, .d(a), .q(a_0));
   delay_line #(.WIDTH(W), .DEPTH(ENTRY)) entry_b (.clk, .d(b), .q(b_0));
 
+  localparam int HALF = MANTISSA / 2;  // a fraction is looked at in halves: fewer levels of logic
   logic [EXPONENT:0] exponents_0, exponents_1;
-  logic sign_1, a_zero_1, b_zero_1, a_ones_1, b_ones_1, a_some_1, b_some_1;
+  logic sign_1, a_zero_1, b_zero_1, a_ones_1, b_ones_1, a_upper_1, a_lower_1, b_upper_1, b_lower_1;
   assign exponents_0 = {1'b0, a_0[W-2-:EXPONENT]} + {1'b0, b_0[W-2-:EXPONENT]};
-  delay_line #(.WIDTH(EXPONENT + 8), .DEPTH(EACH)) each (
+  delay_line #(.WIDTH(EXPONENT + 10), .DEPTH(EACH)) each (
       .clk,
       .d({
         exponents_0,
@@ -44,10 +45,12 @@ module fp_product #(
         b_0[W-2-:EXPONENT] == '0,
         a_0[W-2-:EXPONENT] == '1,
         b_0[W-2-:EXPONENT] == '1,
-        a_0[MANTISSA-1:0] != '0,
-        b_0[MANTISSA-1:0] != '0
+        a_0[MANTISSA-1:HALF] != '0,
+        a_0[HALF-1:0] != '0,
+        b_0[MANTISSA-1:HALF] != '0,
+        b_0[HALF-1:0] != '0
       }),
-      .q({exponents_1, sign_1, a_zero_1, b_zero_1, a_ones_1, b_ones_1, a_some_1, b_some_1})
+      .q({exponents_1, sign_1, a_zero_1, b_zero_1, a_ones_1, b_ones_1, a_upper_1, a_lower_1, b_upper_1, b_lower_1})
   );
 
   // The exponent of a product of two mantissas below 2, two bits wider than it is stored and signed.
@@ -60,7 +63,8 @@ module fp_product #(
         sign_1,
         a_zero_1 | b_zero_1,
         a_ones_1 | b_ones_1,
-        (a_ones_1 & a_some_1) | (b_ones_1 & b_some_1)
+        `MUTATED(MULTIPLY_NAN_IS_INFINITY,
+                 (a_ones_1 & (a_upper_1 | a_lower_1)) | (b_ones_1 & (b_upper_1 | b_lower_1)), 1'b0)
             | `MUTATED(MULTIPLY_ZERO_BY_INFINITY, (a_ones_1 & b_zero_1) | (b_ones_1 & a_zero_1), 1'b0)
       }),
       .q({exponent_2, sign_2, zero_2, special_2, nan_2})
@@ -106,18 +110,19 @@ module fp_product #(
   );
 
   // Step b: round; the carry runs through the exponent.
-  /* verilator lint_off UNUSEDSIGNAL */  // bit 0 makes the carry in
-  logic [W-1:0] rounded_b;
+  // Whether to round up is decided inside the chain: adding the half bit to each reason in turn
+  // carries when the half bit and a reason before or here are set.
+  localparam int REASONS = 3;
+  /* verilator lint_off UNUSEDSIGNAL */  // the low places make the carry in
+  logic [W-2+REASONS:0] rounded_b;
   /* verilator lint_on UNUSEDSIGNAL */
-  logic up_b;
-  assign up_b = half_b & (`MUTATED(MULTIPLY_TIES_UP, fraction_b[0], 1'b1) | next_b
-      | `MUTATED(MULTIPLY_LOST_STICKY, some_b, 1'b0));
-  assign rounded_b = {exponent_b, fraction_b, 1'b1}
-      + {EXPONENT'(high_b), MANTISSA'(0), up_b};
+  assign rounded_b = {exponent_b, fraction_b, {REASONS{half_b}}}
+      + {EXPONENT'(high_b), MANTISSA'(0), next_b, `MUTATED(MULTIPLY_LOST_STICKY, some_b, 1'b0),
+         `MUTATED(MULTIPLY_TIES_UP, fraction_b[0], 1'b1)};
   logic [W-2:0] rounded_c;
   logic sign_c, nan_c, tiny_c, low_c, infinite_c;
   delay_line #(.WIDTH(W - 1), .DEPTH(CUT_B)) cut_b (
-      .clk, .d(rounded_b[W-1:1]), .q(rounded_c)
+      .clk, .d(rounded_b[W-2+REASONS:REASONS]), .q(rounded_c)
   );
   delay_line #(.WIDTH(5), .DEPTH(CUT_B)) cut_b_side (
       .clk,

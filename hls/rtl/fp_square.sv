@@ -26,7 +26,10 @@ module fp_square #(
   );
 
   logic [EXPONENT+MANTISSA:0] other;
-  assign other = {`MUTATED(SQUARE_SIGN, a[EXPONENT+MANTISSA], 1'b0), a[EXPONENT+MANTISSA-1:0]};
+  assign other = {
+    `MUTATED(SQUARE_SIGN, a[EXPONENT+MANTISSA], 1'b0),
+    a[EXPONENT+MANTISSA-1:0]
+  };
   fp_product #(
       .EXPONENT(EXPONENT), .MANTISSA(MANTISSA), .MULTIPLYING(MULTIPLYING), .ROUNDING(ROUNDING)
   ) rest (

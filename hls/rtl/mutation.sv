@@ -21,8 +21,8 @@ package emax_mutation;
   localparam int MULTIPLY_NO_OVERFLOW = 25;  // fp_multiply: an exponent past infinity's is kept
   localparam int MULTIPLY_ZERO_BY_INFINITY = 26;  // fp_multiply: zero times infinity is infinity
   localparam int MULTIPLY_SUBNORMAL_OPERAND = 27;  // fp_multiply: a subnormal operand counts as normal
+  localparam int MULTIPLY_NAN_IS_INFINITY = 28;  // fp_multiply: a NaN's fraction is not looked at
   localparam int SQUARE_SIGN = 31;  // fp_square: keeps its operand's sign
-  localparam int SQUARE_NAN_IS_INFINITY = 32;  // fp_square: a NaN's fraction is not looked at
   localparam int LESS_OR_EQUAL = 41;  // fp_less: <= for <
   localparam int LESS_IGNORES_SIGN = 42;  // fp_less: negative numbers compare as positive ones
   localparam int LESS_NAN_IS_ORDERED = 43;  // fp_less: a NaN compares as beyond infinity
@@ -30,8 +30,11 @@ package emax_mutation;
   localparam int LESS_SIGNED_ZEROS_DIFFER = 45;  // fp_less: -0 < +0
   localparam int ZERO_COMPARE_SUBNORMAL = 51;  // fp_zero_compare: a subnormal is not zero
   localparam int ZERO_COMPARE_NAN = 52;  // fp_zero_compare: a NaN has a side
-  localparam int DELAY_ONE_SHORT = 61;  // delay_line: RAM lines are one edge short
+  localparam int DELAY_ONE_SHORT = 61;  // delay_line: lines in distributed RAM are one edge short
   localparam int FIELD_ALWAYS_WRITTEN = 62;  // field_memory: writes without write_enable
+  localparam int ECP5_MIDDLE_TOO_NARROW = 71;  // ecp5/mantissa_multiply: the middle sum loses its carry
+  localparam int ECP5_UPPER_ROWS_LOST = 72;  // ecp5/small_multiply: the last two rows are not added
+  localparam int ECP5_CROSS_ONCE = 73;  // ecp5/mantissa_square: the cross product counts once
 
   localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
   localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back

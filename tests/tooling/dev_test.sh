@@ -119,4 +119,26 @@ expect fail "FAILED" "the pinned version of the package with other bytes" "$dev"
 rm "$DEB"
 APT_STATUS=100 expect fail "cannot be downloaded" "no network" "$dev" data
 expect_files "./bunny00.off"
+
+# The headers. The stand-in for Python makes an environment, whose pip "downloads" WHEEL.
+mkdir -p "$copy/tests/hls/vendor"
+printf 'hls4ml==9.9 \\\n    --hash=sha256:%s\n' "$(sum wheel)" >"$copy/tests/hls/vendor/requirements.txt"
+# shellcheck disable=SC2016
+stand_in python3 'case "$*" in
+  "-m venv "*) mkdir -p "$3/bin" && cp "$0" "$3/bin/python" ;;
+  *download*) echo "$*" >>"$CALLS"; [ -z "$WHEEL" ] || printf "$WHEEL" >data/hls4ml-9.9-py3-none-any.whl
+    [ -n "$WHEEL" ] ;;
+esac'
+sed -i "s|^readonly python=.*|readonly python=$bin/python3|" "$dev"
+export INSTALLED="libcgal-dev python3-venv" WHEEL=wheel
+expect pass "fetching hls4ml-9.9-py3-none-any.whl" "headers fetched" "$dev" headers
+expect_calls 1 "--require-hashes"
+expect_silence "$dev" headers
+printf 'x' >>"$copy/data/hls4ml-9.9-py3-none-any.whl"
+expect pass "fetching" "a damaged file fetched again" "$dev" headers
+expect_calls 1 "download"
+expect_silence "$dev" headers
+rm "$copy/data/hls4ml-9.9-py3-none-any.whl"
+WHEEL='' expect fail "could not be fetched" "no network" "$dev" headers
+expect_calls 2 "download"
 finish

@@ -42,8 +42,8 @@
 //    69    81  subtract      across23                       point_triangle.h:58
 //    69    81  add           along23                        point_triangle.h:57
 //    69    81  add           along13                        point_triangle.h:55
-//    81    93  subtract      along23_minus_t_edge23_length  point_triangle.h:61
-//    81    93  subtract      along13_minus_t_edge13_length  point_triangle.h:60
+//    81    93  subtract      along23_minus_length           point_triangle.h:61
+//    81    93  subtract      along13_minus_length           point_triangle.h:60
 //    93    93  greater_zero  residual23_positive            point_triangle.h:35
 //    93    94  select        residual23_choice              point_triangle.h:35
 //    93    93  greater_zero  residual13_positive            point_triangle.h:35
@@ -124,12 +124,11 @@ module emax_distance (
       across23_product_2, along23_product, along23_product_2, along13_product, along13_product_2,
       residual12_choice, residual12, residual12_at_98, residual12_at_100, across13, across13_at_96,
       across13_at_97, across23, across23_at_96, across23_at_97, along23, along23_at_94, along13,
-      along13_at_94, along23_minus_t_edge23_length, along13_minus_t_edge13_length,
-      residual23_choice, residual13_choice, residual23, residual23_at_97, residual13,
-      residual13_at_97, prefer23_magnitude, prefer23_magnitude_2, residual_upper,
-      residual_upper_at_100, across_upper, across_upper_at_100, prefer_upper_magnitude,
-      prefer_upper_magnitude_2, across, residual, in_plane_square, in_plane_square_2, in_plane,
-      squared_distance_choice;
+      along13_at_94, along23_minus_length, along13_minus_length, residual23_choice,
+      residual13_choice, residual23, residual23_at_97, residual13, residual13_at_97,
+      prefer23_magnitude, prefer23_magnitude_2, residual_upper, residual_upper_at_100, across_upper,
+      across_upper_at_100, prefer_upper_magnitude, prefer_upper_magnitude_2, across, residual,
+      in_plane_square, in_plane_square_2, in_plane, squared_distance_choice;
   logic residual12_positive, residual12_negative, residual23_positive, residual13_positive,
       residual23_negative, residual13_negative, prefer23_less, visible12_negative, visible12,
       visible12_at_99, visible13_negative, visible13_negated, visible13, visible13_at_97,
@@ -256,20 +255,18 @@ module emax_distance (
       .clk, .d(along13), .q(along13_at_94));
 
   // cycle 81
-  fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY)) along23_minus_t_edge23_length_adder (
-      .clk, .a(along23), .b(t_edge23_length), .sum(along23_minus_t_edge23_length));
-  fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY)) along13_minus_t_edge13_length_adder (
-      .clk, .a(along13), .b(t_edge13_length), .sum(along13_minus_t_edge13_length));
+  fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY)) along23_minus_length_adder (
+      .clk, .a(along23), .b(t_edge23_length), .sum(along23_minus_length));
+  fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY)) along13_minus_length_adder (
+      .clk, .a(along13), .b(t_edge13_length), .sum(along13_minus_length));
 
   // cycle 93
   assign residual23_positive =
-      ~along23_minus_t_edge23_length[31] & |along23_minus_t_edge23_length[30:23] & ~(&along23_minus_t_edge23_length[30:22]);
-  always_ff @(posedge clk) residual23_choice <=
-      residual23_positive ? along23_minus_t_edge23_length : ZERO;
+      ~along23_minus_length[31] & |along23_minus_length[30:23] & ~(&along23_minus_length[30:22]);
+  always_ff @(posedge clk) residual23_choice <= residual23_positive ? along23_minus_length : ZERO;
   assign residual13_positive =
-      ~along13_minus_t_edge13_length[31] & |along13_minus_t_edge13_length[30:23] & ~(&along13_minus_t_edge13_length[30:22]);
-  always_ff @(posedge clk) residual13_choice <=
-      residual13_positive ? along13_minus_t_edge13_length : ZERO;
+      ~along13_minus_length[31] & |along13_minus_length[30:23] & ~(&along13_minus_length[30:22]);
+  always_ff @(posedge clk) residual13_choice <= residual13_positive ? along13_minus_length : ZERO;
 
   // cycle 94
   assign residual23_negative = along23_at_94[31] & |along23_at_94[30:23];
@@ -384,7 +381,7 @@ module emax_distance (
       residual13,
       residual13_choice,
       31'b0, residual13_positive,
-      along13_minus_t_edge13_length,
+      along13_minus_length,
       31'b0, residual13_negative,
       along13,
       along13_product_2,
@@ -393,7 +390,7 @@ module emax_distance (
       residual23,
       residual23_choice,
       31'b0, residual23_positive,
-      along23_minus_t_edge23_length,
+      along23_minus_length,
       31'b0, residual23_negative,
       along23,
       along23_product_2,

@@ -4,8 +4,8 @@
 // at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
 // own, read with the slot delayed to the cycle in which the datapath needs the field.
 //
-// A record written at a clock edge may be used by a slot presented in the cycle after it. A slot may
-// be written again in any cycle later than LAST_READ after the one that presented it last.
+// A record written at a clock edge may be used by a slot presented in the cycle after it. A slot
+// may be written again in any cycle later than LAST_READ after the one that presented it last.
 module emax_distance_unit #(
     parameter int SLOT_BITS = 4
 ) (

@@ -1,0 +1,186 @@
+"""What is synthesized, and the Yosys scripts and the register shell around it."""
+
+import json
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .tools import Failure
+
+RTL = Path("hls/rtl")
+GENERATED = RTL / "generated"
+
+
+@dataclass
+class Design:
+    name: str
+    top: str
+    target: float  # MHz
+    parameters: dict = field(default_factory=dict)
+    generated: list = None  # in place of the sources in hls/rtl/generated
+
+    def sources(self, family):
+        """All of the module library: Yosys keeps what the top uses."""
+        return [*sorted(RTL.glob("*.sv")), *sorted((RTL / family).glob("*.sv")),
+                *(self.generated or sorted(GENERATED.glob("*.sv")))]
+
+    def inputs(self, family):
+        return [*self.sources(family), *sorted(RTL.glob("*.svh")), *sorted(GENERATED.glob("*.svh"))]
+
+
+def operators(datapath, target):
+    """The floating-point operators with the latencies that the generated datapath uses."""
+    text = datapath.read_text()
+    constants = dict(re.findall(r"localparam int (\w+) = (\d+);", text))
+    used = re.findall(r"^\s*(fp_\w+) #\([^;]*?\.LATENCY\((\w+)\)", text, re.MULTILINE)
+    latencies = {module: int(constants.get(latency, latency)) for module, latency in used}
+    if not latencies:
+        raise Failure(f"{datapath} instantiates no operator fp_... with a LATENCY")
+    return [Design(f"{module}, latency {latency}", module, target, {"LATENCY": latency}) for module, latency in sorted(latencies.items())]
+
+
+def element(target, generated=None):
+    return Design("emax_element", "emax_element", target, {"SLOT_BITS": 4}, generated)
+
+
+def _read(design, family):
+    files = " ".join(map(str, design.sources(family)))
+    return f"read_verilog -sv -I{RTL} -I{GENERATED} {files}"
+
+
+def ports_script(design, family):
+    """Writes {folder}/ports.json; the parameters that designs set do not change their ports."""
+    return f"{_read(design, family)}; hierarchy -top {design.top}; proc; " \
+           "write_json {folder}/ports.json"
+
+
+def _top(netlist):
+    (top,) = [module for module in netlist["modules"].values() if "top" in module["attributes"]]
+    return top
+
+
+def ports(path):
+    """[(name, direction, width)] of the file's top module."""
+    module = _top(json.loads(path.read_text()))
+    return [(name, port["direction"], len(port["bits"])) for name, port in module["ports"].items()]
+
+
+def _instance(design, connections):
+    parameters = ", ".join(f".{name}({value})" for name, value in design.parameters.items())
+    return f"{design.top} #({parameters}) design ({', '.join(connections)});"
+
+
+def wrapper(design, ports_of_top):
+    """A top that sets the parameters and nothing more."""
+    declared = ", ".join(f"{direction} [{width - 1}:0] {name}" for name, direction, width in ports_of_top)
+    connections = [f".{name}({name})" for name, _, _ in ports_of_top]
+    return f"""// Generated for {design.name}.
+module synthesis_wrapper ({declared});
+  {_instance(design, connections)}
+endmodule
+"""
+
+
+def shell(design, ports_of_top):
+    """A top with four pins: serial registers hold the inputs and take the outputs, so that pins do
+    not limit what fits or how fast it is."""
+    connections = [".clk(clk)"]
+    held = taken = 0
+    for name, direction, width in ports_of_top:
+        if name == "clk":
+            continue
+        if direction == "input":
+            connections.append(f".{name}(held[{held + width - 1}:{held}])")
+            held += width
+        else:
+            connections.append(f".{name}(out[{taken + width - 1}:{taken}])")
+            taken += width
+    return f"""// Generated for {design.name}.
+module synthesis_shell (input clk, input capture, input serial_in, output reg serial_out);
+  reg [{held - 1}:0] held;
+  reg [{taken - 1}:0] taken;
+  reg capture_now;
+  wire [{taken - 1}:0] out;
+  (* keep_hierarchy *) {_instance(design, connections)}
+  always @(posedge clk) begin
+    held <= {{held, serial_in}};
+    capture_now <= capture;
+    taken <= capture_now ? out : {{taken, 1'b0}};
+    serial_out <= taken[{taken - 1}];
+  end
+endmodule
+"""
+
+
+def ecp5_script(design, shell_path, options):
+    """The design in its shell for ECP5. It is mapped with its boundary kept, counted, and then
+    dissolved into the shell for placement."""
+    return (f"{_read(design, 'ecp5')} {shell_path}; "
+            f"synth_ecp5 -top synthesis_shell {options}; "
+            "tee -q -o {folder}/cells.json stat -json; "
+            "setattr -unset keep_hierarchy c:design; flatten; opt_clean; "
+            "write_json {folder}/netlist.json")
+
+
+def xilinx_script(design, wrapper_path, family):
+    return (f"{_read(design, 'xilinx')} {wrapper_path}; "
+            f"synth_xilinx -family {family} -flatten -noiopad -noclkbuf -top synthesis_wrapper; "
+            "write_json {folder}/netlist.json")
+
+
+def xilinx_figures(netlist):
+    """Cells of the only module that holds any, counted as the family's resources, and the share of
+    DSP blocks whose multiplier works between registers."""
+    top = _top(json.loads(netlist.read_text()))
+    counts, registered = {}, 0
+    for cell in top["cells"].values():
+        kind = cell["type"]
+        counts[kind] = counts.get(kind, 0) + 1
+        if kind.startswith("DSP48"):
+            value = lambda name: int(cell["parameters"].get(name, "0"), 2)
+            inner = value("MREG") or value("PREG")
+            registered += bool(value("AREG") and value("BREG") and inner)
+    total = lambda pattern: sum(n for kind, n in counts.items() if re.fullmatch(pattern, kind))
+    # A RAM32M or RAM64M is four LUTs, a RAM32X1D or RAM64X1D two.
+    ram_luts = 4 * total("RAM(32|64)M") + 8 * total("RAM(32|64)M16") + 2 * total("RAM(32|64)X1D")
+    return {
+        "lut": total("LUT[1-6]|INV") + total("SRL16E?|SRLC32E") + ram_luts,
+        "ff": total("FD[RSCP]E"),
+        "dsp": total("DSP48E[12]"),
+        "ram": total("RAMB.*"),
+    }, {"srl": total("SRL16E?|SRLC32E"), "ram_luts": ram_luts, "registered": registered}
+
+
+def ecp5_figures(report, cells):
+    """Figures, and what the critical path is, from nextpnr's report and Yosys's count of the shell."""
+    report = json.loads(report.read_text())
+    used = {kind: counts["used"] for kind, counts in report["utilization"].items()}
+    (shell_cells,) = [m["num_cells_by_type"] for name, m in json.loads(cells.read_text())["modules"].items()
+                      if name == "\\synthesis_shell"]
+    clock = max(report["fmax"], key=lambda name: report["fmax"][name]["constraint"])
+    figures = {
+        "lut": used["TRELLIS_COMB"] - shell_cells.get("LUT4", 0),
+        "ff": used["TRELLIS_FF"] - shell_cells.get("TRELLIS_FF", 0),
+        "dsp": used.get("MULT18X18D", 0),
+        "ram": used.get("DP16KD", 0),
+        "fmax": round(report["fmax"][clock]["achieved"], 2),
+    }
+    return figures, {"lut_ram": used.get("TRELLIS_RAMW", 0), "path": _critical_path(report, clock)}
+
+
+def _critical_path(report, clock):
+    for path in report["critical_paths"]:
+        if clock in path["from"] and clock in path["to"]:
+            steps = path["path"]
+            logic = sum(step["delay"] for step in steps if step["type"] != "routing")
+            routing = sum(step["delay"] for step in steps if step["type"] == "routing")
+            return {"from": readable(steps[0]["from"]["cell"]), "to": readable(steps[-1]["to"]["cell"]),
+                    "logic": round(logic, 2), "routing": round(routing, 2),
+                    "levels": sum(step["type"] == "logic" for step in steps)}
+    return None
+
+
+def readable(cell):
+    """The source's name in a cell's: of "design.a.b_TRELLIS_FF_Q_3_DI_LUT4_Z" design.a.b."""
+    return re.sub(r"_(TRELLIS|LUT4|CCU2C|PFUMX|L6MUX|MULT18|DPR16|L7MUX|DP16)\w*(\$\w+)?.*$", "",
+                  cell).removeprefix("design.")

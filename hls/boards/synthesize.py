@@ -1,0 +1,240 @@
+"""`./dev synth`: operators, the element and the forms of the distance through open tools.
+
+Yosys and nextpnr for ECP5-85F (placed and routed), Yosys for 7-series and UltraScale+ (counted
+only). Writes docs/synthesis.md and compares with the checked-in baseline.
+"""
+
+import argparse
+import json
+import signal
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from synthesis import baseline, designs, document
+from synthesis.tools import FOLDER, Background, Failure, Runner
+
+SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
+FORMS = ["visible_edge", "three_edge", "barycentric"]
+FAMILIES = {"xc7": "7-series", "xcup": "UltraScale+"}
+FORM_FIGURES = ["multiplications", "additions", "latency", "delay_bits"]
+DATAPATH = designs.GENERATED / "emax_distance.sv"
+LOWER = Path("build/kernel/bin/emax_lower")
+BASELINE = Path("hls/boards/synthesis_baseline.json")
+DOCUMENT = Path("docs/synthesis.md")
+TARGET = 175.0  # MHz, of the element and the forms
+OPERATOR_TARGET = 200.0  # a crowded element costs an operator up to a seventh of its speed
+# Minutes of one core for a section at one seed, from a run on a 2-core machine.
+EXPECTED = {"element": 9, "forms": 24, "operators": 5, "xilinx": 6}
+SEED_MINUTES = 6
+# Tried in docs/decisions/0005-synthesis-options.md.
+# The ECP5 mapping names its DSP blocks itself; left alone, Yosys would give small products
+# blocks without registers.
+YOSYS = "-nodsp"
+NEXTPNR = []
+
+
+def slug(name):
+    return name.replace(", latency ", "_").replace(" ", "_")
+
+
+class Ecp5:
+    """A design in its register shell, placed and routed with several seeds."""
+
+    def __init__(self, runner, design, seeds, at_once):
+        self.runner, self.design, self.seeds, self.at_once = runner, design, seeds, at_once
+        self.folder = f"ecp5/{slug(design.name)}"
+
+    def run(self):
+        design, runner = self.design, self.runner
+        inputs = design.inputs("ecp5")
+        shell = with_ports(runner, design, "ecp5", self.folder, designs.shell)
+        netlist, cells = runner.step(
+            "yosys", f"{design.name}, synthesis for ECP5", f"{self.folder}/yosys",
+            ["-p", designs.ecp5_script(design, shell, YOSYS)], [*inputs, shell], ["netlist.json", "cells.json"])
+        # Seeds in order, so that the result does not depend on how many run at once.
+        tried = []
+        for first in range(1, self.seeds + 1, self.at_once):
+            batch = range(first, min(first + self.at_once, self.seeds + 1))
+            with ThreadPoolExecutor(len(batch)) as pool:
+                for seed, result in zip(batch, pool.map(lambda s: self._route(netlist, cells, s), batch)):
+                    if not any(figures["fmax"] >= design.target for _, figures, _ in tried):
+                        tried.append((seed, *result))
+            if tried[-1][1]["fmax"] >= design.target:
+                break
+        seed, figures, detail = max(tried, key=lambda t: (t[1]["fmax"], -t[0]))
+        return {"figures": figures, **detail, "target": design.target, "seed": seed,
+                "tried": {str(seed): figures["fmax"] for seed, figures, _ in tried}}
+
+    def _route(self, netlist, cells, seed):
+        (report,) = self.runner.step(
+            "nextpnr", f"{self.design.name}, place and route with seed {seed}", f"{self.folder}/seed{seed}",
+            ["--85k", "--speed", "6", "--package", "CABGA381", "--lpf-allow-unconstrained", "--timing-allow-fail",
+             "--freq", f"{self.design.target:g}", "--seed", str(seed), *NEXTPNR, "--json", str(netlist),
+             "--report", "{folder}/report.json"], [netlist], ["report.json"])
+        figures, detail = designs.ecp5_figures(report, cells)
+        self.runner.say(f"{self.design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {self.design.target:g}")
+        return figures, detail
+
+
+def with_ports(runner, design, family, folder, make):
+    """The path of what `make` writes around the design, given its ports."""
+    (ports,) = runner.step("yosys", f"{design.name}, ports", f"{folder}/ports",
+                           ["-q", "-p", designs.ports_script(design, family)], design.inputs(family), ["ports.json"])
+    path = FOLDER / folder / "top.v"
+    path.write_text(make(design, designs.ports(ports)))
+    return path
+
+
+def run_xilinx(runner, design, family):
+    folder = f"{family}/{slug(design.name)}"
+    wrapper = with_ports(runner, design, "xilinx", folder, designs.wrapper)
+    (netlist,) = runner.step("yosys", f"{design.name}, synthesis for {FAMILIES[family]}", f"{folder}/yosys",
+                             ["-p", designs.xilinx_script(design, wrapper, family)],
+                             [*design.inputs("xilinx"), wrapper], ["netlist.json"])
+    figures, detail = designs.xilinx_figures(netlist)
+    return {"figures": figures, **detail}
+
+
+def lowered(form, family):
+    """The sources of a form's unit, lowered for a family into the build folder, and emax_lower's
+    report on it."""
+    folder = FOLDER / "lowered" / family
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def lower(*options):
+        run = subprocess.run([LOWER, form, "--family", family, *options], capture_output=True, text=True)
+        if run.returncode != 0:
+            raise Failure(f"{LOWER} {form} {' '.join(map(str, options))}: {run.stderr.strip()}")
+        return run.stdout
+
+    files = [folder / f"{form}.sv", folder / f"{form}_unit.sv"]
+    lower("-o", files[0])
+    lower("--unit", "-o", files[1])
+    return files, json.loads(lower("--report"))
+
+
+def place_form(runner, form, target):
+    files, report = lowered(form, "ecp5")
+    design = designs.Design(form, f"{report['module']}_unit", target, {"SLOT_BITS": 4}, files)
+    return {**Ecp5(runner, design, 1, 1).run(), "report": report}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="./dev synth", description="Synthesizes operators, element and forms with Yosys and nextpnr;"
+        " a full run writes docs/synthesis.md. Logs and results stay in build/synth, and what has not"
+        " changed since is taken from there.")
+    parser.add_argument("--only", choices=SECTIONS, action="append", help="this section alone; may be repeated")
+    parser.add_argument("--seeds", type=int, default=6, metavar="N", help="at most N placements of the element (6)")
+    parser.add_argument("--target", type=float, default=TARGET, metavar="MHZ",
+                        help="of the element and the forms (175)")
+    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="tools at a time (2; each wants a core and 2 GB)")
+    parser.add_argument("--quick", action="store_true", help="operators and the element, one seed; no document")
+    parser.add_argument("--fresh", action="store_true", help="run every step again")
+    parser.add_argument("--plan", action="store_true", help="say what would be done and how long it takes, and stop")
+    parser.add_argument("--update-baseline", action="store_true", help="take the figures as the new baseline")
+    options = parser.parse_args()
+    if min(options.seeds, options.jobs) < 1 or options.target <= 0:
+        parser.error("--seeds, --jobs and --target must be positive")
+    if options.quick:
+        options.only, options.seeds = options.only or ["element", "operators"], 1
+    options.complete = not options.only and options.target == TARGET
+    options.only = [name for name in SECTIONS if name in (options.only or SECTIONS)]
+    return options
+
+
+def measure(runner, options):
+    """{section: {subject: result}}: every subject in a thread of its own; the runner holds them to
+    its number of jobs, in the order of their start."""
+    results = {section: {} for section in options.only}
+    work = Background(runner)
+
+    def start(section, name, function, *args):
+        results[section][name] = None  # keeps the order
+        work.start(lambda: results[section].update({name: function(*args)}))
+
+    element = designs.element(options.target)
+    operators = designs.operators(DATAPATH, OPERATOR_TARGET)
+    if "element" in options.only:
+        alone = options.jobs if len(options.only) == 1 else 1
+        start("element", element.name, Ecp5(runner, element, options.seeds, alone).run)
+    if "forms" in options.only:
+        for form in FORMS:
+            start("forms", form, place_form, runner, form, options.target)
+    if "operators" in options.only:
+        for operator in operators:
+            start("operators", operator.name, Ecp5(runner, operator, 1, 1).run)
+    if "xilinx" in options.only:
+        generated, _ = lowered("visible_edge", "xilinx")
+        reductions = [designs.GENERATED / f"emax_{name}.sv" for name in ("minimum", "maximum")]
+        for family in FAMILIES:
+            for design in [designs.element(options.target, [*generated, *reductions]), *operators]:
+                start("xilinx", f"{design.name}, {FAMILIES[family]}", run_xilinx, runner, design, family)
+    try:
+        work.wait(30 if not sys.stdout.isatty() else 15)
+    except KeyboardInterrupt:
+        runner.stop()
+        raise
+    return results
+
+
+def flat(results):
+    """{subject: figures} for the baseline."""
+    figures = {}
+    for section, subjects in results.items():
+        for name, result in subjects.items():
+            figures[f"{section}: {name}"] = {
+                **result["figures"],
+                **{key: result["report"][key] for key in FORM_FIGURES if "report" in result}}
+    return figures
+
+
+def plan(options):
+    """One line: the sections and the minutes they take where nothing is there from an earlier run."""
+    each = {section: EXPECTED[section] for section in options.only}
+    total = max(max(each.values()), -(-sum(each.values()) // options.jobs))
+    text = ", ".join(f"{section} {time} min" for section, time in each.items())
+    if "element" in each and options.seeds > 1:
+        text += f"; up to {options.seeds - 1} further seeds of the element, {SEED_MINUTES} min each"
+    return f"{text}; together about {total} min, {options.jobs} at a time; what has not changed is not run again"
+
+
+def main():
+    options = arguments()
+    if options.plan:
+        print(f"synth: {plan(options)}", flush=True)
+        return 0
+    runner = Runner(options.jobs, options.fresh)
+    runner.prepare()
+    results = measure(runner, options)
+    print("\n" + document.tables(results))
+    measured, versions = flat(results), runner.versions
+    if options.complete:
+        DOCUMENT.write_text(document.page(results, versions, baseline.TOLERANCES))
+        runner.say(f"{DOCUMENT} written")
+    if options.update_baseline:
+        baseline.write(BASELINE, versions, measured, options.complete)
+        runner.say(f"{BASELINE} written")
+        return 0
+    known = baseline.read(BASELINE)
+    if baseline.key(versions) not in known:
+        raise Failure(f"{BASELINE} has no figures of {baseline.key(versions)};"
+                      " ./dev synth --update-baseline takes these figures as the baseline")
+    faults = baseline.compare(measured, known[baseline.key(versions)], options.complete)
+    if faults:
+        raise Failure("\n".join([*faults, "worse than the baseline: mend it, or take the new figures with"
+                                 " ./dev synth --update-baseline"]))
+    runner.say("no figure is worse than its baseline")
+    return 0
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    try:
+        sys.exit(main())
+    except Failure as failure:
+        sys.exit(f"synth: {failure}")
+    except KeyboardInterrupt:
+        sys.exit("synth: stopped; what was done stays in build/synth")

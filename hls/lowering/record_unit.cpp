@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <stdexcept>
+
+#include "hls/lowering/systemverilog.h"
+#include "hls/lowering/verilog_text.h"
+
+namespace emax {
+namespace {
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+std::string unit_module(const LoweredDesign& design) {
+  const int record_bits = 32 * info(design.form).record_words;
+  const std::string& module = design.options.module;
+  if (record_bits == 0) {
+    throw std::invalid_argument(std::string(info(design.form).name) +
+                                " has no record, so there is no unit: leave --unit out");
+  }
+  const Schedule& schedule = design.schedule;
+  std::set<int> slots;
+  std::vector<bool> used(static_cast<std::size_t>(record_bits), false);
+  std::vector<std::string> reals, conditions, samples;
+  std::vector<std::string> ports = {".clk"};
+  std::string memories;
+  for (const Input& input : design.graph.inputs()) {
+    ports.push_back("." + input.name);
+    if (input.arrival == Arrival::kSample) {
+      samples.push_back(input.name);
+      continue;
+    }
+    const int cycle = schedule.start[input.node] - 1;
+    if (cycle > 0) slots.insert(cycle);
+    const int bits = width(design.graph.node(input.node).kind);
+    (bits == 1 ? conditions : reals).push_back(input.name);
+    for (int bit = 0; bit < bits; ++bit) used[input.record_bit + static_cast<unsigned>(bit)] = true;
+    const std::string low = std::to_string(input.record_bit);
+    const std::string range =
+        bits == 1 ? low
+                  : std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":" + low;
+    memories +=
+        instance("field_memory #(.WIDTH(" + std::to_string(bits) + "), .SLOT_BITS(SLOT_BITS))",
+                 input.name + "_memory",
+                 ".clk, .write_enable, .write_slot, .write_data(write_record[" + range +
+                     "]),\n"
+                     "      .read_slot(" +
+                     (cycle > 0 ? at_cycle("slot", cycle) : std::string("slot")) +
+                     "), .read_data(" + input.name + ")");
+  }
+  for (const Output& output : design.graph.outputs()) ports.push_back("." + output.name);
+  std::vector<std::string> slot_names;
+  std::string slot_delays, from = "slot";
+  int at = 0;
+  for (const int cycle : slots) {
+    slot_names.push_back(at_cycle("slot", cycle));
+    slot_delays += delay_line(kNarrowBits / 2, "SLOT_BITS", cycle - at, design.options.delays, from,
+                              slot_names.back());
+    from = slot_names.back();
+    at = cycle;
+  }
+  std::string unused;
+  for (int bit = 0; bit < record_bits;) {
+    int end = bit;
+    while (end < record_bits && !used[static_cast<std::size_t>(end)]) ++end;
+    if (end > bit) {
+      unused += ", write_record[" + std::to_string(end - 1) + ":" + std::to_string(bit) + "]";
+    }
+    bit = std::max(end, bit + 1);
+  }
+  std::string sample_ports;
+  for (const std::string& name : samples) {
+    sample_ports += "    input  logic [31:0] " + name + ",  // cycle 0\n";
+  }
+  std::string text =
+      generated_line(design) + "//\n// " + module +
+      R"( with the memory of its records beside it: 2^SLOT_BITS slots, word w of a record
+// at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
+// own, read with the slot delayed to the cycle in which the datapath needs the field.
+//
+// A record written at a clock edge may be used by a slot presented in the cycle after it. A slot
+// may be written again in any cycle later than LAST_READ after the one that presented it last.
+module )" +
+      module + R"(_unit #(
+    parameter int SLOT_BITS = 4
+) (
+    input  logic clk,
+    input  logic write_enable,
+    input  logic [SLOT_BITS-1:0] write_slot,
+    input  logic [)" +
+      std::to_string(record_bits - 1) + R"(:0] write_record,
+    input  logic [SLOT_BITS-1:0] slot,  // cycle 0
+)" + sample_ports +
+      "    output logic [31:0] squared_distance  // cycle " + std::to_string(schedule.latency) +
+      "\n);\n  localparam int LATENCY = " + std::to_string(schedule.latency) +
+      ";\n  localparam int LAST_READ = " + std::to_string(design.last_read()) + ";\n";
+  text += declarations("logic [SLOT_BITS-1:0] ", slot_names);
+  text += declarations("logic [31:0] ", reals) + declarations("logic ", conditions) + "\n";
+  text += slot_delays + "\n" + memories + "\n";
+  // The unit is used as it is with and without probes.
+  const std::string probes = std::to_string(32 * design.probes.size() - 1);
+  text += "`ifdef EMAX_PROBES\n  logic [" + probes + ":0] unused_probes;\n`endif\n";
+  text += "  " + module + " datapath (\n";
+  text += listed("      ", "      ", ports, "");
+  text += "`ifdef EMAX_PROBES\n      , .probes(unused_probes)\n`endif\n  );\n\n";
+  return text + "  wire unused_parts = &{1'b0, LATENCY[0], LAST_READ[0]" + unused +
+         "};\nendmodule\n";
+}
+
+std::string schedule_header(const LoweredDesign& design) {
+  const std::string prefix = upper(design.options.module);
+  return generated_line(design) + "`ifndef " + prefix + "_SCHEDULE_SVH\n`define " + prefix +
+         "_SCHEDULE_SVH\n`define " + prefix + "_LATENCY " +
+         std::to_string(design.schedule.latency) + "\n`define " + prefix + "_LAST_READ " +
+         std::to_string(design.last_read()) + "\n`endif\n";
+}
+
+}  // namespace emax

@@ -1,0 +1,37 @@
+// The forms that lines of generated SystemVerilog take.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hls/lowering/designs.h"
+
+namespace emax {
+
+constexpr std::size_t kLineLength = 100;
+
+// The file's first line.
+std::string generated_line(const LoweredDesign& design);
+
+// "[31:0] ", nothing for a single bit.
+std::string vector_type(int bits);
+
+// Items with commas between, over as many lines as it takes, each later one begun with `indent`.
+std::string listed(const std::string& head, const std::string& indent,
+                   const std::vector<std::string>& items, const std::string& end);
+
+// "  logic [31:0] a, b;", nothing for no names.
+std::string declarations(const std::string& type, const std::vector<std::string>& names);
+
+// An instance with its connections on one line, or on a second one where they do not fit.
+std::string instance(const std::string& module_and_parameters, const std::string& name,
+                     const std::string& connections);
+
+// A delay line of `cycles` for `bits`, written as `width`, that drives `to`.
+std::string delay_line(int bits, const std::string& width, int cycles, const DelayStyles& styles,
+                       const std::string& from, const std::string& to);
+
+// The name of a value delayed to a cycle.
+std::string at_cycle(const std::string& name, int cycle);
+
+}  // namespace emax

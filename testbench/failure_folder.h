@@ -1,0 +1,29 @@
+// The folder that a failure leaves. Everything that is needed to see the failure again stands in it:
+//
+//   input.txt      test, seed, slot bits, mutant and the runs (element_run.h), after # the reason
+//   replay.sh      one line that replays it
+//   report.txt     what the replay found: the mismatch and the first diverging node
+//   waveform.fst   a window of the failing run
+//
+// A copy of the folder under tests/testbench/regressions is a test of the unchanged design.
+#pragma once
+
+#include <filesystem>
+
+#include "testbench/cosimulation.h"
+
+namespace emax {
+
+// "pairs: random bits", seed 7 -> "pairs-random-bits-7"
+std::string folder_name(const Failure& failure);
+
+// Throws Error where the folder cannot be written.
+void write_failure(const std::filesystem::path& folder, const Failure& failure);
+
+// All but the mismatch. Throws Error naming the file and what is wrong in it.
+Failure read_failure(const std::filesystem::path& folder);
+
+// One paragraph: test, seed, sample, cycle, values.
+std::string describe(const Failure& failure);
+
+}  // namespace emax

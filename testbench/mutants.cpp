@@ -1,0 +1,137 @@
+// Every mutant of hls/rtl/mutation.sv must be caught by a test of the co-simulation; prints which
+// test caught it. Exit code 0 when all are caught and the unchanged design passes, 1 otherwise.
+//
+//   emax_mutants [--list hls/rtl/mutation.sv] [--seed N] [--only TEXT]
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "sw_model/error.h"
+#include "testbench/cosimulation.h"
+#include "testbench/operators/operator_cosim.h"
+#include "testbench/operators/operator_unit.h"
+#include "testbench/verilated_variants.h"
+
+namespace emax {
+namespace {
+
+constexpr std::uint64_t kOperatorPairs = 2'000'000;
+
+struct Mutant {
+  std::uint32_t number;
+  std::string name, fault;
+};
+
+// One line a mutant: `localparam int NAME = NUMBER;  // FAULT`.
+std::vector<Mutant> read_mutants(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw Error(file + ": cannot be read; name the list of mutants with --list");
+  static const std::regex kLine(R"(\s*localparam int ([A-Z0-9_]+) = ([0-9]+);\s*// (.+))");
+  std::vector<Mutant> mutants;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, kLine)) {
+      if (line.find("localparam") == std::string::npos) continue;
+      throw Error(file + ": '" + line + "' is not 'localparam int NAME = NUMBER;  // fault'");
+    }
+    const Mutant mutant = {static_cast<std::uint32_t>(std::stoul(match[2])), match[1], match[3]};
+    for (const Mutant& other : mutants) {
+      if (other.number == mutant.number) {
+        throw Error(file + ": " + other.name + " and " + mutant.name + " have one number");
+      }
+    }
+    mutants.push_back(mutant);
+  }
+  if (mutants.empty()) throw Error(file + ": holds no mutant");
+  return mutants;
+}
+
+struct Catch {
+  std::string test;  // empty: none
+  std::uint64_t pairs = 0;
+};
+
+Catch catch_with_operators(std::uint32_t mutant, std::uint64_t seed) {
+  const std::string name = "operators: binary32";
+  const auto unit = make_mutant_operators(static_cast<int>(mutant));
+  const OperatorRun run =
+      run_operator_cosim(*unit, kOperatorPairs, named_seed(name, seed), true);
+  Catch result;
+  for (const OperatorResult& op : run) {
+    result.pairs = op.pairs;
+    if (op.mismatches > 0) result.test = name;
+  }
+  return result;
+}
+
+// The tests in turn until one sees the mutant. An operator is looked at alone first.
+Catch find_catch(std::uint32_t mutant, std::uint64_t seed) {
+  Catch caught = catch_with_operators(mutant, seed);
+  if (!caught.test.empty()) return caught;
+  caught.pairs = 0;
+  CosimulationOptions options;
+  options.seed = seed;
+  options.mutant = mutant;
+  for (const ElementTest& test : element_tests()) {
+    const TestReport report = run_test(test, make_mutated_element, options);
+    caught.pairs += report.pairs;
+    if (!report.failure) continue;
+    caught.test = report.name;
+    break;
+  }
+  return caught;
+}
+
+int run(const std::string& list, const std::string& only, std::uint64_t seed) {
+  const std::vector<Mutant> mutants = read_mutants(list);
+  const Catch unchanged = find_catch(0, seed);
+  if (!unchanged.test.empty()) {
+    std::printf("the unchanged design fails '%s'\n", unchanged.test.c_str());
+    return 1;
+  }
+  std::printf("%3s  %-28s %-36s %9s  %s\n", "", "mutant", "caught by", "pairs", "fault");
+  std::uint64_t uncaught = 0, ran = 0;
+  for (const Mutant& mutant : mutants) {
+    if (mutant.name.find(only) == std::string::npos) continue;
+    const Catch caught = find_catch(mutant.number, seed);
+    ++ran;
+    uncaught += caught.test.empty() ? 1 : 0;
+    std::printf("%3u  %-28s %-36s %9llu  %s\n", mutant.number, mutant.name.c_str(),
+                caught.test.empty() ? "NOTHING" : caught.test.c_str(),
+                static_cast<unsigned long long>(caught.pairs), mutant.fault.c_str());
+    std::fflush(stdout);
+  }
+  if (ran == 0) throw Error("no mutant's name holds '" + only + "'");
+  std::printf("mutants: %llu, not caught: %llu\n", static_cast<unsigned long long>(ran),
+              static_cast<unsigned long long>(uncaught));
+  return uncaught == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace emax
+
+int main(int argc, char** argv) {
+  std::string list = "hls/rtl/mutation.sv", only, seed = "1";
+  for (int i = 1; i < argc; i += 2) {
+    const std::string option = argv[i];
+    std::string* value = option == "--list"   ? &list
+                         : option == "--only" ? &only
+                         : option == "--seed" ? &seed
+                                              : nullptr;
+    if (value == nullptr || i + 1 == argc) {
+      std::fprintf(stderr, "usage: emax_mutants [--list FILE] [--seed N] [--only TEXT]\n");
+      return 2;
+    }
+    *value = argv[i + 1];
+  }
+  try {
+    return emax::run(list, only, std::strtoull(seed.c_str(), nullptr, 10));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "emax_mutants: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "testbench/operators/operator_reference.h"
+#include "testbench/operators/operator_unit.h"
+
+namespace emax {
+
+// "add", "subtract", "multiply", "square", "less", "negative" (a < 0), "positive" (0 < a).
+const char* operator_name(Operator op);
+std::optional<Operator> operator_of_name(const std::string& name);
+
+struct OperatorResult {
+  std::uint64_t pairs = 0;
+  std::uint64_t mismatches = 0;
+  std::string first_mismatch;  // operands and both results as sign/exponent/fraction; empty if none
+};
+
+// What one run compares: all operators, indexed by Operator.
+using OperatorRun = std::vector<OperatorResult>;
+
+// Drives `unit` (binary32) with every corner pair, then `pairs` pairs over all aims, beside the
+// processor's own arithmetic. With stop_at_mismatch it ends after the first batch that has one.
+OperatorRun run_operator_cosim(OperatorUnit& unit, std::uint64_t pairs, std::uint64_t seed,
+                               bool stop_at_mismatch = false);
+
+// Drives `unit` with every pair of a format of 8 bits beside SmallFormat.
+OperatorRun run_small_cosim(OperatorUnit& unit, SmallFormat format);
+
+}  // namespace emax

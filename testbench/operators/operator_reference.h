@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "testbench/operators/operator_unit.h"
+
+namespace emax {
+
+// What this processor's own binary32 arithmetic makes of the pairs with subnormals flushed, each
+// NaN as 0x7fc00000. Sets the flush mode while it runs.
+void host_results(std::span<const OperandPair> pairs, std::span<OperatorResults> results);
+
+// A format of 1 + exponent + fraction bits, at most 8 in all, under the rules of docs/numerics.md,
+// computed exactly in double (which must not flush) and rounded here: no code or idea is shared
+// with the RTL, and the processor rounds nothing.
+struct SmallFormat {
+  int exponent, fraction;
+
+  int width() const { return 1 + exponent + fraction; }
+  double value(std::uint32_t word) const;
+  std::uint32_t rounded(double exact) const;
+  OperatorResults results(OperandPair pair) const;
+};
+
+}  // namespace emax

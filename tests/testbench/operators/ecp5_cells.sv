@@ -1,0 +1,72 @@
+// The ECP5 cells that hls/rtl/ecp5 instantiates, as far as it uses them, for simulation: written from
+// the attributes' description in Lattice's TN1267 (sysDSP) and TN1265 (slices).
+/* verilator lint_off DECLFILENAME */  // two cells
+
+// 18 x 18 unsigned multiplier; each register is there when its attribute names a clock.
+/* verilator lint_off UNUSEDSIGNAL */  // what hls/rtl/ecp5 ties off
+/* verilator lint_off UNUSEDPARAM */
+module MULT18X18D #(
+    parameter REG_INPUTA_CLK = "NONE",
+    parameter REG_INPUTB_CLK = "NONE",
+    parameter REG_PIPELINE_CLK = "NONE",
+    parameter REG_OUTPUT_CLK = "NONE",
+    parameter GSR = "ENABLED"
+) (
+    input logic
+        A0, A1, A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A13, A14, A15, A16, A17,
+        B0, B1, B2, B3, B4, B5, B6, B7, B8, B9, B10, B11, B12, B13, B14, B15, B16, B17,
+        CLK0, CLK1, CLK2, CLK3, CE0, CE1, CE2, CE3, RST0, RST1, RST2, RST3, SIGNEDA, SIGNEDB,
+        SOURCEA, SOURCEB,
+    output logic
+        P0, P1, P2, P3, P4, P5, P6, P7, P8, P9, P10, P11, P12, P13, P14, P15, P16, P17,
+        P18, P19, P20, P21, P22, P23, P24, P25, P26, P27, P28, P29, P30, P31, P32, P33,
+        P34, P35
+);
+  logic [17:0] a, b, a_held, b_held;
+  logic [35:0] product, product_held, inside, inside_held;
+  assign a = {
+    A17, A16, A15, A14, A13, A12, A11, A10, A9, A8, A7, A6, A5, A4, A3, A2, A1, A0
+  };
+  assign b = {
+    B17, B16, B15, B14, B13, B12, B11, B10, B9, B8, B7, B6, B5, B4, B3, B2, B1, B0
+  };
+  always_ff @(posedge CLK0) begin
+    a_held <= a;
+    b_held <= b;
+    inside_held <= inside;
+    product_held <= product;
+  end
+  assign inside = 36'(REG_INPUTA_CLK == "CLK0" ? a_held : a)
+      * 36'(REG_INPUTB_CLK == "CLK0" ? b_held : b);
+  assign product = REG_PIPELINE_CLK == "CLK0" ? inside_held : inside;
+  assign {
+    P35, P34, P33, P32, P31, P30, P29, P28, P27, P26, P25, P24, P23, P22, P21, P20, P19, P18,
+    P17, P16, P15, P14, P13, P12, P11, P10, P9, P8, P7, P6, P5, P4, P3, P2, P1, P0
+  } = REG_OUTPUT_CLK == "CLK0" ? product_held : product;
+endmodule
+/* verilator lint_on UNUSEDPARAM */
+/* verilator lint_on UNUSEDSIGNAL */
+
+// Two LUTs of a slice with their carries: a LUT's value chooses between the carry that comes and the
+// value of its lower four places at (A, B).
+module CCU2C #(
+    parameter logic [15:0] INIT0 = 16'h0000,
+    parameter logic [15:0] INIT1 = 16'h0000,
+    parameter INJECT1_0 = "YES",
+    parameter INJECT1_1 = "YES"
+) (
+    input  logic CIN, A0, B0, C0, D0, A1, B1, C1, D1,
+    output logic S0, S1, COUT
+);
+  if (INJECT1_0 != "NO" || INJECT1_1 != "NO") begin : unmodelled
+    $error("CCU2C: this model knows INJECT1 NO alone");
+  end
+  logic value_0, value_1, carry;
+  assign value_0 = INIT0[{D0, C0, B0, A0}];
+  assign value_1 = INIT1[{D1, C1, B1, A1}];
+  assign carry = value_0 ? CIN : INIT0[{2'b00, B0, A0}];
+  assign COUT = value_1 ? carry : INIT1[{2'b00, B1, A1}];
+  assign S0 = value_0 ^ CIN;
+  assign S1 = value_1 ^ carry;
+endmodule
+/* verilator lint_on DECLFILENAME */

@@ -1,0 +1,184 @@
+"""The parts of `./dev synth` that need no tool: the comparison with the baseline, the steps and
+their memory, the shell, and what is read out of the tools' files. Run in a folder of its own."""
+
+import io
+import json
+import os
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
+from synthesis import baseline, designs, document, tools  # noqa: E402
+
+FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
+
+
+class BaselineTest(unittest.TestCase):
+    def faults(self, changes, complete=True):
+        return baseline.compare({"element: e": {**FIGURES["element: e"], **changes}}, FIGURES, complete)
+
+    def test_equal_better_and_tolerated_figures_pass(self):
+        self.assertEqual(self.faults({}), [])
+        self.assertEqual(self.faults({"lut": 900, "dsp": 59, "fmax": 300.0}), [])
+        self.assertEqual(self.faults({"lut": 1030, "ff": 2100, "fmax": 166.25}), [])
+
+    def test_each_worsened_figure_is_named(self):
+        for figure, value in {"lut": 1031, "ff": 2101, "dsp": 61, "ram": 1, "fmax": 166.2}.items():
+            (fault,) = self.faults({figure: value})
+            self.assertIn(f"element: e: {figure} {value:g} is worse than the baseline's", fault)
+
+    def test_figures_on_one_side_only_are_faults(self):
+        self.assertIn("not in the baseline", self.faults({"latency": 3})[0])
+        short = {"element: e": {"lut": 1000}}
+        self.assertEqual(len(baseline.compare(short, FIGURES, False)), 4)
+        self.assertEqual(len(baseline.compare({}, FIGURES, True)), 5)
+        self.assertEqual(baseline.compare({}, FIGURES, False), [])
+
+    def test_a_partial_run_updates_its_part_of_the_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "baseline.json"
+            versions = {"yosys": "1", "nextpnr": "2"}
+            baseline.write(path, versions, FIGURES, True)
+            baseline.write(path, versions, {"xilinx: f": {"lut": 5}}, False)
+            known = baseline.read(path)[baseline.key(versions)]
+            self.assertEqual(known, {**FIGURES, "xilinx: f": {"lut": 5}})
+            baseline.write(path, versions, FIGURES, True)
+            self.assertEqual(list(baseline.read(path)[baseline.key(versions)]), ["element: e"])
+
+
+class StepTest(unittest.TestCase):
+    """A shell in the place of Yosys."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+        Path("in").write_text("1")
+
+    def runner(self, **options):
+        return tools.Runner(1, tools={"yosys": ["sh"]}, out=io.StringIO(), **options)
+
+    def step(self, runner, script, outputs=("out",)):
+        return runner.step("yosys", "a step", "s", ["-c", script], [Path("in")], outputs)
+
+    def test_is_run_again_only_when_something_changed(self):
+        script = "echo x >>{folder}/out"
+        lines = lambda: len(Path("build/synth/s/out").read_text().splitlines())
+        for _ in range(2):
+            (out,) = self.step(self.runner(), script)
+            self.assertEqual(lines(), 1)
+        Path("in").write_text("2")
+        self.step(self.runner(), script)
+        self.assertEqual(lines(), 2)
+        self.step(self.runner(), script + "; true")
+        self.assertEqual(lines(), 3)
+        self.step(self.runner(fresh=True), script + "; true")
+        self.assertEqual(lines(), 4)
+        out.unlink()
+        self.step(self.runner(), script + "; true")
+        self.assertEqual(lines(), 1)
+
+    def test_a_failure_shows_the_end_of_the_log_and_its_path_and_is_not_remembered(self):
+        for _ in range(2):
+            with self.assertRaisesRegex(tools.Failure, "(?s)broken wire.*status 3.*build/synth/s/yosys.log"):
+                self.step(self.runner(), "touch {folder}/out; echo broken wire; exit 3")
+        with self.assertRaisesRegex(tools.Failure, "did not write build/synth/s/none"):
+            self.step(self.runner(), "true", ["none"])
+
+    def test_stopping_ends_the_tool_and_its_children(self):
+        runner = self.runner()
+        work = tools.Background(runner)
+        work.start(self.step, runner, "sleep 60 & echo $! >{folder}/child; wait")
+        child = Path("build/synth/s/child")
+        deadline = time.monotonic() + 20
+        while not (child.exists() and child.read_text().strip()) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        runner.stop()
+        with self.assertRaisesRegex(tools.Failure, "stopped"):
+            work.wait()
+        status = Path(f"/proc/{child.read_text().strip()}/stat")
+        while status.exists() and status.read_text().split()[2] != "Z" and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertTrue(not status.exists() or status.read_text().split()[2] == "Z")
+
+    def test_a_failure_in_the_background_is_raised(self):
+        work = tools.Background(self.runner())
+        work.start(lambda: {}["no such key"])
+        with self.assertRaises(KeyError):
+            work.wait()
+
+    def test_progress_names_the_stage(self):
+        Path("log").write_text("Info: Packing carries..\nInfo: Routing globals...\nInfo: more\n")
+        self.assertEqual(tools.stage_of("log"), "routing")
+        self.assertEqual(tools.stage_of("none"), "")
+
+
+class DesignTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, content):
+        path = Path(self.folder.name) / "file"
+        path.write_text(content if isinstance(content, str) else json.dumps(content))
+        return path
+
+    def test_operators_have_the_latencies_of_the_datapath(self):
+        text = """  localparam int ADD_LATENCY = 12;
+  fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY)) a (
+  fp_less #(.LATENCY(2)) b ("""
+        found = {d.top: d.parameters["LATENCY"] for d in designs.operators(self.file(text), 200)}
+        self.assertEqual(found, {"fp_add": 12, "fp_less": 2})
+        with self.assertRaises(tools.Failure):
+            designs.operators(self.file("module empty; endmodule"), 200)
+
+    def test_the_shell_reaches_every_port_bit_once(self):
+        design = designs.Design("d", "d", 100, {"N": 4})
+        text = designs.shell(design, [("clk", "input", 1), ("a", "input", 8), ("b", "input", 1), ("q", "output", 3)])
+        for part in [".a(held[7:0])", ".b(held[8:8])", ".q(out[2:0])", "reg [8:0] held", "reg [2:0] taken", "#(.N(4))"]:
+            self.assertIn(part, text)
+
+    def test_the_critical_path_is_the_clocks_own(self):
+        step = lambda kind, delay: {"type": kind, "delay": delay, "from": {"cell": "design.a_TRELLIS_FF_Q"},
+                                    "to": {"cell": "design.b_TRELLIS_FF_Q_DI_LUT4_Z"}}
+        steps = [step("clk-to-q", 0.5), step("routing", 1.25), step("logic", 0.25), step("setup", 0.0)]
+        report = {"utilization": {"TRELLIS_COMB": {"used": 110}, "TRELLIS_FF": {"used": 220},
+                                  "MULT18X18D": {"used": 4}},
+                  "fmax": {"$clk": {"achieved": 181.256, "constraint": 175}},
+                  "critical_paths": [{"from": "<async>", "to": "posedge $clk", "path": [step("routing", 9)]},
+                                     {"from": "posedge $clk", "to": "posedge $clk", "path": steps}]}
+        cells = Path(self.folder.name) / "cells"
+        cells.write_text(json.dumps({"modules": {
+            "\\synthesis_shell": {"num_cells_by_type": {"LUT4": 10, "TRELLIS_FF": 20}},
+            "\\d": {"num_cells_by_type": {"LUT4": 100}}}}))
+        figures, detail = designs.ecp5_figures(self.file(report), cells)
+        self.assertEqual(figures, {"lut": 100, "ff": 200, "dsp": 4, "ram": 0, "fmax": 181.26})
+        self.assertEqual(detail["path"], {"from": "a", "to": "b", "logic": 0.75, "routing": 1.25, "levels": 1})
+
+    def test_dsp_blocks_without_inner_registers_are_seen(self):
+        dsp = lambda **registers: {"type": "DSP48E1", "parameters": {k: f"{v:032b}" for k, v in registers.items()}}
+        cells = {"a": dsp(AREG=1, BREG=2, MREG=1, PREG=0), "b": dsp(AREG=1, BREG=1, MREG=0, PREG=0),
+                 "c": dsp(AREG=0, BREG=1, MREG=1), "d": {"type": "LUT6"}, "e": {"type": "SRL16E"},
+                 "f": {"type": "RAM32M"}, "g": {"type": "FDRE"}, "h": {"type": "CARRY4"}}
+        netlist = {"modules": {"cell": {"attributes": {}}, "top": {"attributes": {"top": 1}, "cells": cells}}}
+        figures, detail = designs.xilinx_figures(self.file(netlist))
+        self.assertEqual(figures, {"lut": 6, "ff": 1, "dsp": 3, "ram": 0})
+        self.assertEqual(detail, {"srl": 1, "ram_luts": 4, "registered": 1})
+
+
+class DocumentTest(unittest.TestCase):
+    def test_a_missed_target_is_written_as_such(self):
+        result = {"figures": FIGURES["element: e"], "target": 176.0, "seed": 2, "tried": {"1": 170.0, "2": 175.0},
+                  "path": {"from": "a", "to": "b", "logic": 1.0, "routing": 2.0, "levels": 3}}
+        text = document.tables({"element": {"e": result}})
+        self.assertIn("176 missed", text)
+        self.assertIn("Seeds tried for e: 1: 170.0 MHz, 2: 175.0 MHz.", text)
+        self.assertIn("175 met", document.tables({"element": {"e": {**result, "target": 175.0}}}))
+
+
+if __name__ == "__main__":
+    unittest.main()
