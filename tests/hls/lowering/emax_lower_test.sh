@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # emax_lower's command line: emax_lower_test.sh EMAX_LOWER EXPECT
-# shellcheck source=../../tooling/expect.sh
-. "$2"
+# shellcheck source-path=SCRIPTDIR source=../../tooling/expect.sh
+source "$2"
 lower=$1
 expect pass "usage: emax_lower FORM" "help" "$lower" --help
 expect pass "module emax_minimum (" "a form to standard output" "$lower" minimum
