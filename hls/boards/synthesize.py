@@ -68,12 +68,12 @@ class Ecp5:
                 "tried": {str(seed): figures["fmax"] for seed, figures, _ in tried}}
 
     def _route(self, netlist, cells, seed):
-        (report,) = self.runner.step(
+        report, log = self.runner.step(
             "nextpnr", f"{self.design.name}, place and route with seed {seed}", f"{self.folder}/seed{seed}",
             ["--85k", "--speed", "6", "--package", "CABGA381", "--lpf-allow-unconstrained", "--timing-allow-fail",
              "--freq", f"{self.design.target:g}", "--seed", str(seed), *NEXTPNR, "--json", str(netlist),
-             "--report", "{folder}/report.json"], [netlist], ["report.json"])
-        figures, detail = designs.ecp5_figures(report, cells)
+             "--report", "{folder}/report.json"], [netlist], ["report.json", "nextpnr.log"])
+        figures, detail = designs.ecp5_figures(report, log, cells)
         self.runner.say(f"{self.design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {self.design.target:g}")
         return figures, detail
 

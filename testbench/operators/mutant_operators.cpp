@@ -7,6 +7,8 @@ namespace emax {
 
 std::unique_ptr<OperatorUnit> make_mutant_operators(int mutant) {
   auto unit = std::make_unique<VerilatedOperators<Voperators_mutant_rtl>>();
+  unit->model().eval();  // the first evaluation sets the initial value
+  unit->model().eval();  // its initial blocks make the design unchanged
   unit->model().rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
   return unit;
 }

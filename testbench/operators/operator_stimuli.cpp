@@ -47,11 +47,17 @@ int around(Random& random, int middle, int reach) {
   return middle - reach + static_cast<int>(random.below(static_cast<std::uint32_t>(2 * reach + 1)));
 }
 
-// A pair whose exponents add up to about `sum`.
+// A pair whose exponents add up to about `sum`, half of them with a product about a power of two.
 OperandPair product_pair(Random& random, int sum) {
   OperandPair pair = any_pair(random);
   if (random.one_in(2)) pair.a = (pair.a & ~kFractionMask) | sparse_fraction(random);
   if (random.one_in(4)) pair.b = (pair.b & ~kFractionMask) | sparse_fraction(random);
+  if (random.one_in(2)) {
+    const std::uint64_t reciprocal = (1ull << 47) / (1u << 23 | (pair.a & kFractionMask));
+    const std::uint32_t near =
+        static_cast<std::uint32_t>(around(random, 0, 2)) + static_cast<std::uint32_t>(reciprocal);
+    pair.b = (pair.b & kSignBit) | (near & kFractionMask);
+  }
   pair.b = compose(pair.b >> 31, around(random, sum, 2) - exponent_of(pair.a), pair.b);
   return pair;
 }

@@ -146,7 +146,7 @@ class DesignTest(unittest.TestCase):
         step = lambda kind, delay: {"type": kind, "delay": delay, "from": {"cell": "design.a_TRELLIS_FF_Q"},
                                     "to": {"cell": "design.b_TRELLIS_FF_Q_DI_LUT4_Z"}}
         steps = [step("clk-to-q", 0.5), step("routing", 1.25), step("logic", 0.25), step("setup", 0.0)]
-        report = {"utilization": {"TRELLIS_COMB": {"used": 110}, "TRELLIS_FF": {"used": 220},
+        report = {"utilization": {"TRELLIS_COMB": {"used": 140}, "TRELLIS_FF": {"used": 220},
                                   "MULT18X18D": {"used": 4}},
                   "fmax": {"$clk": {"achieved": 181.256, "constraint": 175}},
                   "critical_paths": [{"from": "<async>", "to": "posedge $clk", "path": [step("routing", 9)]},
@@ -155,9 +155,15 @@ class DesignTest(unittest.TestCase):
         cells.write_text(json.dumps({"modules": {
             "\\synthesis_shell": {"num_cells_by_type": {"LUT4": 10, "TRELLIS_FF": 20}},
             "\\d": {"num_cells_by_type": {"LUT4": 100}}}}))
-        figures, detail = designs.ecp5_figures(self.file(report), cells)
+        log = Path(self.folder.name) / "log"
+        log.write_text("Info: Total LUT4s:  110/83640  0%\n")
+        figures, detail = designs.ecp5_figures(self.file(report), log, cells)
+        self.assertEqual(detail["cells"], 130)
         self.assertEqual(figures, {"lut": 100, "ff": 200, "dsp": 4, "ram": 0, "fmax": 181.26})
         self.assertEqual(detail["path"], {"from": "a", "to": "b", "logic": 0.75, "routing": 1.25, "levels": 1})
+        log.write_text("")
+        with self.assertRaises(tools.Failure):
+            designs.ecp5_figures(self.file(report), log, cells)
 
     def test_dsp_blocks_without_inner_registers_are_seen(self):
         dsp = lambda **registers: {"type": "DSP48E1", "parameters": {k: f"{v:032b}" for k, v in registers.items()}}
@@ -172,7 +178,7 @@ class DesignTest(unittest.TestCase):
 
 class DocumentTest(unittest.TestCase):
     def test_a_missed_target_is_written_as_such(self):
-        result = {"figures": FIGURES["element: e"], "target": 176.0, "seed": 2, "tried": {"1": 170.0, "2": 175.0},
+        result = {"figures": FIGURES["element: e"], "cells": 1100, "target": 176.0, "seed": 2, "tried": {"1": 170.0, "2": 175.0},
                   "path": {"from": "a", "to": "b", "logic": 1.0, "routing": 2.0, "levels": 3}}
         text = document.tables({"element": {"e": result}})
         self.assertIn("176 missed", text)

@@ -114,9 +114,18 @@ endmodule
 
 def ecp5_script(design, shell_path, options):
     """The design in its shell for ECP5. It is mapped with its boundary kept, counted, and then
-    dissolved into the shell for placement."""
+    dissolved into the shell for placement.
+
+    Before flip-flops are mapped, synchronous resets other than aresetn become logic: Yosys makes
+    them of multiplexers with a zero, and such a control signal is shared by the flip-flops of a
+    tile, reaches them late, and so spreads the datapath out.
+    """
+    synthesis = f"synth_ecp5 -top synthesis_shell {options}"
     return (f"{_read(design, 'ecp5')} {shell_path}; "
-            f"synth_ecp5 -top synthesis_shell {options}; "
+            f"{synthesis} -run :map_ffs; "
+            "select -set by_reset w:aresetn %co1:+[R,SRST] w:* %d; select -clear; "
+            "dffunmap -srst-only t:* @by_reset %d; opt_clean; "
+            f"{synthesis} -run map_ffs:; "
             "tee -q -o {folder}/cells.json stat -json; "
             "setattr -unset keep_hierarchy c:design; flatten; opt_clean; "
             "write_json {folder}/netlist.json")
@@ -151,21 +160,25 @@ def xilinx_figures(netlist):
     }, {"srl": total("SRL16E?|SRLC32E"), "ram_luts": ram_luts, "registered": registered}
 
 
-def ecp5_figures(report, cells):
-    """Figures, and what the critical path is, from nextpnr's report and Yosys's count of the shell."""
+def ecp5_figures(report, log, cells):
+    """Figures, and what the critical path is, from nextpnr's report and log and from Yosys's count of
+    the shell's cells, which are subtracted."""
+    luts = re.search(r"Total LUT4s:\s+(\d+)/", log.read_text())
+    if luts is None:
+        raise Failure(f"{log} does not say how many LUT4s there are")
     report = json.loads(report.read_text())
     used = {kind: counts["used"] for kind, counts in report["utilization"].items()}
     (shell_cells,) = [m["num_cells_by_type"] for name, m in json.loads(cells.read_text())["modules"].items()
                       if name == "\\synthesis_shell"]
     clock = max(report["fmax"], key=lambda name: report["fmax"][name]["constraint"])
     figures = {
-        "lut": used["TRELLIS_COMB"] - shell_cells.get("LUT4", 0),
+        "lut": int(luts[1]) - shell_cells.get("LUT4", 0),
         "ff": used["TRELLIS_FF"] - shell_cells.get("TRELLIS_FF", 0),
         "dsp": used.get("MULT18X18D", 0),
         "ram": used.get("DP16KD", 0),
         "fmax": round(report["fmax"][clock]["achieved"], 2),
     }
-    return figures, {"lut_ram": used.get("TRELLIS_RAMW", 0), "path": _critical_path(report, clock)}
+    return figures, {"cells": used["TRELLIS_COMB"] - shell_cells.get("LUT4", 0), "path": _critical_path(report, clock)}
 
 
 def _critical_path(report, clock):

@@ -11,8 +11,8 @@ UltraScale+ Yosys maps and counts; nothing is placed, so there is no clock.
 
 Not measured: a bitstream on a board, power, temperature, and what the vendors' own tools would give.
 
-LUT: used TRELLIS_COMB cells, carry chains and LUT RAM included (7-series and UltraScale+: LUTs, SRLs
-and LUT RAM in LUTs). FF: flip-flops. DSP: MULT18X18D (DSP48E1, DSP48E2). RAM: block RAMs.
+LUT: what nextpnr counts as LUT4, carry chains and LUT RAM included; cells: the TRELLIS_COMB cells that
+these occupy with what only passes through (7-series and UltraScale+: LUTs, SRLs and LUT RAM in LUTs). FF: flip-flops. DSP: MULT18X18D (DSP48E1, DSP48E2). RAM: block RAMs.
 `./dev synth` fails when a figure is worse than `hls/boards/synthesis_baseline.json` by more than its
 tolerance: {tolerances}.
 """
@@ -40,11 +40,11 @@ def table(header, rows):
 def _placed(result):
     figures = result["figures"]
     verdict = "met" if figures["fmax"] >= result["target"] else "missed"
-    return [f"{figures['lut']:,}", f"{figures['ff']:,}", figures["dsp"], figures["ram"],
+    return [f"{figures['lut']:,}", f"{result['cells']:,}", f"{figures['ff']:,}", figures["dsp"], figures["ram"],
             f"{figures['fmax']:.1f}", f"{result['target']:g} {verdict}", result["seed"]]
 
 
-PLACED = ["LUT", "FF", "DSP", "RAM", "MHz", "target", "seed"]
+PLACED = ["LUT", "cells", "FF", "DSP", "RAM", "MHz", "target", "seed"]
 
 
 def _paths(subjects):
@@ -53,7 +53,7 @@ def _paths(subjects):
         path = result["path"]
         if path is not None:
             rows.append([name, path["from"], path["to"], f"{path['logic']:.2f}", f"{path['routing']:.2f}", path["levels"]])
-    return table(["critical path of", "from", "to", "logic ns", "routing ns", "LUTs"], rows)
+    return table(["critical path of", "from", "to", "logic ns", "routing ns", "logic steps"], rows)
 
 
 def _tried(subjects):

@@ -37,7 +37,9 @@ module mantissa_multiply #(
   delay_line #(.WIDTH(WIDTH_B), .DEPTH(BEFORE)) before_b (.clk, .d(b), .q(b_0));
 
   if (WIDTH_A <= LOW) begin : one
+    /* verilator lint_off UNUSEDSIGNAL */  // narrow operands leave upper bits 0
     logic [35:0] whole;
+    /* verilator lint_on UNUSEDSIGNAL */
     multiplier_18x18 #(.INSIDE(INSIDE)) multiplier (.clk, .a(18'(a_0)), .b(18'(b_0)), .product(whole));
     delay_line #(.WIDTH(2 * WIDTH_A), .DEPTH(AFTER + MIDDLE + 1)) after (
         .clk, .d(whole[2*WIDTH_A-1:0]), .q(product)
@@ -45,7 +47,10 @@ module mantissa_multiply #(
   end else begin : three
     localparam int HIGH = WIDTH_A - LOW;
     localparam int CROSS = LOW + HIGH;
-    logic [35:0] low, high_low, low_high;
+    logic [35:0] low;
+    /* verilator lint_off UNUSEDSIGNAL */  // narrow operands leave upper bits 0
+    logic [35:0] high_low, low_high;
+    /* verilator lint_on UNUSEDSIGNAL */
     multiplier_18x18 #(.INSIDE(INSIDE)) low_by_low (
         .clk, .a(a_0[LOW-1:0]), .b(b_0[LOW-1:0]), .product(low)
     );
@@ -82,7 +87,11 @@ module mantissa_multiply #(
     localparam int UPPER = 2 * WIDTH_A - LOW;
     delay_line #(.WIDTH(2 * WIDTH_A), .DEPTH(1)) cut_sum (
         .clk,
-        .d({{high_2, low_2[35:LOW]} + UPPER'({`MUTATED(ECP5_MIDDLE_TOO_NARROW, middle[CROSS], 1'b0), middle[CROSS-1:0]}), low_2[LOW-1:0]}),
+        .d({
+          {high_2, low_2[35:LOW]}
+              + UPPER'({`MUTATED(ECP5_MIDDLE_TOO_NARROW, middle[CROSS], 1'b0), middle[CROSS-1:0]}),
+          low_2[LOW-1:0]
+        }),
         .q(product)
     );
   end

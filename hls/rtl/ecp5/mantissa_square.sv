@@ -23,11 +23,19 @@ module mantissa_square #(
     $error("mantissa_square: the operand must be of at most 24 bits on ECP5");
   end
 
+  typedef logic [12*64-1:0] table_t;
+  function automatic table_t all_squares();
+    for (int i = 0; i < 64; i++) all_squares[12*i+:12] = 12'(i * i);
+  endfunction
+  localparam table_t SQUARES = all_squares();
+
   logic [WIDTH-1:0] a_0;
   delay_line #(.WIDTH(WIDTH), .DEPTH(BEFORE)) before_a (.clk, .d(a), .q(a_0));
 
   if (WIDTH <= LOW) begin : one
+    /* verilator lint_off UNUSEDSIGNAL */  // narrow operands leave upper bits 0
     logic [35:0] whole;
+    /* verilator lint_on UNUSEDSIGNAL */
     multiplier_18x18 #(.INSIDE(INSIDE)) multiplier (.clk, .a(18'(a_0)), .b(18'(a_0)), .product(whole));
     delay_line #(.WIDTH(2 * WIDTH), .DEPTH(AFTER + 1)) after (
         .clk, .d(whole[2*WIDTH-1:0]), .q(square)
@@ -36,34 +44,36 @@ module mantissa_square #(
     localparam int HIGH = WIDTH - LOW;
     localparam int CROSS = LOW + HIGH;
     localparam int UPPER = 2 * WIDTH - LOW;
-    logic [35:0] low, cross, low_1;
+    logic [35:0] low, low_1;
+    /* verilator lint_off UNUSEDSIGNAL */  // narrow operands leave upper bits 0
+    logic [35:0] cross_0;
+    /* verilator lint_on UNUSEDSIGNAL */
     logic [CROSS-1:0] cross_1;
     multiplier_18x18 #(.INSIDE(INSIDE)) low_by_low (
         .clk, .a(a_0[LOW-1:0]), .b(a_0[LOW-1:0]), .product(low)
     );
     multiplier_18x18 #(.INSIDE(INSIDE)) high_by_low (
-        .clk, .a(18'(a_0[WIDTH-1:LOW])), .b(a_0[LOW-1:0]), .product(cross)
+        .clk, .a(18'(a_0[WIDTH-1:LOW])), .b(a_0[LOW-1:0]), .product(cross_0)
     );
-    typedef logic [2*HIGH*(1<<HIGH)-1:0] table_t;
-    function automatic table_t squares();
-      for (int i = 0; i < 1 << HIGH; i++) squares[i*2*HIGH+:2*HIGH] = (2 * HIGH)'(i * i);
-    endfunction
-    localparam table_t TABLE = squares();
     logic [HIGH-1:0] high_0;
     logic [2*HIGH-1:0] high;
     delay_line #(.WIDTH(HIGH), .DEPTH(MULTIPLIER + AFTER - 1)) high_entry (
         .clk, .d(a_0[WIDTH-1:LOW]), .q(high_0)
     );
     delay_line #(.WIDTH(2 * HIGH), .DEPTH(1)) high_square (
-        .clk, .d(TABLE[32'(high_0)*2*HIGH+:2*HIGH]), .q(high)
+        .clk, .d((2 * HIGH)'(SQUARES[12*32'(high_0)+:12])), .q(high)
     );
     delay_line #(.WIDTH(36), .DEPTH(AFTER)) after_low (.clk, .d(low), .q(low_1));
     delay_line #(.WIDTH(CROSS), .DEPTH(AFTER)) after_cross (
-        .clk, .d(cross[CROSS-1:0]), .q(cross_1)
+        .clk, .d(cross_0[CROSS-1:0]), .q(cross_1)
     );
     delay_line #(.WIDTH(2 * WIDTH), .DEPTH(1)) cut_sum (
         .clk,
-        .d({{high, low_1[35:LOW]} + `MUTATED(ECP5_CROSS_ONCE, UPPER'({cross_1, 1'b0}), UPPER'(cross_1)), low_1[LOW-1:0]}),
+        .d({
+          {high, low_1[35:LOW]}
+              + `MUTATED(ECP5_CROSS_ONCE, UPPER'({cross_1, 1'b0}), UPPER'(cross_1)),
+          low_1[LOW-1:0]
+        }),
         .q(square)
     );
   end

@@ -31,7 +31,7 @@ module small_multiply #(
   logic [7:0] upper;
   delay_line #(.WIDTH(18), .DEPTH(AFTER_SUM)) cut_sum (
       .clk,
-      .d({{8'b0, rows_1[0][1:0]} + {10'(rows_1[0][7:2]) + 10'(rows_1[1]), 2'b00}, rows_1[2]}),
+      .d({8'(rows_1[0][7:2]) + rows_1[1], rows_1[0][1:0], rows_1[2]}),
       .q({lower, upper})
   );
   logic [11:0] whole;

@@ -23,7 +23,7 @@ module MULT18X18D #(
         P34, P35
 );
   logic [17:0] a, b, a_held, b_held;
-  logic [35:0] product, product_held, inside, inside_held;
+  logic [35:0] product, product_held, middle, middle_held;
   assign a = {
     A17, A16, A15, A14, A13, A12, A11, A10, A9, A8, A7, A6, A5, A4, A3, A2, A1, A0
   };
@@ -33,12 +33,14 @@ module MULT18X18D #(
   always_ff @(posedge CLK0) begin
     a_held <= a;
     b_held <= b;
-    inside_held <= inside;
+    middle_held <= middle;
     product_held <= product;
   end
-  assign inside = 36'(REG_INPUTA_CLK == "CLK0" ? a_held : a)
-      * 36'(REG_INPUTB_CLK == "CLK0" ? b_held : b);
-  assign product = REG_PIPELINE_CLK == "CLK0" ? inside_held : inside;
+  logic [17:0] a_used, b_used;
+  assign a_used = REG_INPUTA_CLK == "CLK0" ? a_held : a;
+  assign b_used = REG_INPUTB_CLK == "CLK0" ? b_held : b;
+  assign middle = 36'(a_used) * 36'(b_used);
+  assign product = REG_PIPELINE_CLK == "CLK0" ? middle_held : middle;
   assign {
     P35, P34, P33, P32, P31, P30, P29, P28, P27, P26, P25, P24, P23, P22, P21, P20, P19, P18,
     P17, P16, P15, P14, P13, P12, P11, P10, P9, P8, P7, P6, P5, P4, P3, P2, P1, P0

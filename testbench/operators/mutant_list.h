@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace emax {
+
+// One line of hls/rtl/mutation.sv.
+struct Mutant {
+  int number;
+  std::string name;
+  std::string module;
+  std::string fault;
+};
+
+// The mutants in the order of the file. Throws Error when the file cannot be read, holds none, or a
+// number stands twice.
+std::vector<Mutant> read_mutants(const std::string& path);
+
+}  // namespace emax

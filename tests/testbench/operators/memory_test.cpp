@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "Vmemories_rtl.h"
+#include "Vmemories_rtl___024root.h"
+#include "Vmemories_rtl_emax_mutation.h"
+#include "testbench/operators/mutant_list.h"
+#include "testbench/random.h"
+
+namespace emax {
+namespace {
+
+constexpr std::array<int, 10> kDepths = {0, 1, 2, 3, 4, 17, 18, 34, 35, 52};
+constexpr int kCycles = 3000;
+
+class Memories {
+ public:
+  explicit Memories(int mutant) : rtl_(&context_) {
+    rtl_.eval();  // its initial blocks make the design unchanged
+    rtl_.rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
+  }
+  Vmemories_rtl& rtl() { return rtl_; }
+  void clock() {
+    rtl_.clk = 0;
+    rtl_.eval();
+    rtl_.clk = 1;
+    rtl_.eval();
+  }
+
+ private:
+  VerilatedContext context_;
+  Vmemories_rtl rtl_;
+};
+
+template <class Packed>
+unsigned byte(const Packed& packed, std::size_t i) {
+  return packed[i / 4] >> (8 * (i % 4)) & 255u;
+}
+
+// Outputs that were not the input of DEPTH edges ago, by style.
+std::array<int, 4> late_or_early(int mutant) {
+  Memories memories(mutant);
+  Vmemories_rtl& rtl = memories.rtl();
+  Random random(named_seed("late_or_early", 1));
+  std::vector<unsigned> history;
+  std::array<int, 4> wrong = {};
+  for (int cycle = 0; cycle < kCycles; ++cycle) {
+    rtl.d = static_cast<CData>(random.below(256));
+    history.push_back(rtl.d);
+    memories.clock();
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+      // Just after an edge, depth 0 still shows this input and depth 1 holds it.
+      const int back = std::max(kDepths[i] - 1, 0);
+      if (back > cycle) continue;
+      const unsigned expected = history[history.size() - 1 - static_cast<std::size_t>(back)];
+      wrong[0] += byte(rtl.registers, i) != expected;
+      wrong[1] += byte(rtl.shift_register, i) != expected;
+      wrong[2] += byte(rtl.distributed_ram, i) != expected;
+      wrong[3] += byte(rtl.block_ram, i) != expected;
+    }
+  }
+  return wrong;
+}
+
+int wrong_words(int mutant) {
+  Memories memories(mutant);
+  Vmemories_rtl& rtl = memories.rtl();
+  Random random(named_seed("wrong_words", 1));
+  std::array<unsigned, 8> words = {};
+  for (unsigned slot = 0; slot < 8; ++slot) {
+    rtl.write_enable = 1;
+    rtl.write_slot = static_cast<CData>(slot);
+    words[slot] = rtl.write_data = static_cast<SData>(random.below(65536));
+    memories.clock();
+  }
+  int wrong = 0;
+  for (int cycle = 0; cycle < kCycles; ++cycle) {
+    rtl.write_enable = random.one_in(2);
+    rtl.write_slot = static_cast<CData>(random.below(8));
+    rtl.write_data = static_cast<SData>(random.below(65536));
+    rtl.read_slot = random.one_in(3) ? rtl.write_slot : static_cast<CData>(random.below(8));
+    const unsigned expected = words[rtl.read_slot];  // a read at the edge of a write gives the old
+    if (rtl.write_enable) words[rtl.write_slot] = rtl.write_data;
+    memories.clock();
+    wrong += rtl.read_data != expected;
+  }
+  return wrong;
+}
+
+int mutant_number(const std::string& name) {
+  for (const Mutant& mutant : read_mutants(EMAX_MUTATION_LIST))
+    if (mutant.name == name) return mutant.number;
+  ADD_FAILURE() << name << " is not in hls/rtl/mutation.sv";
+  return 0;
+}
+
+TEST(DelayLine, EveryStyleDelaysByItsDepth) {
+  EXPECT_EQ(late_or_early(0), (std::array<int, 4>{0, 0, 0, 0}));
+}
+
+TEST(DelayLine, OneEdgeShortIsSeen) {
+  const std::array<int, 4> wrong = late_or_early(mutant_number("DELAY_ONE_SHORT"));
+  EXPECT_GT(wrong[2], kCycles);
+  EXPECT_EQ(wrong[0] + wrong[1] + wrong[3], 0);
+}
+
+TEST(FieldMemory, ReadsWhatWasWritten) { EXPECT_EQ(wrong_words(0), 0); }
+
+TEST(FieldMemory, WriteWithoutEnableIsSeen) {
+  EXPECT_GT(wrong_words(mutant_number("FIELD_ALWAYS_WRITTEN")), 100);
+}
+
+}  // namespace
+}  // namespace emax
