@@ -1,5 +1,5 @@
-// Replays the folder of a failure on the element with probes and waveforms: names the sample and the
-// first diverging node of the graph.
+// Replays the folder of a failure on the element with probes and waveforms: names the sample and
+// the first diverging node of the graph.
 //
 //   emax_cosim_replay FOLDER [--mutant N] [--window CYCLES] [--write]
 //

@@ -12,7 +12,10 @@ double seconds_since(Clock::time_point start) {
 }
 
 Mismatch wrong_interval(const RunResult& result) {
-  return {"s_axis_point", result.pairs, {}, result.cycles,
+  return {"s_axis_point",
+          result.pairs,
+          {},
+          result.cycles,
           "initiation interval: " + std::to_string(result.pairs) + " pairs were accepted in " +
               std::to_string(result.accepting_cycles) + " cycles, one a cycle is promised"};
 }
@@ -63,8 +66,7 @@ TestReport run_test(const ElementTest& test, const ElementFactory& make_element,
     }
   }
   if (free_pairs > 0) {
-    report.initiation_interval =
-        static_cast<double>(free_cycles) / static_cast<double>(free_pairs);
+    report.initiation_interval = static_cast<double>(free_cycles) / static_cast<double>(free_pairs);
   }
   report.seconds = seconds_since(start);
   return report;

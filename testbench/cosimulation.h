@@ -20,11 +20,12 @@ struct CosimulationOptions {
   std::uint64_t seed = 1;
   bool full = false;
   std::uint32_t mutant = 0;
-  std::function<void(double)> progress;         // share done; called now and then
-  const std::atomic<bool>* stop = nullptr;      // ends a test after the present run
+  std::function<void(double)> progress;     // share done; called now and then
+  const std::atomic<bool>* stop = nullptr;  // ends a test after the present run
 };
 
-// A run that differs: alone (after the one that it cut, if its reset is part of it) it does so again.
+// A run that differs: alone (after the one that it cut, if its reset is part of it) it does so
+// again.
 struct Failure {
   std::string test;
   std::uint64_t seed = 0;
@@ -37,8 +38,8 @@ struct TestReport {
   std::string name;
   std::uint64_t seed = 0;  // the test's own
   std::uint64_t pairs = 0, blocks = 0, minima = 0, cycles = 0;
-  double seconds = 0;             // in all
-  double simulating_seconds = 0;  // in the Verilated element and its drivers
+  double seconds = 0;                         // in all
+  double simulating_seconds = 0;              // in the Verilated element and its drivers
   std::optional<double> initiation_interval;  // cycles a pair where nothing hindered; 1 is asserted
   std::optional<Failure> failure;
   bool stopped = false;

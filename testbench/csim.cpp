@@ -9,17 +9,15 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <random>
 #include <string_view>
 #include <vector>
 
-#include "hls/kernel/emax_top.h"
 #include "sw_model/commands.h"
 #include "sw_model/emax_model.h"
 #include "sw_model/float_bits.h"
-#include "sw_model/flush_mode.h"
 #include "sw_model/triangle_frame.h"
+#include "testbench/run_top.h"
 
 namespace emax {
 namespace {
@@ -63,16 +61,6 @@ Block random_block(std::mt19937_64& engine) {
     block.records.push_back(make_record(make_frame({a, b, c}), i));
   }
   return block;
-}
-
-std::vector<Word> run_top(const std::vector<Word>& words, bool flushing) {
-  const auto flush = flushing ? std::make_unique<ScopedFlushMode>() : nullptr;
-  Stream<Word> commands, answers;
-  for (const Word word : words) commands.write(word);
-  while (!commands.empty()) emax_top(commands, answers);
-  std::vector<Word> answer;
-  while (!answers.empty()) answer.push_back(answers.read());
-  return answer;
 }
 
 std::vector<Word> expected_answer(const Block& block) {

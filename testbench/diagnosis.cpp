@@ -59,12 +59,9 @@ std::optional<NodeMismatch> NodeObserver::first_divergence(const ElementRun& run
       const NodeId id = design.probes[i];
       if (history_[cycle][i] == model[id]) continue;
       const Node& node = design.graph.node(id);
-      return NodeMismatch{p,
-                          node.name,
-                          std::string(node.place.file) + ":" + std::to_string(node.place.line),
-                          cycle,
-                          model[id],
-                          history_[cycle][i]};
+      return NodeMismatch{
+          p,     node.name, std::string(node.place.file) + ":" + std::to_string(node.place.line),
+          cycle, model[id], history_[cycle][i]};
     }
   }
   return std::nullopt;

@@ -18,9 +18,9 @@ class ProbedElement : public virtual ElementSimulation {
 };
 
 struct NodeMismatch {
-  std::size_t pair;  // of the run
-  std::string node;  // its name in the generated module
-  std::string place;  // in the kernel's source
+  std::size_t pair;     // of the run
+  std::string node;     // its name in the generated module
+  std::string place;    // in the kernel's source
   std::uint64_t cycle;  // of the run, in which the probe shows it
   Word model, element;
 };

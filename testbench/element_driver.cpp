@@ -42,16 +42,17 @@ class Scoreboard {
   void take_worst(const ElementOutputs& o) {
     const std::uint64_t sample = result_.worst;
     if (sample >= expected_.worst.size()) {
-      return differ("m_axis_worst", sample, {}, "a beat too many: " + describe_bits(o.worst_squared));
+      return differ("m_axis_worst", sample, {},
+                    "a beat too many: " + describe_bits(o.worst_squared));
     }
     const ExpectedWorst& e = expected_.worst[sample];
     if (e.squared != o.worst_squared) {
       differ("m_axis_worst", sample, e.pair,
              differing("squared distance", e.squared, o.worst_squared));
     } else if (e.index != o.worst_index) {
-      differ("m_axis_worst", sample, e.pair,
-             "index: model " + std::to_string(e.index) + ", element " +
-                 std::to_string(o.worst_index));
+      differ(
+          "m_axis_worst", sample, e.pair,
+          "index: model " + std::to_string(e.index) + ", element " + std::to_string(o.worst_index));
     }
     ++result_.worst;
   }

@@ -11,8 +11,8 @@ namespace emax {
 
 // The first difference from the model.
 struct Mismatch {
-  std::string stream;  // m_axis_nearest, m_axis_worst, or the rule that was broken
-  std::uint64_t sample = 0;  // beat of that stream in the run
+  std::string stream;               // m_axis_nearest, m_axis_worst, or the rule that was broken
+  std::uint64_t sample = 0;         // beat of that stream in the run
   std::optional<std::size_t> pair;  // that caused it
   std::uint64_t cycle = 0;          // of the run, counted from its reset
   std::string what;                 // both values as bits

@@ -93,8 +93,7 @@ Expected expected_of(const ElementRun& run) {
     const Vector3<float> p = {to_float(pair.point[0]), to_float(pair.point[1]),
                               to_float(pair.point[2])};
     const Word so_far = pair.first ? kInfinityWord : nearest[pair.index];
-    const Word squared =
-        minimum(so_far, pair_squared_bits(p, to_record(run.records[records[i]])));
+    const Word squared = minimum(so_far, pair_squared_bits(p, to_record(run.records[records[i]])));
     nearest[pair.index] = squared;
     if (!pair.final) continue;
     expected.nearest.push_back({squared, pair.last, i});

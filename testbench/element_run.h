@@ -13,13 +13,13 @@
 namespace emax {
 
 struct StreamPatterns {
-  Pattern record = Pattern::kAlways, point = Pattern::kAlways;    // idles
+  Pattern record = Pattern::kAlways, point = Pattern::kAlways;   // idles
   Pattern nearest = Pattern::kAlways, worst = Pattern::kAlways;  // back-pressure
   std::uint64_t seed = 0;
 
   bool all_willing() const {
-    return record == Pattern::kAlways && point == Pattern::kAlways &&
-           nearest == Pattern::kAlways && worst == Pattern::kAlways;
+    return record == Pattern::kAlways && point == Pattern::kAlways && nearest == Pattern::kAlways &&
+           worst == Pattern::kAlways;
   }
 };
 
@@ -50,14 +50,15 @@ struct Expected {
 // std::invalid_argument where the run breaks a rule of the element's streams.
 Expected expected_of(const ElementRun& run);
 
-// Do the pairs keep the rules? Each has its record, a point's pairs keep kReadModifyWrite apart, the
-// first of a point in a block says so, a block's last is final.
+// Do the pairs keep the rules? Each has its record, a point's pairs keep kReadModifyWrite apart,
+// the first of a point in a block says so, a block's last is final.
 bool is_legal(const ElementRun& run);
 
 // The record that each pair meets.
 std::vector<std::size_t> records_of_pairs(const ElementRun& run);
 
-// Text: one line a record or pair, hex words, comments after #. Reading throws Error naming the line.
+// Text: one line a record or pair, hex words, comments after #. Reading throws Error naming the
+// line.
 void write_run(std::ostream& out, const ElementRun& run);
 ElementRun read_run(std::istream& in);
 

@@ -12,7 +12,8 @@
 
 namespace emax {
 
-// Two pairs of one point enter at least so many cycles apart, unless the later is the point's first.
+// Two pairs of one point enter at least so many cycles apart, unless the later is the point's
+// first.
 constexpr std::uint32_t kReadModifyWrite = 4;
 constexpr std::uint32_t kPointBits = 10;
 constexpr std::uint32_t kDeviceSlotBits = 4;  // the element as it is built into devices

@@ -227,8 +227,8 @@ ElementRun any_flags(Random& random, std::size_t pairs) {
     if (!first && run.pairs.size() - before->second < kReadModifyWrite) continue;
     seen[index] = run.pairs.size();
     const bool final = random.one_in(3), next_record = random.one_in(3);
-    run.pairs.push_back({from.any_point(random), index, first, final, next_record,
-                         final && random.one_in(8)});
+    run.pairs.push_back(
+        {from.any_point(random), index, first, final, next_record, final && random.one_in(8)});
     if (next_record) run.records.push_back(from.any_record(random));
   }
   run.pairs.back().final = run.pairs.back().last = true;
@@ -241,8 +241,8 @@ std::vector<ElementRun> free_flags(std::uint64_t number, Random& random) {
   return {run};
 }
 
-// Each idle pattern of the points against each back-pressure of the minima, the other two streams in
-// turn: over 49 runs every pattern of every stream has met every one of its opposite.
+// Each idle pattern of the points against each back-pressure of the minima, the other two streams
+// in turn: over 49 runs every pattern of every stream has met every one of its opposite.
 std::vector<ElementRun> crossed_patterns(std::uint64_t number, Random& random) {
   const auto pattern = [](std::uint64_t n) { return static_cast<Pattern>(n % kPatterns); };
   ElementRun run;

@@ -1,4 +1,5 @@
-// The folder that a failure leaves. Everything that is needed to see the failure again stands in it:
+// The folder that a failure leaves. Everything that is needed to see the failure again stands in
+// it:
 //
 //   input.txt      test, seed, slot bits, mutant and the runs (element_run.h), after # the reason
 //   replay.sh      one line that replays it

@@ -29,7 +29,8 @@ std::size_t payload_words(Word header) {
 }  // namespace
 
 RtlDevice::RtlDevice()
-    : RtlDevice(std::make_unique<VerilatedElement<Vemax_element_plain_device, kDeviceSlotBits>>()) {}
+    : RtlDevice(std::make_unique<VerilatedElement<Vemax_element_plain_device, kDeviceSlotBits>>()) {
+}
 
 RtlDevice::RtlDevice(std::unique_ptr<ElementSimulation> element) : element_(std::move(element)) {
   element_->offer_record(nullptr);

@@ -11,8 +11,9 @@
 
 namespace emax {
 
-// The `rtl` device: command words are decoded here, as EmaxKernel does, and every pair is computed by
-// the Verilated element, record after record. Answers are those of the `sim` device word for word.
+// The `rtl` device: command words are decoded here, as EmaxKernel does, and every pair is computed
+// by the Verilated element, record after record. Answers are those of the `sim` device word for
+// word.
 //
 // Cycles are the element's own, since a command's words cost it none: busy, a pair was accepted;
 // stalled, one was offered and had to wait; idle, none was there (a result was waited for).
@@ -51,7 +52,7 @@ class RtlDevice : public Device {
   std::optional<RecordWords> held_;
   bool held_is_loaded_ = false;
 
-  std::vector<Word> nearest_;            // of the latest reduction
+  std::vector<Word> nearest_;                 // of the latest reduction
   std::optional<std::array<Word, 2>> worst_;  // squared distance, index
 
   bool record_taken_ = false, pair_taken_ = false;  // in the latest cycle

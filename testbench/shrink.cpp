@@ -106,9 +106,8 @@ class Shrinker {
     ElementRun run = last();
     run.patterns = {};
     if (attempt_last(run)) return;
-    for (Pattern StreamPatterns::*stream :
-         {&StreamPatterns::record, &StreamPatterns::point, &StreamPatterns::nearest,
-          &StreamPatterns::worst}) {
+    for (Pattern StreamPatterns::*stream : {&StreamPatterns::record, &StreamPatterns::point,
+                                            &StreamPatterns::nearest, &StreamPatterns::worst}) {
       run = last();
       if (run.patterns.*stream == Pattern::kAlways) continue;
       run.patterns.*stream = Pattern::kAlways;

@@ -13,9 +13,9 @@ void print_line(const TestReport& report, const std::string& seed, std::uint64_t
   if (report.initiation_interval) {
     std::snprintf(interval, sizeof interval, "%.3f", *report.initiation_interval);
   }
-  const double rate =
-      report.simulating_seconds > 0 ? static_cast<double>(report.pairs) / report.simulating_seconds
-                                    : 0;
+  const double rate = report.simulating_seconds > 0
+                          ? static_cast<double>(report.pairs) / report.simulating_seconds
+                          : 0;
   std::printf("%-34s %20s %10llu %8llu %5llu %11llu %6s %7.1f %9.0f\n", report.name.c_str(),
               seed.c_str(), static_cast<unsigned long long>(report.pairs),
               static_cast<unsigned long long>(report.blocks),

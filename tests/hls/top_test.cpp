@@ -1,26 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "hls/kernel/emax_top.h"
 #include "hls/kernel/reduce.h"
 #include "sw_model/commands.h"
 #include "sw_model/emax_model.h"
-#include "sw_model/flush_mode.h"
 #include "sw_model/triangle_frame.h"
+#include "testbench/run_top.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {
 namespace {
-
-// Runs words through the synthesizable top on the processor's own binary32.
-std::vector<Word> run_top(const std::vector<Word>& words) {
-  const ScopedFlushMode flush;
-  Stream<Word> commands, answers;
-  for (const Word word : words) commands.write(word);
-  while (!commands.empty()) emax_top(commands, answers);
-  std::vector<Word> all;
-  while (!answers.empty()) all.push_back(answers.read());
-  return all;
-}
 
 TEST(Top, GivesTheModelsBits) {
   for (const test::Stimulus& s : test::all_stimuli(3)) {

@@ -1,0 +1,116 @@
+// The machinery of a mismatch, on faults put into the design on purpose.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sw_model/error.h"
+#include "testbench/failure_handling.h"
+#include "testbench/operators/mutant_list.h"
+#include "testbench/verilated_variants.h"
+
+namespace emax {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::uint32_t mutant_named(const std::string& name) {
+  for (const Mutant& mutant : read_mutants(EMAX_MUTATION_LIST)) {
+    if (mutant.name == name) return static_cast<std::uint32_t>(mutant.number);
+  }
+  throw std::out_of_range(name);
+}
+
+Failure failure_of(const std::string& mutant, const std::string& test) {
+  CosimulationOptions options;
+  options.mutant = mutant_named(mutant);
+  for (const ElementTest& t : element_tests()) {
+    if (t.name != test) continue;
+    const TestReport report = run_test(t, make_mutated_element, options);
+    if (report.failure) return *report.failure;
+  }
+  throw std::out_of_range(mutant + " is not seen by " + test);
+}
+
+class Failures : public testing::Test {
+ protected:
+  void SetUp() override {
+    const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
+    parent_ = fs::temp_directory_path() / (std::string("emax_failures_") + info->name());
+    fs::remove_all(parent_);
+  }
+  void TearDown() override { fs::remove_all(parent_); }
+
+  fs::path parent_;
+};
+
+TEST_F(Failures, LeaveASmallFolderThatReplaysAndPassesUnchanged) {
+  const Failure failure = failure_of("EDGES_SWAPPED", "pairs: bumpy sphere");
+  const fs::path folder = keep_failure(failure, make_mutated_element, parent_, 300);
+  const Failure kept = read_failure(folder);
+  ASSERT_EQ(kept.runs.size(), 1u);
+  EXPECT_EQ(kept.runs[0].pairs.size(), 1u);
+  EXPECT_EQ(kept.runs[0].records.size(), 1u);
+  EXPECT_EQ(kept.test, failure.test);
+  EXPECT_EQ(kept.seed, failure.seed);
+  EXPECT_EQ(kept.mutant, failure.mutant);
+
+  const std::string report = content(folder / "report.txt");
+  EXPECT_NE(report.find("first diverging node: a"), std::string::npos)
+      << report;  // along or across
+  EXPECT_NE(report.find("point_triangle.h"), std::string::npos) << report;
+  EXPECT_NE(report.find("model   0x"), std::string::npos) << report;
+  EXPECT_GT(fs::file_size(folder / "waveform.fst"), 1000u);
+  EXPECT_NE(content(folder / "replay.sh").find("--replay"), std::string::npos);
+
+  EXPECT_EQ(run_replay(folder, {}), 1);
+  EXPECT_EQ(run_replay(folder, {"--mutant", "0"}), 0);
+}
+
+TEST_F(Failures, BehindTheDatapathNameNoNode) {
+  const fs::path folder = keep_failure(failure_of("LAST_LOST", "blocks: of a few points"),
+                                       make_mutated_element, parent_, 300);
+  EXPECT_NE(content(folder / "report.txt").find("every node of the graph agrees"),
+            std::string::npos);
+  EXPECT_EQ(run_replay(folder, {}), 1);
+}
+
+TEST_F(Failures, ShrinkToTheBeatsThatMatter) {
+  const auto shrunk = [](const char* mutant, const char* test) {
+    return shrink(failure_of(mutant, test), make_mutated_element);
+  };
+  // The minimum of two pairs, the second the nearer... and a third that reads it.
+  const Failure minimum = shrunk("MINIMUM_NOT_KEPT", "blocks: of many points");
+  EXPECT_LE(minimum.runs.back().pairs.size(), 12u);
+  EXPECT_TRUE(minimum.runs.back().patterns.all_willing());
+  const Failure stale = shrunk("WORST_NEVER_STARTS_ANEW", "blocks: of a few points");
+  EXPECT_EQ(stale.runs.back().pairs.size(), 2u);
+  // The run that the reset cut is part of it.
+  const Failure reset = shrunk("VALID_OUTLIVES_RESET", "streams: reset in mid-stream");
+  ASSERT_EQ(reset.runs.size(), 2u);
+  EXPECT_TRUE(reset.runs[0].cut);
+}
+
+TEST_F(Failures, ThatCannotBeReadNameTheFile) {
+  EXPECT_THROW(read_failure(parent_), Error);
+  fs::create_directories(parent_);
+  std::ofstream(parent_ / "input.txt") << "test x\nseed y\n";
+  try {
+    read_failure(parent_);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("input.txt"), std::string::npos);
+  }
+  EXPECT_EQ(run_replay(parent_, {}), 2);
+}
+
+}  // namespace
+}  // namespace emax
