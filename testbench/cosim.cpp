@@ -1,13 +1,15 @@
-// Co-simulation of the element: every test beside the model, and a table of them.
+// Co-simulation: every test of operators and element beside the model, and a table of them.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 
 #include "sw_model/error.h"
+#include "testbench/coverage_report.h"
 #include "testbench/failure_handling.h"
-#include "testbench/table.h"
+#include "testbench/suite.h"
 #include "testbench/verilated_variants.h"
 
 namespace emax {
@@ -15,15 +17,18 @@ namespace {
 
 constexpr const char* kHelp = R"(usage: emax_cosim [OPTION...]
 
-Runs the Verilated element beside the model. The last line is `cosim: N pairs, M mismatches`;
+Runs the Verilated operators beside the processor's arithmetic and the Verilated element beside the
+model. The last line is `cosim: N pairs, M mismatches`;
 exit code 0 when there are none, 1 on a mismatch, 2 when it could not run, 130 when interrupted.
 
-  --full             at least 10^7 pairs and 10^5 blocks; the default takes seconds
+  --full             10^8 pairs an operator, 10^7 pairs and 10^5 blocks of the element; the
+                     default takes seconds
   --seed N           of the whole run (default 1); each test's own is derived from it and its name
   --filter TEXT      only tests whose name holds TEXT
   --list             name the tests
   --replay FOLDER    replay the folder that a failure left [--mutant N]
   --window CYCLES    of the waveform before a mismatch (default 300)
+  --coverage FILE    what emax_coverage found of each test, for the table
   --failures FOLDER  where failures are kept (default build/cosim-failures)
 )";
 
@@ -32,7 +37,7 @@ std::atomic<bool> interrupted{false};
 struct Options {
   bool full = false, list = false, help = false;
   std::uint64_t seed = 1, window = 300;
-  std::string filter, replay, mutant, failures = "build/cosim-failures";
+  std::string filter, replay, mutant, coverage, failures = "build/cosim-failures";
 };
 
 std::uint64_t number(const std::string& option, const std::string& text) {
@@ -66,6 +71,8 @@ Options parse(int argc, char** argv) {
       options.replay = value();
     } else if (argument == "--mutant") {
       options.mutant = std::to_string(number(argument, value()));
+    } else if (argument == "--coverage") {
+      options.coverage = value();
     } else if (argument == "--failures") {
       options.failures = value();
     } else {
@@ -81,37 +88,26 @@ int replay(const Options& options) {
   return run_replay(options.replay, arguments);
 }
 
-int run(const Options& options) {
-  CosimulationOptions settings;
-  settings.seed = options.seed;
-  settings.full = options.full;
-  settings.stop = &interrupted;
-  Table table;
-  std::uint64_t pairs = 0, mismatches = 0, ran = 0;
-  std::printf("element co-simulation, seed %llu%s\n\n",
-              static_cast<unsigned long long>(options.seed), options.full ? ", full" : "");
-  table.print_head();
-  for (const ElementTest& test : element_tests()) {
-    if (test.name.find(options.filter) == std::string::npos) continue;
-    if (interrupted) break;
-    settings.progress = [&](double share) { table.show_progress(test.name, share); };
-    const TestReport report = run_test(test, make_plain_element, settings);
-    table.print_row(report);
-    ++ran;
-    pairs += report.pairs;
-    if (report.failure) {
-      ++mismatches;
-      keep_failure(*report.failure, make_plain_element, options.failures, options.window);
+int run(const Options& options, Suite suite) {
+  std::map<std::string, double> coverage;
+  if (!options.coverage.empty()) coverage = read_test_coverage(options.coverage);
+  std::vector<Failure> failures;
+  suite.finish = [&](TestReport& report) {
+    if (const auto known = coverage.find(report.name); known != coverage.end()) {
+      report.coverage = known->second;
     }
+    if (report.failure) failures.push_back(*report.failure);
+  };
+  std::printf("co-simulation, seed %llu%s\n\n", static_cast<unsigned long long>(options.seed),
+              options.full ? ", full" : "");
+  const SuiteResult result = run_suite(suite);
+  for (const Failure& failure : failures) {
+    keep_failure(failure, make_plain_element, options.failures, options.window);
   }
-  if (ran == 0 && !interrupted) {
-    throw Error("no test's name holds '" + options.filter + "'; see --list");
-  }
-  table.print_sum();
-  if (interrupted) std::printf("interrupted: the tests above are all that ran\n");
-  std::printf("cosim: %llu pairs, %llu mismatches\n", static_cast<unsigned long long>(pairs),
-              static_cast<unsigned long long>(mismatches));
-  return mismatches > 0 ? 1 : interrupted ? 130 : 0;
+  if (result.interrupted) std::printf("interrupted: the tests above are all that ran\n");
+  std::printf("cosim: %llu pairs, %llu mismatches\n", static_cast<unsigned long long>(result.pairs),
+              static_cast<unsigned long long>(result.mismatches));
+  return result.mismatches > 0 ? 1 : result.interrupted ? 130 : 0;
 }
 
 }  // namespace
@@ -124,13 +120,20 @@ int main(int argc, char** argv) {
       std::fputs(emax::kHelp, stdout);
       return 0;
     }
+    emax::Suite suite;
+    suite.operators = emax::operator_tests(options.full);
+    suite.make_element = emax::make_plain_element;
+    suite.filter = options.filter;
     if (options.list) {
-      for (const emax::ElementTest& test : emax::element_tests()) std::puts(test.name.c_str());
+      for (const std::string& name : emax::test_names(suite)) std::puts(name.c_str());
       return 0;
     }
     if (!options.replay.empty()) return emax::replay(options);
+    suite.options.seed = options.seed;
+    suite.options.full = options.full;
+    suite.options.stop = &emax::interrupted;
     std::signal(SIGINT, [](int) { emax::interrupted = true; });
-    return emax::run(options);
+    return emax::run(options, std::move(suite));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "emax_cosim: %s\n", error.what());
     return 2;

@@ -56,6 +56,7 @@ TestReport run_test(const ElementTest& test, const ElementFactory& make_element,
       }
       if (result.mismatch) {
         const auto first = runs.begin();
+        report.mismatches = 1;
         report.failure = Failure{test.name,
                                  report.seed,
                                  test.slot_bits,

@@ -41,7 +41,9 @@ struct TestReport {
   double seconds = 0;                         // in all
   double simulating_seconds = 0;              // in the Verilated element and its drivers
   std::optional<double> initiation_interval;  // cycles a pair where nothing hindered; 1 is asserted
-  std::optional<Failure> failure;
+  std::optional<Failure> failure;             // of an element
+  std::uint64_t mismatches = 0;
+  std::optional<double> coverage;  // share in percent of the design's points that the test reaches
   bool stopped = false;
 };
 

@@ -89,6 +89,34 @@ double percent(const CoverageCount& count) {
              : 100 * static_cast<double>(count.covered) / static_cast<double>(count.points);
 }
 
+double percent_of_all(const CoverageReport& report) {
+  CoverageCount sum;
+  for (const CoverageCount& count : report.all) {
+    sum.points += count.points;
+    sum.covered += count.covered;
+  }
+  return percent(sum);
+}
+
+void write_test_coverage(const std::map<std::string, double>& shares, const std::string& file) {
+  std::ofstream out(file);
+  for (const auto& [name, share] : shares) out << name << '\t' << share << '\n';
+  out.close();
+  if (!out) throw Error(file + ": cannot be written");
+}
+
+std::map<std::string, double> read_test_coverage(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw Error(file + ": cannot be read; emax_coverage writes it");
+  std::map<std::string, double> shares;
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t tab = line.find('\t');
+    if (tab == std::string::npos) throw Error(file + ": '" + line + "' has no tab");
+    shares[line.substr(0, tab)] = std::stod(line.substr(tab + 1));
+  }
+  return shares;
+}
+
 CoverageReport read_coverage(const std::vector<std::string>& files) {
   std::map<std::string, Point> points;
   for (const std::string& file : files) read_file(file, points);

@@ -30,6 +30,14 @@ CoverageReport read_coverage(const std::vector<std::string>& files);
 // Share in percent; 100 where there is no point.
 double percent(const CoverageCount& count);
 
+// Of all kinds together.
+double percent_of_all(const CoverageReport& report);
+
+// The share in percent of its design's points that each test reaches: lines of NAME tab SHARE. Both
+// throw Error where the file does not let them.
+void write_test_coverage(const std::map<std::string, double>& shares, const std::string& file);
+std::map<std::string, double> read_test_coverage(const std::string& file);
+
 void print_coverage(const CoverageReport& report, bool list_missed);
 
 }  // namespace emax

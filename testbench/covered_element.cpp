@@ -8,7 +8,10 @@ namespace {
 
 class CoveredElement : public VerilatedElement<Vemax_element_covered, kPairsSlotBits> {
  public:
-  void write_coverage(const std::string& file) { context().coveragep()->write(file.c_str()); }
+  void write_coverage(const std::string& file) {
+    context().coveragep()->write(file.c_str());
+    context().coveragep()->zero();
+  }
 };
 
 // Counts are kept with an element, so all tests share one.

@@ -8,18 +8,19 @@
 namespace emax {
 namespace {
 
-void print_line(const TestReport& report, const std::string& seed, std::uint64_t mismatches) {
-  char interval[16] = "-";
+void print_line(const TestReport& report, const std::string& seed) {
+  char interval[16] = "-", coverage[16] = "-";
+  if (report.coverage) std::snprintf(coverage, sizeof coverage, "%.2f %%", *report.coverage);
   if (report.initiation_interval) {
     std::snprintf(interval, sizeof interval, "%.3f", *report.initiation_interval);
   }
   const double rate = report.simulating_seconds > 0
                           ? static_cast<double>(report.pairs) / report.simulating_seconds
                           : 0;
-  std::printf("%-34s %20s %10llu %8llu %5llu %11llu %6s %7.1f %9.0f\n", report.name.c_str(),
+  std::printf("%-36s %20s %11llu %8llu %10llu %9s %11llu %6s %7.1f %9.0f\n", report.name.c_str(),
               seed.c_str(), static_cast<unsigned long long>(report.pairs),
               static_cast<unsigned long long>(report.blocks),
-              static_cast<unsigned long long>(mismatches),
+              static_cast<unsigned long long>(report.mismatches), coverage,
               static_cast<unsigned long long>(report.cycles), interval, report.seconds, rate);
   std::fflush(stdout);
 }
@@ -31,26 +32,25 @@ void clear_progress() {
 }  // namespace
 
 void Table::print_head() const {
-  std::printf("%-34s %20s %10s %8s %5s %11s %6s %7s %9s\n", "test", "seed", "pairs", "blocks",
-              "wrong", "cycles", "II", "time/s", "pairs/s");
+  std::printf("%-36s %20s %11s %8s %10s %9s %11s %6s %7s %9s\n", "test", "seed", "pairs", "blocks",
+              "mismatches", "coverage", "cycles", "II", "time/s", "pairs/s");
 }
 
 void Table::print_row(const TestReport& report) {
-  const std::uint64_t mismatches = report.failure ? 1 : 0;
   clear_progress();
-  print_line(report, std::to_string(report.seed), mismatches);
+  print_line(report, std::to_string(report.seed));
   sum_.pairs += report.pairs;
   sum_.blocks += report.blocks;
   sum_.cycles += report.cycles;
   sum_.seconds += report.seconds;
   sum_.simulating_seconds += report.simulating_seconds;
-  mismatches_ += mismatches;
+  sum_.mismatches += report.mismatches;
 }
 
 void Table::print_sum() const {
   TestReport sum = sum_;
   sum.name = "all";
-  print_line(sum, "", mismatches_);
+  print_line(sum, "");
 }
 
 void Table::show_progress(const std::string& test, double share) {

@@ -18,7 +18,6 @@ class Table {
 
  private:
   TestReport sum_;
-  std::uint64_t mismatches_ = 0;
   double last_shown_ = 0;
 };
 

@@ -23,7 +23,11 @@ class VerilatedElement : public virtual ElementSimulation {
     model_.aresetn = 0;
     model_.eval();
   }
-  ~VerilatedElement() override { model_.final(); }
+  ~VerilatedElement() override {
+    // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
+    Verilated::threadContextp(&context_);
+    model_.final();
+  }
 
   std::uint32_t slot_bits() const override { return kSlotBits; }
 

@@ -15,7 +15,8 @@ std::unique_ptr<ElementSimulation> make_plain_element(std::uint32_t slot_bits);
 // The mutation build; 2^8 slots only, whatever is asked for.
 std::unique_ptr<ElementSimulation> make_mutated_element(std::uint32_t slot_bits);
 
-// Counts coverage, written by write_coverage over all elements of the program; 2^8 slots only.
+// Counts coverage; 2^8 slots only. write_coverage writes what all elements of the program counted
+// since it was called last.
 std::unique_ptr<ElementSimulation> make_covered_element(std::uint32_t slot_bits);
 void write_coverage(const std::string& file);
 

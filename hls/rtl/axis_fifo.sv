@@ -1,7 +1,7 @@
-// FIFO of 2^DEPTH_BITS words (and two in its output stages) with an AXI4-Stream output.
+// FIFO of 2^DEPTH_BITS words (and three in its output stages) with an AXI4-Stream output.
 //
 // `push` has no handshake: whoever pushes has seen to it that there is room (credit_counter).
-// A word comes out three cycles after its push at the earliest; one word a cycle. tvalid and tdata
+// A word comes out four cycles after its push at the earliest; one word a cycle. tvalid and tdata
 // are registers; tready reaches registers and the memory's enable only. Memory contents are not
 // reset, pointers are.
 `include "mutation.svh"
@@ -18,30 +18,33 @@ module axis_fifo #(
     output logic             m_axis_tvalid,
     input  logic             m_axis_tready
 );
-  logic [WIDTH-1:0] memory[2**DEPTH_BITS];
-  logic [WIDTH-1:0] fetched;
+  logic [WIDTH-1:0] stored;
   logic [DEPTH_BITS:0] write_pointer, read_pointer;  // one bit more than addresses: full is not empty
-  logic fetched_valid, fetch, move;
+  logic fetched_valid, stored_valid, fetch, store, move;
 
-  assign move  = fetched_valid && `MUTATED(FIFO_IGNORES_STALL, !m_axis_tvalid || m_axis_tready, 1'b1);
-  assign fetch = write_pointer != read_pointer && (!fetched_valid || move);
+  assign move  = stored_valid && `MUTATED(FIFO_IGNORES_STALL, !m_axis_tvalid || m_axis_tready, 1'b1);
+  assign store = fetched_valid && (!stored_valid || move);
+  assign fetch = write_pointer != read_pointer && (!fetched_valid || store);
 
-  always_ff @(posedge clk) begin
-    if (push) memory[write_pointer[DEPTH_BITS-1:0]] <= push_data;
-    if (fetch) fetched <= memory[read_pointer[DEPTH_BITS-1:0]];
-    if (move) m_axis_tdata <= fetched;
-  end
+  block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(DEPTH_BITS)) memory (
+      .clk, .write_enable(push), .write_address(write_pointer[DEPTH_BITS-1:0]),
+      .write_data(push_data), .read_enable(fetch), .read_address(read_pointer[DEPTH_BITS-1:0]),
+      .output_enable(store), .read_data(stored));
+
+  always_ff @(posedge clk) if (move) m_axis_tdata <= stored;
 
   always_ff @(posedge clk) begin
     if (!aresetn) begin
       write_pointer <= '0;
       read_pointer  <= '0;
       fetched_valid <= 1'b0;
+      stored_valid  <= 1'b0;
       m_axis_tvalid <= 1'b0;
     end else begin
       if (push) write_pointer <= write_pointer + 1;
       if (fetch) read_pointer <= read_pointer + 1;
-      fetched_valid <= fetch || (fetched_valid && !move);
+      fetched_valid <= fetch || (fetched_valid && !store);
+      stored_valid  <= store || (stored_valid && !move);
       m_axis_tvalid <= move || (m_axis_tvalid && !m_axis_tready);
     end
   end

@@ -52,21 +52,16 @@ module delay_line #(
       q <= words[place];
     end
   end else if (BLOCK && DEPTH > 3) begin : block
-    // The place read is another than the one written, and the memory's own output is a register of
-    // its own: both are what block RAM has.
+    // The place read is the one written next.
     localparam int WORDS = DEPTH - 1;
     localparam int BITS = $clog2(WORDS);
-    (* ram_style = "block" *) logic [WIDTH-1:0] words[WORDS];
     logic [BITS-1:0] place = '0;
     logic [BITS-1:0] next;
-    logic [WIDTH-1:0] word;
     assign next = place == BITS'(WORDS - 1) ? '0 : place + 1'b1;
-    always_ff @(posedge clk) begin
-      place <= next;
-      words[place] <= d;
-      word <= words[next];
-      q <= word;
-    end
+    always_ff @(posedge clk) place <= next;
+    block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(BITS)) memory (
+        .clk, .write_enable(1'b1), .write_address(place), .write_data(d), .read_enable(1'b1),
+        .read_address(next), .output_enable(1'b1), .read_data(q));
   end else begin : chain
     (* shreg_extract = STYLE == SHIFT ? "yes" : "no" *)
     logic [WIDTH-1:0] stage[DEPTH];

@@ -25,7 +25,7 @@
 //
 // Schedule, from the cycle in which a pair is accepted: its distance at LATENCY
 // (emax_distance_schedule.svh), its minimum one later, the block's worst point two later; out of the
-// FIFOs three cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
+// FIFOs four cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
 // nothing that was accepted before a reset comes out after it.
 `include "mutation.svh"
 `include "emax_distance_schedule.svh"
@@ -55,8 +55,8 @@ module emax_element #(
   localparam int LATENCY = `EMAX_DISTANCE_LATENCY;
   localparam int LAST_READ = `EMAX_DISTANCE_LAST_READ;
   // Depth of the output FIFOs, each a block RAM: a credit is away from its pair's acceptance until
-  // its word has left the FIFO, unhindered LATENCY + 6 cycles, and one is never lent.
-  localparam int OUTPUT_BITS = $clog2(LATENCY + 8);
+  // its word has left the FIFO, unhindered LATENCY + 7 cycles, and one is never lent.
+  localparam int OUTPUT_BITS = $clog2(LATENCY + 9);
 
   // Acceptance.
   logic accepted, next_record, final_pair;
@@ -74,15 +74,18 @@ module emax_element #(
   // Records.
   logic write_enable;
   logic [SLOT_BITS-1:0] write_slot, slot;
-  logic [639:0] write_record;
+  logic [639:0] arriving_record, write_record;
 
   record_ring #(.SLOT_BITS(SLOT_BITS), .LAST_READ(LAST_READ)) ring (
       .clk, .aresetn, .s_axis_record_tvalid, .s_axis_record_tready, .write_enable, .write_slot,
       .advance(accepted && next_record), .slot, .loaded_next);
 
-  assign write_record = `MUTATED(EDGES_SWAPPED, s_axis_record_tdata,
-      ({s_axis_record_tdata[639:608], s_axis_record_tdata[511:416], s_axis_record_tdata[607:512],
-        s_axis_record_tdata[415:0]}));
+  always_ff @(posedge clk) begin
+    arriving_record <= s_axis_record_tdata;
+    write_record <= `MUTATED(EDGES_SWAPPED, arriving_record,
+        ({arriving_record[639:608], arriving_record[511:416], arriving_record[607:512],
+          arriving_record[415:0]}));
+  end
 
   // The datapath, and what travels beside it: index, flags and validity.
   logic [31:0] squared_distance;

@@ -34,10 +34,12 @@ module fp_add #(
 
   // The steps whose cuts go first when registers are few, least harmful first, four bits each.
   localparam logic [4*STEPS-1:0] DROPPED = 52'hc_8164_92b7_3a50;
+  /* verilator coverage_off */  // evaluated before simulation
   function automatic logic [STEPS-1:0] chosen_cuts();
     chosen_cuts = '1;
     for (int i = 0; i < STEPS - LATENCY; i++) chosen_cuts[DROPPED[4*i+:4]] = 1'b0;
   endfunction
+  /* verilator coverage_on */
   localparam logic [STEPS-1:0] CUT = chosen_cuts();
 
   // Step 0: nothing but a register.
@@ -218,25 +220,27 @@ module fp_add #(
 
   // Step 7: the sticky bit joins below the total (it is set only where at most one leading bit is
   // zero) and leading zero nibbles are counted.
-  function automatic logic [2:0] zero_nibbles(input logic [31:0] value);
+  // The count's last bit is one of four flags, chosen by its other bits a step later.
+  localparam int COUNTED = 6;
+  function automatic logic [COUNTED-1:0] zero_nibbles(input logic [31:0] value);
     logic [7:1] some;
     for (int i = 1; i < 8; i++) some[i] = |value[4*i+:4];
-    zero_nibbles[2] = ~(|some[7:4]);
-    zero_nibbles[1] = (|some[7:4]) ? ~(|some[7:6]) : ~(|some[3:2]);
-    zero_nibbles[0] = (|some[7:6]) ? ~some[7] : (|some[5:4]) ? ~some[5]
-        : (|some[3:2]) ? ~some[3] : ~some[1];
+    zero_nibbles[5] = ~(|some[7:4]);
+    zero_nibbles[4] = (|some[7:4]) ? ~(|some[7:6]) : ~(|some[3:2]);
+    zero_nibbles[3:0] = ~{some[1], some[3], some[5], some[7]};
   endfunction
   logic [31:0] total_6w, total_7;
   logic [EXPONENT-1:0] exponent_7;
-  logic [2:0] zeros_7;
+  logic [1:0] zeros_7;
+  logic [3:0] odd_7;
   logic sign_7;
   logic [KINDS-1:0] kind_7;
   assign total_6w = 32'({total_6, lost_6}) << (30 - ALIGNED);
   delay_line #(.WIDTH(32), .DEPTH(32'(CUT[7]))) cut_7a (.clk, .d(total_6w), .q(total_7));
-  delay_line #(.WIDTH(EXPONENT + 4 + KINDS), .DEPTH(32'(CUT[7]))) cut_7b (
+  delay_line #(.WIDTH(EXPONENT + 1 + COUNTED + KINDS), .DEPTH(32'(CUT[7]))) cut_7b (
       .clk,
       .d({exponent_6, zero_nibbles(total_6w), sign_6, kind_6}),
-      .q({exponent_7, zeros_7, sign_7, kind_7})
+      .q({exponent_7, zeros_7, odd_7, sign_7, kind_7})
   );
 
   // Step 8: normalise by sixteen and eight.
@@ -246,11 +250,11 @@ module fp_add #(
   logic sign_8;
   logic [KINDS-1:0] kind_8;
   delay_line #(.WIDTH(32), .DEPTH(32'(CUT[8]))) cut_8a (
-      .clk, .d(total_7 << {zeros_7[2:1], 3'b000}), .q(total_8)
+      .clk, .d(total_7 << {zeros_7, 3'b000}), .q(total_8)
   );
   delay_line #(.WIDTH(EXPONENT + 4 + KINDS), .DEPTH(32'(CUT[8]))) cut_8b (
       .clk,
-      .d({exponent_7, zeros_7, sign_7, kind_7}),
+      .d({exponent_7, zeros_7, odd_7[zeros_7], sign_7, kind_7}),
       .q({exponent_8, zeros_8, sign_8, kind_8})
   );
 

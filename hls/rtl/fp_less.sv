@@ -18,45 +18,60 @@ module fp_less #(
     $error("fp_less: LATENCY must be at least 1");
   end
 
-  // Registers before the comparison, between it and the decision (from 2 edges on), after it.
-  localparam int CUT = 32'(LATENCY > 1);
+  // Steps: what each operand shows and which comes first, the comparison, the decision. Registers
+  // after the last, from 2 edges on after the comparison, from 3 on after the first, then before it.
+  localparam int CUT_1 = 32'(LATENCY > 2), CUT_2 = 32'(LATENCY > 1);
+  localparam int ENTRY = LATENCY - 1 - CUT_1 - CUT_2;
   logic [W-1:0] a_0, b_0;
-  delay_line #(.WIDTH(W), .DEPTH(LATENCY - 1 - CUT)) entry_a (.clk, .d(a), .q(a_0));
-  delay_line #(.WIDTH(W), .DEPTH(LATENCY - 1 - CUT)) entry_b (.clk, .d(b), .q(b_0));
-
-  function automatic logic is_nan(input logic [W-2:0] magnitude);
-    is_nan = magnitude[W-2-:EXPONENT] == '1 && magnitude[MANTISSA-1:0] != '0;
-  endfunction
+  delay_line #(.WIDTH(W), .DEPTH(ENTRY)) entry_a (.clk, .d(a), .q(a_0));
+  delay_line #(.WIDTH(W), .DEPTH(ENTRY)) entry_b (.clk, .d(b), .q(b_0));
 
   // Negative numbers compare as their magnitudes do the other way round.
-  logic swap_0, ordered_0, some_0, a_sign_1, b_sign_1, less_1, some_1, ordered_1;
-  logic [W-2:0] below_0, above_0;
+  logic [W-2:0] below_1, above_1;
+  logic swap_0, a_sign_1, b_sign_1, a_ones_1, b_ones_1, a_some_1, b_some_1, nonzero_1;
   assign swap_0 = `MUTATED(LESS_IGNORES_SIGN, a_0[W-1], 1'b0);
-  assign below_0 = swap_0 ? b_0[W-2:0] : a_0[W-2:0];
-  assign above_0 = swap_0 ? a_0[W-2:0] : b_0[W-2:0];
-  // A difference's top bit leaves a carry chain faster than a comparison does.
-  /* verilator lint_off UNUSEDSIGNAL */
-  logic [W-1:0] order_0;
-  /* verilator lint_on UNUSEDSIGNAL */
-  assign order_0 = {1'b0, below_0} - {1'b0, above_0};
-  assign ordered_0 = `MUTATED(LESS_NAN_IS_ORDERED, ~(is_nan(a_0[W-2:0]) | is_nan(b_0[W-2:0])), 1'b1);
-  assign some_0 = `MUTATED(LESS_SIGNED_ZEROS_DIFFER, 1'b0, a_0[W-1] != b_0[W-1])
-      | `MUTATED(LESS_SUBNORMALS_DIFFER, {a_0[W-2-:EXPONENT], b_0[W-2-:EXPONENT]} != '0,
-                 {a_0[W-2:0], b_0[W-2:0]} != '0);
-  delay_line #(.WIDTH(5), .DEPTH(CUT)) cut (
+  delay_line #(.WIDTH(W - 1), .DEPTH(CUT_1)) cut_below (
+      .clk, .d(swap_0 ? b_0[W-2:0] : a_0[W-2:0]), .q(below_1)
+  );
+  delay_line #(.WIDTH(W - 1), .DEPTH(CUT_1)) cut_above (
+      .clk, .d(swap_0 ? a_0[W-2:0] : b_0[W-2:0]), .q(above_1)
+  );
+  delay_line #(.WIDTH(7), .DEPTH(CUT_1)) cut_1 (
       .clk,
       .d({
         a_0[W-1],
         b_0[W-1],
-        `MUTATED(LESS_OR_EQUAL, order_0[W-1], below_0 <= above_0),
-        some_0,
-        ordered_0
+        a_0[W-2-:EXPONENT] == '1,
+        b_0[W-2-:EXPONENT] == '1,
+        a_0[MANTISSA-1:0] != '0,
+        b_0[MANTISSA-1:0] != '0,
+        `MUTATED(LESS_SIGNED_ZEROS_DIFFER, 1'b0, a_0[W-1] != b_0[W-1])
+            | `MUTATED(LESS_SUBNORMALS_DIFFER, {a_0[W-2-:EXPONENT], b_0[W-2-:EXPONENT]} != '0,
+                       {a_0[W-2:0], b_0[W-2:0]} != '0)
       }),
-      .q({a_sign_1, b_sign_1, less_1, some_1, ordered_1})
+      .q({a_sign_1, b_sign_1, a_ones_1, b_ones_1, a_some_1, b_some_1, nonzero_1})
+  );
+
+  // A difference's top bit leaves a carry chain faster than a comparison does.
+  /* verilator lint_off UNUSEDSIGNAL */
+  logic [W-1:0] order_1;
+  /* verilator lint_on UNUSEDSIGNAL */
+  logic a_sign_2, b_sign_2, less_2, counts_2;
+  assign order_1 = {1'b0, below_1} - {1'b0, above_1};
+  delay_line #(.WIDTH(4), .DEPTH(CUT_2)) cut_2 (
+      .clk,
+      .d({
+        a_sign_1,
+        b_sign_1,
+        `MUTATED(LESS_OR_EQUAL, order_1[W-1], below_1 <= above_1),
+        nonzero_1 & `MUTATED(LESS_NAN_IS_ORDERED,
+                             ~((a_ones_1 & a_some_1) | (b_ones_1 & b_some_1)), 1'b1)
+      }),
+      .q({a_sign_2, b_sign_2, less_2, counts_2})
   );
   delay_line #(.WIDTH(1), .DEPTH(1)) result (
       .clk,
-      .d(ordered_1 & some_1 & (a_sign_1 == b_sign_1 ? less_1 : a_sign_1)),
+      .d(counts_2 & (a_sign_2 == b_sign_2 ? less_2 : a_sign_2)),
       .q(less)
   );
 endmodule

@@ -1,12 +1,12 @@
 // The accounting of a ring of 2^SLOT_BITS record slots; the words themselves lie in the memories of
 // emax_distance_unit.
 //
-// A record that arrives is written into `write_slot` with `write_enable`; pairs read `slot`, the
-// oldest record, until `advance` (the record's last pair enters). The datapath reads the fields of a
-// record at several cycles, the last of them LAST_READ cycles after the pair entered: only then is
-// the slot free again. `loaded_next` says whether the next cycle has a record to read.
-// s_axis_record_tready is a register. A different record every cycle is sustained when
-// 2^SLOT_BITS >= LAST_READ + 3.
+// A record that arrives is written into `write_slot` with `write_enable` two cycles later: both reach
+// every memory and are registers that nothing else looks at. Pairs read `slot`, the oldest record, until `advance` (the
+// record's last pair enters). The datapath reads the fields of a record at several cycles, the last
+// of them LAST_READ cycles after the pair entered: only then is the slot free again. `loaded_next`
+// says whether the next cycle has a record to read. s_axis_record_tready is a register. A different
+// record every cycle is sustained when 2^SLOT_BITS >= LAST_READ + 5.
 `include "mutation.svh"
 
 module record_ring #(
@@ -25,31 +25,36 @@ module record_ring #(
 );
   localparam logic [SLOT_BITS:0] ALL = (SLOT_BITS + 1)'(1) << SLOT_BITS;
 
-  logic [SLOT_BITS:0] free, free_next, loaded, loaded_count_next;
-  logic release_late, release_slot;
+  logic [SLOT_BITS:0] free, free_next, loaded;
+  logic arrived, arriving, release_late, release_slot;
+  logic [SLOT_BITS-1:0] next_slot;
 
-  assign write_enable = s_axis_record_tvalid && s_axis_record_tready;
-  assign free_next = free + (SLOT_BITS + 1)'(release_slot) - (SLOT_BITS + 1)'(write_enable);
-  assign loaded_count_next =
-      loaded + (SLOT_BITS + 1)'(write_enable) - (SLOT_BITS + 1)'(advance);
-  assign loaded_next = loaded_count_next != 0;
+  assign arrived = s_axis_record_tvalid && s_axis_record_tready;
+  assign free_next = free + (SLOT_BITS + 1)'(release_slot) - (SLOT_BITS + 1)'(arrived);
+  assign loaded_next = loaded > 1 || (loaded == 1 && !advance);
   assign release_slot = `MUTATED(SLOT_FREED_EARLY, release_late, advance);
 
   valid_line #(.DEPTH(LAST_READ)) release_line (
       .clk, .aresetn, .d(advance), .q(release_late));
 
+  always_ff @(posedge clk) write_slot <= next_slot;
+
   always_ff @(posedge clk) begin
     if (!aresetn) begin
-      write_slot <= '0;
+      arriving <= 1'b0;
+      write_enable <= 1'b0;
+      next_slot <= '0;
       slot <= '0;
       free <= ALL;
       loaded <= '0;
       s_axis_record_tready <= 1'b0;
     end else begin
-      if (write_enable) write_slot <= write_slot + 1;
+      arriving <= arrived;
+      write_enable <= arriving;
+      if (arriving) next_slot <= next_slot + 1;
       if (advance) slot <= slot + `MUTATED(RING_SKIPS_A_SLOT, 1, 2);
       free <= free_next;
-      loaded <= loaded_count_next;
+      loaded <= loaded + (SLOT_BITS + 1)'(arriving) - (SLOT_BITS + 1)'(advance);
       s_axis_record_tready <= `MUTATED(RING_OVERFILLED, free_next != 0, 1'b1);
     end
   end

@@ -22,8 +22,7 @@ module running_minimum #(
 );
   localparam logic [31:0] INFINITY_WORD = 32'h7f800000;
 
-  logic [31:0] memory[2**POINT_BITS];
-  logic [31:0] fetched, stored, so_far, smaller;
+  logic [31:0] stored, so_far, smaller;
   logic [POINT_BITS-1:0] write_index;
   logic write_enable;
 
@@ -31,14 +30,15 @@ module running_minimum #(
 
   emax_minimum compare (.so_far(so_far), .next(squared_distance), .result(smaller));
 
+  block_memory #(.WIDTH(32), .ADDRESS_BITS(POINT_BITS)) memory (
+      .clk, .write_enable,
+      .write_address(`MUTATED(MINIMUM_WRITTEN_ASIDE, write_index, index)),
+      .write_data(`MUTATED(MINIMUM_NOT_KEPT, minimum, squared_distance)),
+      .read_enable(1'b1), .read_address(early_index), .output_enable(1'b1), .read_data(stored));
+
   always_ff @(posedge clk) begin
-    fetched <= memory[early_index];
-    stored <= fetched;
     minimum <= `MUTATED(FIRST_WITHOUT_INFINITY, smaller, first_pair ? squared_distance : smaller);
     write_enable <= valid;
     write_index <= index;
-    if (write_enable)
-      memory[`MUTATED(MINIMUM_WRITTEN_ASIDE, write_index, index)] <=
-          `MUTATED(MINIMUM_NOT_KEPT, minimum, squared_distance);
   end
 endmodule

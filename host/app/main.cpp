@@ -23,8 +23,9 @@ void add_common(CLI::App& command, CommonOptions& options) {
   command.add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .pts .obj .off")
       ->required();
   command
-      .add_option("--device", options.device,
-                  "who evaluates the kernel: cpu, sim or sim:board=NAME")
+      .add_option(
+          "--device", options.device,
+          "who evaluates the kernel: cpu, sim, sim:board=NAME or rtl (the Verilated element)")
       ->capture_default_str();
   command.add_option("--seed", options.seed, "seed of every random choice")->capture_default_str();
   command.add_option("--json", options.json, "also write the result to this file");

@@ -10,7 +10,7 @@
 
 namespace emax {
 
-// A value of --device: `cpu`, `sim` or `sim:board=NAME`.
+// A value of --device: `cpu`, `sim`, `sim:board=NAME` or `rtl`.
 struct DeviceAddress {
   std::string kind = "cpu";
   std::optional<BoardModel> board;  // whose time is predicted; its elements are simulated

@@ -7,7 +7,7 @@ namespace emax {
 
 // One line of hls/rtl/mutation.sv.
 struct Mutant {
-  int number;
+  int number = 0;
   std::string name;
   std::string module;
   std::string fault;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
 #include "sw_model/float_bits.h"
 #include "testbench/operators/operator_stimuli.h"
+#include "testbench/operators/operator_tests.h"
 #include "testbench/random.h"
 
 namespace emax {
@@ -71,7 +71,7 @@ std::optional<Operator> operator_of_name(const std::string& name) {
 }
 
 OperatorRun run_operator_cosim(OperatorUnit& unit, std::uint64_t pairs, std::uint64_t seed,
-                               bool stop_at_mismatch) {
+                               bool stop_at_mismatch, const OperatorWatch& watch) {
   OperatorRun run(kOperators);
   std::vector<OperatorResults> expected(kBatch), actual(kBatch);
   const auto agree = [&](std::span<const OperandPair> batch) {
@@ -92,8 +92,17 @@ OperatorRun run_operator_cosim(OperatorUnit& unit, std::uint64_t pairs, std::uin
     batch.resize(std::min<std::uint64_t>(kBatch, pairs - done));
     fill_pairs(static_cast<Aim>(number % kAims), random, batch);
     if (!agree(batch) && stop_at_mismatch) return run;
+    if (watch && !watch(static_cast<double>(done) / static_cast<double>(pairs))) break;
   }
   return run;
+}
+
+OperatorTest binary32_test(std::function<std::unique_ptr<OperatorUnit>()> make_unit,
+                           std::uint64_t pairs) {
+  return {"operators: binary32", std::move(make_unit),
+          [pairs](OperatorUnit& unit, std::uint64_t seed, const OperatorWatch& watch) {
+            return run_operator_cosim(unit, pairs, seed, false, watch);
+          }};
 }
 
 OperatorRun run_small_cosim(OperatorUnit& unit, SmallFormat format) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +24,13 @@ struct OperatorResult {
 // What one run compares: all operators, indexed by Operator.
 using OperatorRun = std::vector<OperatorResult>;
 
+// Called after each batch with the share done; false ends the run.
+using OperatorWatch = std::function<bool(double share)>;
+
 // Drives `unit` (binary32) with every corner pair, then `pairs` pairs over all aims, beside the
 // processor's own arithmetic. With stop_at_mismatch it ends after the first batch that has one.
 OperatorRun run_operator_cosim(OperatorUnit& unit, std::uint64_t pairs, std::uint64_t seed,
-                               bool stop_at_mismatch = false);
+                               bool stop_at_mismatch = false, const OperatorWatch& watch = {});
 
 // Drives `unit` with every pair of a format of 8 bits beside SmallFormat.
 OperatorRun run_small_cosim(OperatorUnit& unit, SmallFormat format);

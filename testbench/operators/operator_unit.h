@@ -26,6 +26,7 @@ class OperatorUnit {
   virtual ~OperatorUnit() = default;
   // results[i] belongs to pairs[i]; throws Error when the unit gives another number of results.
   virtual void run(std::span<const OperandPair> pairs, std::span<OperatorResults> results) = 0;
+  virtual std::uint64_t cycles() const = 0;  // since it was made
   // Writes the counted coverage for verilator_coverage; throws Error in a build that counts none.
   virtual void write_coverage(const std::string& path) = 0;
 };

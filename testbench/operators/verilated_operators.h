@@ -19,10 +19,14 @@ class VerilatedOperators : public OperatorUnit {
  public:
   VerilatedOperators() : context_(std::make_unique<VerilatedContext>()), model_(context_.get()) {}
 
+  // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
+  ~VerilatedOperators() override { Verilated::threadContextp(context_.get()); }
+
   Model& model() { return model_; }
 
   void run(std::span<const OperandPair> pairs, std::span<OperatorResults> results) override {
     constexpr std::size_t kFlush = 64;  // cycles, more than any latency
+    cycles_ += pairs.size() + kFlush;
     std::size_t received = 0;
     for (std::size_t cycle = 0; cycle < pairs.size() + kFlush; ++cycle) {
       const bool sending = cycle < pairs.size();
@@ -43,17 +47,20 @@ class VerilatedOperators : public OperatorUnit {
     if (received != pairs.size()) throw Error("operators: the RTL lost results of a batch");
   }
 
+  std::uint64_t cycles() const override { return cycles_; }
+
   void write_coverage([[maybe_unused]] const std::string& path) override {
 #if VM_COVERAGE
     context_->coveragep()->write(path.c_str());
 #else
-    throw Error("operators: no coverage in this build: use emax_operator_coverage");
+    throw Error("operators: no coverage in this build");
 #endif
   }
 
  private:
   std::unique_ptr<VerilatedContext> context_;
   Model model_;
+  std::uint64_t cycles_ = 0;
 };
 
 }  // namespace emax

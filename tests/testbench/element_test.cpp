@@ -75,7 +75,7 @@ bool asserts_at(std::uint32_t distance, bool later_is_first) {
   element->clock(true);
   element->offer_record(&record);
   element->clock();
-  element->clock();
+  for (int i = 0; i < 8 && !element->outputs().pair_ready; ++i) element->clock();
   element->offer_record(nullptr);
   for (std::uint32_t i = 0; i <= distance; ++i) {
     const bool later = i == distance;

@@ -173,7 +173,7 @@ class DesignTest(unittest.TestCase):
         netlist = {"modules": {"cell": {"attributes": {}}, "top": {"attributes": {"top": 1}, "cells": cells}}}
         figures, detail = designs.xilinx_figures(self.file(netlist))
         self.assertEqual(figures, {"lut": 6, "ff": 1, "dsp": 3, "ram": 0})
-        self.assertEqual(detail, {"srl": 1, "ram_luts": 4, "registered": 1})
+        self.assertEqual(detail, {"srl": 1, "ram_luts": 4, "registered": 2, "registered_inputs": 2})
 
 
 class DocumentTest(unittest.TestCase):

@@ -20,8 +20,10 @@ class Design:
     generated: list = None  # in place of the sources in hls/rtl/generated
 
     def sources(self, family):
-        """All of the module library: Yosys keeps what the top uses."""
-        return [*sorted(RTL.glob("*.sv")), *sorted((RTL / family).glob("*.sv")),
+        """All of the module library: Yosys keeps what the top uses. A module that the family does not
+        map has its behavioural description."""
+        mapped = {path.name: path for folder in ("behavioural", family) for path in (RTL / folder).glob("*.sv")}
+        return [*sorted(RTL.glob("*.sv")), *(mapped[name] for name in sorted(mapped)),
                 *(self.generated or sorted(GENERATED.glob("*.sv")))]
 
     def inputs(self, family):
@@ -138,17 +140,17 @@ def xilinx_script(design, wrapper_path, family):
 
 
 def xilinx_figures(netlist):
-    """Cells of the only module that holds any, counted as the family's resources, and the share of
-    DSP blocks whose multiplier works between registers."""
+    """Cells of the only module that holds any, counted as the family's resources, and the DSP
+    blocks with a register behind the multiplier and with registers at both inputs."""
     top = _top(json.loads(netlist.read_text()))
-    counts, registered = {}, 0
+    counts, registered, registered_inputs = {}, 0, 0
     for cell in top["cells"].values():
         kind = cell["type"]
         counts[kind] = counts.get(kind, 0) + 1
         if kind.startswith("DSP48"):
             value = lambda name: int(cell["parameters"].get(name, "0"), 2)
-            inner = value("MREG") or value("PREG")
-            registered += bool(value("AREG") and value("BREG") and inner)
+            registered += bool(value("MREG") or value("PREG"))
+            registered_inputs += bool(value("AREG") and value("BREG"))
     total = lambda pattern: sum(n for kind, n in counts.items() if re.fullmatch(pattern, kind))
     # A RAM32M or RAM64M is four LUTs, a RAM32X1D or RAM64X1D two.
     ram_luts = 4 * total("RAM(32|64)M") + 8 * total("RAM(32|64)M16") + 2 * total("RAM(32|64)X1D")
@@ -157,7 +159,8 @@ def xilinx_figures(netlist):
         "ff": total("FD[RSCP]E"),
         "dsp": total("DSP48E[12]"),
         "ram": total("RAMB.*"),
-    }, {"srl": total("SRL16E?|SRLC32E"), "ram_luts": ram_luts, "registered": registered}
+    }, {"srl": total("SRL16E?|SRLC32E"), "ram_luts": ram_luts, "registered": registered,
+       "registered_inputs": registered_inputs}
 
 
 def ecp5_figures(report, log, cells):

@@ -24,8 +24,8 @@ SECTIONS = {
     "forms": ("Forms of the distance on ECP5-85F, speed 6",
               "The same lowering, the same operators: datapath and record memory alone, one seed."),
     "xilinx": ("7-series and UltraScale+, counted by Yosys",
-               "Registered: DSP blocks whose multiplier works between registers of the block (inputs, and product"
-               " or result)."),
+               "Product, inputs: DSP blocks in which Yosys placed a register behind the multiplier (MREG or PREG),"
+               " and at both inputs (AREG and BREG); the others' registers are outside the block."),
 }
 
 
@@ -69,9 +69,9 @@ def section_table(section, subjects):
     """The tables of a section, a blank line between them."""
     if section == "xilinx":
         rows = [[name, f"{r['figures']['lut']:,}", r["srl"], r["ram_luts"], f"{r['figures']['ff']:,}",
-                 r["figures"]["dsp"], f"{r['registered']} of {r['figures']['dsp']}", r["figures"]["ram"]]
+                 r["figures"]["dsp"], r["registered"], r["registered_inputs"], r["figures"]["ram"]]
                 for name, r in subjects.items()]
-        return table(["design, family", "LUT", "as SRL", "as RAM", "FF", "DSP", "registered", "RAM"], rows)
+        return table(["design, family", "LUT", "as SRL", "as RAM", "FF", "DSP", "product", "inputs", "RAM"], rows)
     if section == "forms":
         rows = [[name, r["report"]["multiplications"], r["report"]["additions"], r["report"]["latency"],
                  f"{r['report']['delay_bits']:,}", *_placed(r)] for name, r in subjects.items()]

@@ -80,7 +80,8 @@ TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
                                              {"--device", "sim"},
                                              {"--device", "sim:board=ulx3s"},
                                              {"--device", "cpu", "--brute-force"},
-                                             {"--device", "sim", "--brute-force"}}) {
+                                             {"--device", "sim", "--brute-force"},
+                                             {"--device", "rtl"}}) {
     std::vector<std::string> arguments = {"error", "scan.xyz", "surface.off", "--json", "r.json"};
     arguments.insert(arguments.end(), how.begin(), how.end());
     ASSERT_EQ(emax(arguments).exit_code, 0);
@@ -93,6 +94,13 @@ TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
   }
   EXPECT_EQ(results[1].at("device_counters").at("pairs"),
             results[2].at("device_counters").at("pairs"));
+  for (const char* key : {"blocks", "pairs", "words_in", "words_out"}) {
+    EXPECT_EQ(results[5].at("device_counters").at(key), results[1].at("device_counters").at(key))
+        << key;
+  }
+  for (const char* key : {"cycles", "busy", "stalled", "idle"}) {
+    EXPECT_TRUE(results[5].at("device_counters").at(key).is_number_unsigned()) << key;
+  }
   EXPECT_GT(results[2].at("predicted").at("seconds").get<double>(), 0);
   EXPECT_EQ(results[3].at("device_counters").at("pairs"),
             results[4].at("device_counters").at("pairs"));

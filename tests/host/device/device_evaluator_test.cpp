@@ -30,6 +30,7 @@ const std::vector<std::pair<const char*, Engine>> kEngines = {
     {"cpu brute force",
      [](const auto& c, const auto& m) { return on<brute_force_emax>("cpu", c, m); }},
     {"sim searched", [](const auto& c, const auto& m) { return on<search_emax>("sim", c, m); }},
+    {"rtl searched", [](const auto& c, const auto& m) { return on<search_emax>("rtl", c, m); }},
     {"sim brute force",
      [](const auto& c, const auto& m) { return on<brute_force_emax>("sim", c, m); }},
 };

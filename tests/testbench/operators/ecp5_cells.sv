@@ -1,6 +1,6 @@
 // The ECP5 cells that hls/rtl/ecp5 instantiates, as far as it uses them, for simulation: written from
-// the attributes' description in Lattice's TN1267 (sysDSP) and TN1265 (slices).
-/* verilator lint_off DECLFILENAME */  // two cells
+// the attributes' description in Lattice's TN1267 (sysDSP), TN1265 (slices) and TN1264 (memories).
+/* verilator lint_off DECLFILENAME */  // several cells
 
 // 18 x 18 unsigned multiplier; each register is there when its attribute names a clock.
 /* verilator lint_off UNUSEDSIGNAL */  // what hls/rtl/ecp5 ties off
@@ -71,4 +71,59 @@ module CCU2C #(
   assign S0 = value_0 ^ CIN;
   assign S1 = value_1 ^ carry;
 endmodule
+
+// Block RAM of 1024 words of 18 bits, written at port A, both bytes at once, and read at port B.
+/* verilator lint_off UNUSEDSIGNAL */
+/* verilator lint_off UNUSEDPARAM */
+module DP16KD #(
+    parameter int DATA_WIDTH_A = 18,
+    parameter int DATA_WIDTH_B = 18,
+    parameter REGMODE_A = "NOREG",
+    parameter REGMODE_B = "NOREG",
+    parameter RESETMODE = "SYNC",
+    parameter WRITEMODE_A = "NORMAL",
+    parameter WRITEMODE_B = "NORMAL",
+    parameter CSDECODE_A = "0b000",
+    parameter CSDECODE_B = "0b000",
+    parameter GSR = "ENABLED"
+) (
+    input logic
+        ADA0, ADA1, ADA2, ADA3, ADA4, ADA5, ADA6, ADA7, ADA8, ADA9, ADA10, ADA11, ADA12, ADA13,
+        ADB0, ADB1, ADB2, ADB3, ADB4, ADB5, ADB6, ADB7, ADB8, ADB9, ADB10, ADB11, ADB12, ADB13,
+        DIA0, DIA1, DIA2, DIA3, DIA4, DIA5, DIA6, DIA7, DIA8, DIA9, DIA10, DIA11, DIA12, DIA13,
+        DIA14, DIA15, DIA16, DIA17, CLKA, CEA, WEA, OCEA, RSTA, CSA0, CSA1, CSA2, CLKB, CEB, WEB,
+        OCEB, RSTB, CSB0, CSB1, CSB2,
+    output logic
+        DOB0, DOB1, DOB2, DOB3, DOB4, DOB5, DOB6, DOB7, DOB8, DOB9, DOB10, DOB11, DOB12, DOB13,
+        DOB14, DOB15, DOB16, DOB17
+);
+  if (DATA_WIDTH_A != 18 || DATA_WIDTH_B != 18) begin : unmodelled
+    $error("DP16KD: this model knows ports of 18 bits alone");
+  end
+  logic [17:0] words[1024];
+  logic [17:0] word, held;
+  logic [9:0] write_address, read_address;
+  assign write_address =
+      {ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4};
+  assign read_address =
+      {ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4};
+  always_ff @(posedge CLKA) begin
+    if (CEA && WEA && ADA0 && ADA1) begin
+      words[write_address] <= {
+        DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9, DIA8, DIA7, DIA6, DIA5,
+        DIA4, DIA3, DIA2, DIA1, DIA0
+      };
+    end
+  end
+  always_ff @(posedge CLKB) begin
+    if (CEB) word <= CEA && WEA && write_address == read_address ? 18'h2a5a5 : words[read_address];
+    if (OCEB) held <= word;
+  end
+  assign {
+    DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9, DOB8, DOB7, DOB6, DOB5, DOB4,
+    DOB3, DOB2, DOB1, DOB0
+  } = REGMODE_B == "OUTREG" ? held : word;
+endmodule
+/* verilator lint_on UNUSEDPARAM */
+/* verilator lint_on UNUSEDSIGNAL */
 /* verilator lint_on DECLFILENAME */
