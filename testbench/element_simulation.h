@@ -14,7 +14,7 @@ namespace emax {
 
 // Two pairs of one point enter at least so many cycles apart, unless the later is the point's
 // first.
-constexpr std::uint32_t kReadModifyWrite = 4;
+constexpr std::uint32_t kReadModifyWrite = 5;
 constexpr std::uint32_t kPointBits = 10;
 constexpr std::uint32_t kDeviceSlotBits = 4;  // the element as it is built into devices
 constexpr std::uint32_t kPairsSlotBits = 8;   // sustains a different record in every cycle

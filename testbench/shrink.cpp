@@ -56,7 +56,10 @@ class Shrinker {
     cut_after_the_mismatch();
     keep_the_pair_alone();
     simplify_patterns();
-    remove_pairs();
+    for (std::size_t before = 0; before != last().pairs.size();) {
+      before = last().pairs.size();
+      remove_pairs();
+    }
     simplify_patterns();
     return best_;
   }

@@ -28,8 +28,8 @@ what to write (the datapath unless one of these is given)
 
 how to lower
   --module NAME       name of the datapath's module
-  --latency K=N,...   cycles of add (12), multiply (10), square (10), less (2), select (1),
-                      zero_compare (0), logic (0); levels=N: lookup tables between registers (3)
+  --latency K=N,...   cycles of add (12), multiply (10), square (10), less (3), select (1),
+                      zero_compare (0), logic (0); levels=N: lookup tables between registers (2)
   --family FAMILY     ecp5 (the default) or xilinx: what delays are made of
   --delay K=N,...     longest delay in registers, narrow_registers (of conditions and slots) and
                       memory; longer ones take block RAM

@@ -24,9 +24,13 @@ std::string unit_module(const LoweredDesign& design) {
                                 " has no record, so there is no unit: leave --unit out");
   }
   const Schedule& schedule = design.schedule;
-  std::set<int> slots;
+  std::set<int> slots;  // the cycles in which fields are read, but 0
+  for (const Input& input : design.graph.inputs()) {
+    const int cycle = schedule.start[input.node] - 1;
+    if (input.arrival == Arrival::kMemory && cycle > 0) slots.insert(cycle);
+  }
   std::vector<bool> used(static_cast<std::size_t>(record_bits), false);
-  std::vector<std::string> reals, conditions, samples;
+  std::vector<std::string> reals, conditions, samples, late_reals, late_conditions;
   std::vector<std::string> ports = {".clk"};
   std::string memories;
   for (const Input& input : design.graph.inputs()) {
@@ -36,7 +40,7 @@ std::string unit_module(const LoweredDesign& design) {
       continue;
     }
     const int cycle = schedule.start[input.node] - 1;
-    if (cycle > 0) slots.insert(cycle);
+    const auto late = static_cast<int>(std::distance(slots.begin(), slots.upper_bound(cycle)));
     const int bits = width(design.graph.node(input.node).kind);
     (bits == 1 ? conditions : reals).push_back(input.name);
     for (int bit = 0; bit < bits; ++bit) used[input.record_bit + static_cast<unsigned>(bit)] = true;
@@ -44,11 +48,22 @@ std::string unit_module(const LoweredDesign& design) {
     const std::string range =
         bits == 1 ? low
                   : std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":" + low;
+    std::string data = "write_record[" + range + "]", suffix;
+    if (late > 0) {
+      suffix = "_" + std::to_string(late);
+      const std::string name = input.name + "_late";
+      (bits == 1 ? late_conditions : late_reals).push_back(name);
+      memories += instance("delay_line #(.WIDTH(" + std::to_string(bits) + "), .DEPTH(" +
+                               std::to_string(late) + "))",
+                           name + "_delay", ".clk, .d(" + data + "), .q(" + name + ")");
+      data = name;
+    }
     memories +=
         instance("field_memory #(.WIDTH(" + std::to_string(bits) + "), .SLOT_BITS(SLOT_BITS))",
                  input.name + "_memory",
-                 ".clk, .write_enable, .write_slot, .write_data(write_record[" + range +
-                     "]),\n"
+                 ".clk, .write_enable(write_enable" + suffix + "), .write_slot(write_slot" +
+                     suffix + "), .write_data(" + data +
+                     "),\n"
                      "      .read_slot(" +
                      (cycle > 0 ? at_cycle("slot", cycle) : std::string("slot")) +
                      "), .read_data(" + input.name + ")");
@@ -63,6 +78,16 @@ std::string unit_module(const LoweredDesign& design) {
                               slot_names.back());
     from = slot_names.back();
     at = cycle;
+  }
+  std::vector<std::string> late_enables, late_slots;
+  std::string writes, before;
+  for (std::size_t late = 1; late <= slots.size(); ++late) {
+    const std::string suffix = "_" + std::to_string(late);
+    late_enables.push_back("write_enable" + suffix);
+    late_slots.push_back("write_slot" + suffix);
+    writes += "    write_enable" + suffix + " <= write_enable" + before + ";\n    write_slot" +
+              suffix + " <= write_slot" + before + ";\n";
+    before = suffix;
   }
   std::string unused;
   for (int bit = 0; bit < record_bits;) {
@@ -81,7 +106,8 @@ std::string unit_module(const LoweredDesign& design) {
       generated_line(design) + "//\n// " + module +
       R"( with the memory of its records beside it: 2^SLOT_BITS slots, word w of a record
 // at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
-// own, read with the slot delayed to the cycle in which the datapath needs the field.
+// own, read with the slot delayed to the cycle in which the datapath needs the field, and written
+// a cycle later than the fields that are read before: a write reaches a few memories at a time.
 //
 // A record written at a clock edge may be used by a slot presented in the cycle after it. A slot
 // may be written again in any cycle later than LAST_READ after the one that presented it last.
@@ -100,8 +126,12 @@ module )" +
       "\n);\n  localparam int LATENCY = " + std::to_string(schedule.latency) +
       ";\n  localparam int LAST_READ = " + std::to_string(design.last_read()) + ";\n";
   text += declarations("logic [SLOT_BITS-1:0] ", slot_names);
-  text += declarations("logic [31:0] ", reals) + declarations("logic ", conditions) + "\n";
-  text += slot_delays + "\n" + memories + "\n";
+  text += declarations("logic [31:0] ", reals) + declarations("logic ", conditions);
+  text += declarations("logic [31:0] ", late_reals) + declarations("logic ", late_conditions);
+  text += declarations("logic ", late_enables) + declarations("logic [SLOT_BITS-1:0] ", late_slots);
+  text += "\n" + slot_delays + "\n";
+  if (!writes.empty()) text += "  always_ff @(posedge clk) begin\n" + writes + "  end\n\n";
+  text += memories + "\n";
   // The unit is used as it is with and without probes.
   const std::string probes = std::to_string(32 * design.probes.size() - 1);
   text += "`ifdef EMAX_PROBES\n  logic [" + probes + ":0] unused_probes;\n`endif\n";

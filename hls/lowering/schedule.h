@@ -21,11 +21,11 @@ struct Latencies {
   int add = 12;  // and subtract
   int multiply = 10;
   int square = 10;
-  int less = 2;
+  int less = 3;
   int select = 1;        // 0 or 1
   int zero_compare = 0;  // 0 or 1
   int logic = 0;         // 0 or 1
-  int levels = 3;
+  int levels = 2;
 
   int of(Operation operation) const;
   // Levels of lookup tables between an operand and the operator's first register, or its result.

@@ -12,6 +12,7 @@ module axis_fifo #(
 ) (
     input  logic             clk,
     input  logic             aresetn,
+    input  logic             reset,  // aresetn, inverted, a cycle later
     input  logic             push,
     input  logic [WIDTH-1:0] push_data,
     output logic [WIDTH-1:0] m_axis_tdata,
@@ -34,24 +35,26 @@ module axis_fifo #(
   always_ff @(posedge clk) if (move) m_axis_tdata <= stored;
 
   always_ff @(posedge clk) begin
-    if (!aresetn) begin
+    if (reset) begin
       write_pointer <= '0;
       read_pointer  <= '0;
       fetched_valid <= 1'b0;
       stored_valid  <= 1'b0;
-      m_axis_tvalid <= 1'b0;
     end else begin
       if (push) write_pointer <= write_pointer + 1;
       if (fetch) read_pointer <= read_pointer + 1;
       fetched_valid <= fetch || (fetched_valid && !store);
       stored_valid  <= store || (stored_valid && !move);
-      m_axis_tvalid <= move || (m_axis_tvalid && !m_axis_tready);
     end
+  end
+
+  always_ff @(posedge clk) begin
+    m_axis_tvalid <= aresetn && !reset && (move || (m_axis_tvalid && !m_axis_tready));
   end
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
-    if (aresetn && push)
+    if (!reset && push)
       assert (write_pointer - read_pointer != (DEPTH_BITS + 1)'(1) << DEPTH_BITS)
       else $error("a word was pushed into a full FIFO");
   end

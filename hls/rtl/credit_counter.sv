@@ -8,7 +8,7 @@ module credit_counter #(
     parameter int CREDIT_BITS = 7  // 2^CREDIT_BITS credits
 ) (
     input  logic clk,
-    input  logic aresetn,
+    input  logic reset,
     input  logic take,
     input  logic give,
     output logic room_next  // `room` of the next cycle; no path from `take`
@@ -20,14 +20,14 @@ module credit_counter #(
   assign room_next = credits > 1;
 
   always_ff @(posedge clk) begin
-    if (!aresetn) credits <= ALL;
+    if (reset) credits <= ALL;
     else if (take && !give) credits <= `MUTATED(CREDIT_NOT_TAKEN, credits - 1, credits);
     else if (give && !take) credits <= `MUTATED(CREDIT_NOT_GIVEN, credits + 1, credits);
   end
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
-    if (aresetn) begin
+    if (!reset) begin
       assert (!(take && credits == 0)) else $error("a credit was taken where there was none");
       assert (!(give && credits == ALL)) else $error("a credit came back that nobody had taken");
     end

@@ -20,11 +20,11 @@
 // record and the output FIFOs have room for all that is in flight, which credits count (the datapath
 // cannot stop).
 //
-// Two pairs of one index must be at least READ_MODIFY_WRITE = 4 cycles apart, unless the later is
+// Two pairs of one index must be at least READ_MODIFY_WRITE = 5 cycles apart, unless the later is
 // `first` (running_minimum.sv); an assertion watches this.
 //
 // Schedule, from the cycle in which a pair is accepted: its distance at LATENCY
-// (emax_distance_schedule.svh), its minimum one later, the block's worst point two later; out of the
+// (emax_distance_schedule.svh), its minimum two later, the block's worst point three later; out of the
 // FIFOs four cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
 // nothing that was accepted before a reset comes out after it.
 `include "mutation.svh"
@@ -55,8 +55,13 @@ module emax_element #(
   localparam int LATENCY = `EMAX_DISTANCE_LATENCY;
   localparam int LAST_READ = `EMAX_DISTANCE_LAST_READ;
   // Depth of the output FIFOs, each a block RAM: a credit is away from its pair's acceptance until
-  // its word has left the FIFO, unhindered LATENCY + 7 cycles, and one is never lent.
-  localparam int OUTPUT_BITS = $clog2(LATENCY + 9);
+  // its word has left the FIFO, unhindered LATENCY + 8 cycles, and one is never lent.
+  localparam int OUTPUT_BITS = $clog2(LATENCY + 10);
+
+  // Streams see aresetn at once, what lies behind them a cycle later, from a register that nothing
+  // else drives: it reaches every part.
+  logic reset;
+  always_ff @(posedge clk) reset <= !aresetn;
 
   // Acceptance.
   logic accepted, next_record, final_pair;
@@ -67,7 +72,7 @@ module emax_element #(
   assign final_pair = s_axis_point_tuser[POINT_BITS+1];
 
   always_ff @(posedge clk) begin
-    if (!aresetn) s_axis_point_tready <= 1'b0;
+    if (!aresetn || reset) s_axis_point_tready <= 1'b0;
     else s_axis_point_tready <= loaded_next && nearest_room_next && worst_room_next;
   end
 
@@ -77,7 +82,7 @@ module emax_element #(
   logic [639:0] arriving_record, write_record;
 
   record_ring #(.SLOT_BITS(SLOT_BITS), .LAST_READ(LAST_READ)) ring (
-      .clk, .aresetn, .s_axis_record_tvalid, .s_axis_record_tready, .write_enable, .write_slot,
+      .clk, .aresetn, .reset, .s_axis_record_tvalid, .s_axis_record_tready, .write_enable, .write_slot,
       .advance(accepted && next_record), .slot, .loaded_next);
 
   always_ff @(posedge clk) begin
@@ -98,7 +103,7 @@ module emax_element #(
       .p_x(s_axis_point_tdata[31:0]), .p_y(s_axis_point_tdata[63:32]),
       .p_z(s_axis_point_tdata[95:64]), .squared_distance);
 
-  valid_line #(.DEPTH(LATENCY)) valid_beside (.clk, .aresetn, .d(accepted), .q(valid));
+  valid_line #(.DEPTH(LATENCY)) valid_beside (.clk, .reset, .d(accepted), .q(valid));
 
   delay_line #(.WIDTH(POINT_BITS + 3), .DEPTH(LATENCY - 2), .STYLE("distributed_ram")) flags_beside (
       .clk,
@@ -114,45 +119,49 @@ module emax_element #(
   // The reductions.
   logic [31:0] minimum;
   logic [POINT_BITS-1:0] minimum_index;
-  logic minimum_final, minimum_last;
+  logic final_1, last_1, minimum_final, minimum_last;
+  logic [POINT_BITS-1:0] index_1;
 
   running_minimum #(.POINT_BITS(POINT_BITS)) nearest (
       .clk, .early_index, .valid, .first_pair, .index, .squared_distance, .minimum);
 
   always_ff @(posedge clk) begin
-    minimum_final <= aresetn && valid && `MUTATED(FINAL_IGNORED, final_here, 1'b1);
-    minimum_last <= `MUTATED(LAST_LOST, last_here, 1'b0);
-    minimum_index <= index;
+    final_1 <= !reset && valid && `MUTATED(FINAL_IGNORED, final_here, 1'b1);
+    {last_1, index_1} <= {last_here, index};
+    minimum_final <= !reset && final_1;
+    minimum_last <= `MUTATED(LAST_LOST, last_1, 1'b0);
+    minimum_index <= index_1;
   end
 
   logic worst_done;
-  logic [63:0] worst;
+  logic [POINT_BITS+31:0] worst;
 
   worst_point #(.POINT_BITS(POINT_BITS)) worst_of_block (
-      .clk, .aresetn, .valid(minimum_final), .last(minimum_last), .squared_distance(minimum),
+      .clk, .reset, .valid(minimum_final), .last(minimum_last), .squared_distance(minimum),
       .index(minimum_index), .done(worst_done), .worst);
 
   // The outputs.
   axis_fifo #(.WIDTH(33), .DEPTH_BITS(OUTPUT_BITS)) nearest_fifo (
-      .clk, .aresetn, .push(minimum_final), .push_data({minimum_last, minimum}),
+      .clk, .aresetn, .reset, .push(minimum_final), .push_data({minimum_last, minimum}),
       .m_axis_tdata({m_axis_nearest_tlast, m_axis_nearest_tdata}),
       .m_axis_tvalid(m_axis_nearest_tvalid), .m_axis_tready(m_axis_nearest_tready));
 
   credit_counter #(.CREDIT_BITS(OUTPUT_BITS)) nearest_credit (
-      .clk, .aresetn, .take(accepted && final_pair),
+      .clk, .reset, .take(accepted && final_pair),
       .give(m_axis_nearest_tvalid && m_axis_nearest_tready), .room_next(nearest_room_next));
 
-  axis_fifo #(.WIDTH(64), .DEPTH_BITS(OUTPUT_BITS)) worst_fifo (
-      .clk, .aresetn, .push(worst_done), .push_data(worst),
-      .m_axis_tdata(m_axis_worst_tdata),
+  assign m_axis_worst_tdata[63:POINT_BITS+32] = '0;
+  axis_fifo #(.WIDTH(POINT_BITS + 32), .DEPTH_BITS(OUTPUT_BITS)) worst_fifo (
+      .clk, .aresetn, .reset, .push(worst_done), .push_data(worst),
+      .m_axis_tdata(m_axis_worst_tdata[POINT_BITS+31:0]),
       .m_axis_tvalid(m_axis_worst_tvalid), .m_axis_tready(m_axis_worst_tready));
 
   credit_counter #(.CREDIT_BITS(OUTPUT_BITS)) worst_credit (
-      .clk, .aresetn, .take(accepted && s_axis_point_tlast),
+      .clk, .reset, .take(accepted && s_axis_point_tlast),
       .give(m_axis_worst_tvalid && m_axis_worst_tready), .room_next(worst_room_next));
 
 `ifndef SYNTHESIS
-  localparam int READ_MODIFY_WRITE = 4;
+  localparam int READ_MODIFY_WRITE = 5;
   logic [READ_MODIFY_WRITE-2:0] recent;
   logic [POINT_BITS-1:0] recent_index[READ_MODIFY_WRITE-1];
   always_ff @(posedge clk) begin

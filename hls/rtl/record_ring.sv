@@ -15,6 +15,7 @@ module record_ring #(
 ) (
     input  logic                 clk,
     input  logic                 aresetn,
+    input  logic                 reset,  // aresetn, inverted, a cycle later
     input  logic                 s_axis_record_tvalid,
     output logic                 s_axis_record_tready,
     output logic                 write_enable,
@@ -35,19 +36,18 @@ module record_ring #(
   assign release_slot = `MUTATED(SLOT_FREED_EARLY, release_late, advance);
 
   valid_line #(.DEPTH(LAST_READ)) release_line (
-      .clk, .aresetn, .d(advance), .q(release_late));
+      .clk, .reset, .d(advance), .q(release_late));
 
   always_ff @(posedge clk) write_slot <= next_slot;
 
   always_ff @(posedge clk) begin
-    if (!aresetn) begin
+    if (reset) begin
       arriving <= 1'b0;
       write_enable <= 1'b0;
       next_slot <= '0;
       slot <= '0;
       free <= ALL;
       loaded <= '0;
-      s_axis_record_tready <= 1'b0;
     end else begin
       arriving <= arrived;
       write_enable <= arriving;
@@ -55,13 +55,16 @@ module record_ring #(
       if (advance) slot <= slot + `MUTATED(RING_SKIPS_A_SLOT, 1, 2);
       free <= free_next;
       loaded <= loaded + (SLOT_BITS + 1)'(arriving) - (SLOT_BITS + 1)'(advance);
-      s_axis_record_tready <= `MUTATED(RING_OVERFILLED, free_next != 0, 1'b1);
     end
+  end
+
+  always_ff @(posedge clk) begin
+    s_axis_record_tready <= aresetn && !reset && `MUTATED(RING_OVERFILLED, free_next != 0, 1'b1);
   end
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
-    if (aresetn) begin
+    if (!reset) begin
       assert (!(advance && loaded == 0)) else $error("a pair entered where no record was");
     end
   end

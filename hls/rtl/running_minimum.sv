@@ -1,8 +1,8 @@
 // The running minimum of each point over the records it has met: a memory of 2^POINT_BITS words,
 // read, compared and written once a cycle.
 //
-//   cycle  -2        -1        0                      1
-//          read      (fetch)   minimum(so_far, next)  `minimum` valid, written at its end
+//   cycle  -2        -1        0        1                      2
+//          read      (fetch)   so_far   minimum(so_far, next)  `minimum` valid, written at its end
 //
 // A pair's index comes two cycles before its squared distance. Two pairs of one index must be at
 // least READ_MODIFY_WRITE cycles apart, unless the later one is the point's first: it does not read.
@@ -18,27 +18,29 @@ module running_minimum #(
     input  logic                  first_pair,
     input  logic [POINT_BITS-1:0] index,
     input  logic [31:0]           squared_distance,
-    output logic [31:0]           minimum            // cycle 1
+    output logic [31:0]           minimum            // cycle 2
 );
   localparam logic [31:0] INFINITY_WORD = 32'h7f800000;
 
-  logic [31:0] stored, so_far, smaller;
-  logic [POINT_BITS-1:0] write_index;
-  logic write_enable;
+  logic [31:0] stored, so_far, next, smaller;
+  logic [POINT_BITS-1:0] index_1, write_index;
+  logic valid_1, write_enable;
 
-  assign so_far = `MUTATED(FIRST_IGNORED, first_pair, 1'b0) ? INFINITY_WORD : stored;
-
-  emax_minimum compare (.so_far(so_far), .next(squared_distance), .result(smaller));
+  emax_minimum compare (.so_far, .next, .result(smaller));
 
   block_memory #(.WIDTH(32), .ADDRESS_BITS(POINT_BITS)) memory (
       .clk, .write_enable,
-      .write_address(`MUTATED(MINIMUM_WRITTEN_ASIDE, write_index, index)),
-      .write_data(`MUTATED(MINIMUM_NOT_KEPT, minimum, squared_distance)),
+      .write_address(`MUTATED(MINIMUM_WRITTEN_ASIDE, write_index, index_1)),
+      .write_data(`MUTATED(MINIMUM_NOT_KEPT, minimum, next)),
       .read_enable(1'b1), .read_address(early_index), .output_enable(1'b1), .read_data(stored));
 
   always_ff @(posedge clk) begin
-    minimum <= `MUTATED(FIRST_WITHOUT_INFINITY, smaller, first_pair ? squared_distance : smaller);
-    write_enable <= valid;
-    write_index <= index;
+    so_far <= `MUTATED(FIRST_IGNORED, first_pair, 1'b0)
+        ? `MUTATED(FIRST_WITHOUT_INFINITY, INFINITY_WORD, '1) : stored;
+    next <= squared_distance;
+    {valid_1, index_1} <= {valid, index};
+    minimum <= smaller;
+    write_enable <= valid_1;
+    write_index <= index_1;
   end
 endmodule

@@ -1,5 +1,5 @@
 // A bit that travels beside a datapath which knows no reset: DEPTH clock edges, all of them cleared
-// by aresetn, so that nothing of before the reset comes out after it. Registers, not RAM: a RAM
+// by reset, so that nothing of before the reset comes out after it. Registers, not RAM: a RAM
 // cannot be cleared. DEPTH >= 2.
 `include "mutation.svh"
 
@@ -7,7 +7,7 @@ module valid_line #(
     parameter int DEPTH = 2
 ) (
     input  logic clk,
-    input  logic aresetn,
+    input  logic reset,
     input  logic d,
     output logic q
 );
@@ -16,7 +16,7 @@ module valid_line #(
   assign q = line[DEPTH-1];
 
   always_ff @(posedge clk) begin
-    if (!aresetn) line <= `MUTATED(VALID_OUTLIVES_RESET, '0, {line[DEPTH-2:0], 1'b0});
+    if (reset) line <= `MUTATED(VALID_OUTLIVES_RESET, '0, {line[DEPTH-2:0], 1'b0});
     else line <= {line[DEPTH-2:0], d};
   end
 endmodule

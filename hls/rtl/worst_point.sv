@@ -1,35 +1,36 @@
 // The worst point of a block: the maximum of its final minima and the index of the first of them
 // that attains it. A value a cycle; `worst` and `done` come one cycle after the block's last value.
-// The block that follows may begin in the next cycle. aresetn forgets the block under way.
+// The block that follows may begin in the next cycle. reset forgets the block under way.
 `include "mutation.svh"
 
 module worst_point #(
     parameter int POINT_BITS = 10
 ) (
     input  logic                  clk,
-    input  logic                  aresetn,
+    input  logic                  reset,
     input  logic                  valid,
     input  logic                  last,  // of the block
     input  logic [31:0]           squared_distance,
     input  logic [POINT_BITS-1:0] index,
     output logic                  done,
-    output logic [63:0]           worst  // index, squared distance
+    output logic [POINT_BITS+31:0] worst  // index, squared distance
 );
   logic start;  // the next value is its block's first
-  logic [31:0] next_index, greater, greater_index;
-
-  assign next_index = 32'(index);
+  logic [31:0] greater;
+  /* verilator lint_off UNUSEDSIGNAL */  // indexes have POINT_BITS
+  logic [31:0] greater_index;
+  /* verilator lint_on UNUSEDSIGNAL */
 
   emax_maximum compare (
       .so_far_squared_distance(worst[31:0]),
-      .so_far_index(worst[63:32]),
+      .so_far_index(32'(worst[POINT_BITS+31:32])),
       .next_squared_distance(squared_distance),
-      .next_index(next_index),
+      .next_index(32'(index)),
       .result_squared_distance(greater),
       .result_index(greater_index));
 
   always_ff @(posedge clk) begin
-    if (!aresetn) begin
+    if (reset) begin
       start <= 1'b1;
       done  <= 1'b0;
     end else begin
@@ -37,10 +38,10 @@ module worst_point #(
       done <= valid && last;
     end
     if (valid) begin
-      if (start) worst <= {next_index, squared_distance};
+      if (start) worst <= {index, squared_distance};
       else if (`MUTATED(WORST_TAKES_LAST_OF_EQUALS, 1'b0, squared_distance == worst[31:0]))
-        worst <= {next_index, squared_distance};
-      else worst <= {greater_index, greater};
+        worst <= {index, squared_distance};
+      else worst <= {greater_index[POINT_BITS-1:0], greater};
     end
   end
 endmodule

@@ -85,29 +85,32 @@ endmodule
 
 def shell(design, ports_of_top):
     """A top with four pins: serial registers hold the inputs and take the outputs, so that pins do
-    not limit what fits or how fast it is."""
+    not limit what fits or how fast it is. Between them and the design stands a rank of registers,
+    as the serial chain draws its own together."""
     connections = [".clk(clk)"]
     held = taken = 0
     for name, direction, width in ports_of_top:
         if name == "clk":
             continue
         if direction == "input":
-            connections.append(f".{name}(held[{held + width - 1}:{held}])")
+            connections.append(f".{name}(offered[{held + width - 1}:{held}])")
             held += width
         else:
             connections.append(f".{name}(out[{taken + width - 1}:{taken}])")
             taken += width
     return f"""// Generated for {design.name}.
 module synthesis_shell (input clk, input capture, input serial_in, output reg serial_out);
-  reg [{held - 1}:0] held;
-  reg [{taken - 1}:0] taken;
+  reg [{held - 1}:0] held, offered;
+  reg [{taken - 1}:0] given, taken;
   reg capture_now;
   wire [{taken - 1}:0] out;
   (* keep_hierarchy *) {_instance(design, connections)}
   always @(posedge clk) begin
     held <= {{held, serial_in}};
+    offered <= held;
+    given <= out;
     capture_now <= capture;
-    taken <= capture_now ? out : {{taken, 1'b0}};
+    taken <= capture_now ? given : {{taken, 1'b0}};
     serial_out <= taken[{taken - 1}];
   end
 endmodule

@@ -2,7 +2,8 @@
 //
 // emax_distance with the memory of its records beside it: 2^SLOT_BITS slots, word w of a record
 // at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
-// own, read with the slot delayed to the cycle in which the datapath needs the field.
+// own, read with the slot delayed to the cycle in which the datapath needs the field, and written
+// a cycle later than the fields that are read before: a write reaches a few memories at a time.
 //
 // A record written at a clock edge may be used by a slot presented in the cycle after it. A slot
 // may be written again in any cycle later than LAST_READ after the one that presented it last.
@@ -17,16 +18,25 @@ module emax_distance_unit #(
     input  logic [31:0] p_x,  // cycle 0
     input  logic [31:0] p_y,  // cycle 0
     input  logic [31:0] p_z,  // cycle 0
-    output logic [31:0] squared_distance  // cycle 136
+    output logic [31:0] squared_distance  // cycle 142
 );
-  localparam int LATENCY = 136;
-  localparam int LAST_READ = 95;
-  logic [SLOT_BITS-1:0] slot_at_12, slot_at_24, slot_at_46, slot_at_58, slot_at_80, slot_at_95;
+  localparam int LATENCY = 142;
+  localparam int LAST_READ = 98;
+  logic [SLOT_BITS-1:0] slot_at_12, slot_at_24, slot_at_46, slot_at_58, slot_at_80, slot_at_98;
   logic [31:0] t_v1_x, t_v1_y, t_v1_z, t_normal_x, t_normal_y, t_normal_z, t_in_plane_x,
       t_in_plane_y, t_in_plane_z, t_along_x, t_along_y, t_along_z, t_length12, t_edge13_direction_y,
       t_edge13_direction_z, t_edge13_length, t_edge23_direction_y, t_edge23_direction_z,
       t_edge23_length;
   logic segment;
+  logic [31:0] t_normal_x_late, t_normal_y_late, t_normal_z_late, t_in_plane_x_late,
+      t_in_plane_y_late, t_in_plane_z_late, t_along_x_late, t_along_y_late, t_along_z_late,
+      t_length12_late, t_edge13_direction_y_late, t_edge13_direction_z_late, t_edge13_length_late,
+      t_edge23_direction_y_late, t_edge23_direction_z_late, t_edge23_length_late;
+  logic segment_late;
+  logic write_enable_1, write_enable_2, write_enable_3, write_enable_4, write_enable_5,
+      write_enable_6;
+  logic [SLOT_BITS-1:0] write_slot_1, write_slot_2, write_slot_3, write_slot_4, write_slot_5,
+      write_slot_6;
 
   delay_line #(.WIDTH(SLOT_BITS), .DEPTH(12), .STYLE("distributed_ram")) slot_at_12_delay (
       .clk, .d(slot), .q(slot_at_12));
@@ -38,69 +48,118 @@ module emax_distance_unit #(
       .clk, .d(slot_at_46), .q(slot_at_58));
   delay_line #(.WIDTH(SLOT_BITS), .DEPTH(22), .STYLE("distributed_ram")) slot_at_80_delay (
       .clk, .d(slot_at_58), .q(slot_at_80));
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(15), .STYLE("distributed_ram")) slot_at_95_delay (
-      .clk, .d(slot_at_80), .q(slot_at_95));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(18), .STYLE("distributed_ram")) slot_at_98_delay (
+      .clk, .d(slot_at_80), .q(slot_at_98));
+
+  always_ff @(posedge clk) begin
+    write_enable_1 <= write_enable;
+    write_slot_1 <= write_slot;
+    write_enable_2 <= write_enable_1;
+    write_slot_2 <= write_slot_1;
+    write_enable_3 <= write_enable_2;
+    write_slot_3 <= write_slot_2;
+    write_enable_4 <= write_enable_3;
+    write_slot_4 <= write_slot_3;
+    write_enable_5 <= write_enable_4;
+    write_slot_5 <= write_slot_4;
+    write_enable_6 <= write_enable_5;
+    write_slot_6 <= write_slot_5;
+  end
 
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_v1_x_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[31:0]),
+      .clk, .write_enable(write_enable), .write_slot(write_slot), .write_data(write_record[31:0]),
       .read_slot(slot), .read_data(t_v1_x));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_v1_y_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[63:32]),
+      .clk, .write_enable(write_enable), .write_slot(write_slot), .write_data(write_record[63:32]),
       .read_slot(slot), .read_data(t_v1_y));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_v1_z_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[95:64]),
+      .clk, .write_enable(write_enable), .write_slot(write_slot), .write_data(write_record[95:64]),
       .read_slot(slot), .read_data(t_v1_z));
+  delay_line #(.WIDTH(32), .DEPTH(1)) t_normal_x_late_delay (
+      .clk, .d(write_record[127:96]), .q(t_normal_x_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_normal_x_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[127:96]),
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_normal_x_late),
       .read_slot(slot_at_12), .read_data(t_normal_x));
+  delay_line #(.WIDTH(32), .DEPTH(1)) t_normal_y_late_delay (
+      .clk, .d(write_record[159:128]), .q(t_normal_y_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_normal_y_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[159:128]),
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_normal_y_late),
       .read_slot(slot_at_12), .read_data(t_normal_y));
+  delay_line #(.WIDTH(32), .DEPTH(2)) t_normal_z_late_delay (
+      .clk, .d(write_record[191:160]), .q(t_normal_z_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_normal_z_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[191:160]),
+      .clk, .write_enable(write_enable_2), .write_slot(write_slot_2), .write_data(t_normal_z_late),
       .read_slot(slot_at_24), .read_data(t_normal_z));
+  delay_line #(.WIDTH(32), .DEPTH(1)) t_in_plane_x_late_delay (
+      .clk, .d(write_record[223:192]), .q(t_in_plane_x_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_in_plane_x_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[223:192]),
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_in_plane_x_late),
       .read_slot(slot_at_12), .read_data(t_in_plane_x));
+  delay_line #(.WIDTH(32), .DEPTH(1)) t_in_plane_y_late_delay (
+      .clk, .d(write_record[255:224]), .q(t_in_plane_y_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_in_plane_y_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[255:224]),
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_in_plane_y_late),
       .read_slot(slot_at_12), .read_data(t_in_plane_y));
+  delay_line #(.WIDTH(32), .DEPTH(2)) t_in_plane_z_late_delay (
+      .clk, .d(write_record[287:256]), .q(t_in_plane_z_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_in_plane_z_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[287:256]),
+      .clk, .write_enable(write_enable_2), .write_slot(write_slot_2), .write_data(t_in_plane_z_late),
       .read_slot(slot_at_24), .read_data(t_in_plane_z));
+  delay_line #(.WIDTH(32), .DEPTH(1)) t_along_x_late_delay (
+      .clk, .d(write_record[319:288]), .q(t_along_x_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_along_x_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[319:288]),
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_along_x_late),
       .read_slot(slot_at_12), .read_data(t_along_x));
+  delay_line #(.WIDTH(32), .DEPTH(1)) t_along_y_late_delay (
+      .clk, .d(write_record[351:320]), .q(t_along_y_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_along_y_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[351:320]),
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_along_y_late),
       .read_slot(slot_at_12), .read_data(t_along_y));
+  delay_line #(.WIDTH(32), .DEPTH(2)) t_along_z_late_delay (
+      .clk, .d(write_record[383:352]), .q(t_along_z_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_along_z_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[383:352]),
+      .clk, .write_enable(write_enable_2), .write_slot(write_slot_2), .write_data(t_along_z_late),
       .read_slot(slot_at_24), .read_data(t_along_z));
+  delay_line #(.WIDTH(32), .DEPTH(3)) t_length12_late_delay (
+      .clk, .d(write_record[415:384]), .q(t_length12_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_length12_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[415:384]),
+      .clk, .write_enable(write_enable_3), .write_slot(write_slot_3), .write_data(t_length12_late),
       .read_slot(slot_at_46), .read_data(t_length12));
+  delay_line #(.WIDTH(32), .DEPTH(4)) t_edge13_direction_y_late_delay (
+      .clk, .d(write_record[447:416]), .q(t_edge13_direction_y_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_edge13_direction_y_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[447:416]),
+      .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge13_direction_y_late),
       .read_slot(slot_at_58), .read_data(t_edge13_direction_y));
+  delay_line #(.WIDTH(32), .DEPTH(4)) t_edge13_direction_z_late_delay (
+      .clk, .d(write_record[479:448]), .q(t_edge13_direction_z_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_edge13_direction_z_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[479:448]),
+      .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge13_direction_z_late),
       .read_slot(slot_at_58), .read_data(t_edge13_direction_z));
+  delay_line #(.WIDTH(32), .DEPTH(5)) t_edge13_length_late_delay (
+      .clk, .d(write_record[511:480]), .q(t_edge13_length_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_edge13_length_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[511:480]),
+      .clk, .write_enable(write_enable_5), .write_slot(write_slot_5), .write_data(t_edge13_length_late),
       .read_slot(slot_at_80), .read_data(t_edge13_length));
+  delay_line #(.WIDTH(32), .DEPTH(4)) t_edge23_direction_y_late_delay (
+      .clk, .d(write_record[543:512]), .q(t_edge23_direction_y_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_edge23_direction_y_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[543:512]),
+      .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge23_direction_y_late),
       .read_slot(slot_at_58), .read_data(t_edge23_direction_y));
+  delay_line #(.WIDTH(32), .DEPTH(4)) t_edge23_direction_z_late_delay (
+      .clk, .d(write_record[575:544]), .q(t_edge23_direction_z_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_edge23_direction_z_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[575:544]),
+      .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge23_direction_z_late),
       .read_slot(slot_at_58), .read_data(t_edge23_direction_z));
+  delay_line #(.WIDTH(32), .DEPTH(5)) t_edge23_length_late_delay (
+      .clk, .d(write_record[607:576]), .q(t_edge23_length_late));
   field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) t_edge23_length_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[607:576]),
+      .clk, .write_enable(write_enable_5), .write_slot(write_slot_5), .write_data(t_edge23_length_late),
       .read_slot(slot_at_80), .read_data(t_edge23_length));
+  delay_line #(.WIDTH(1), .DEPTH(6)) segment_late_delay (
+      .clk, .d(write_record[639]), .q(segment_late));
   field_memory #(.WIDTH(1), .SLOT_BITS(SLOT_BITS)) segment_memory (
-      .clk, .write_enable, .write_slot, .write_data(write_record[639]),
-      .read_slot(slot_at_95), .read_data(segment));
+      .clk, .write_enable(write_enable_6), .write_slot(write_slot_6), .write_data(segment_late),
+      .read_slot(slot_at_98), .read_data(segment));
 
 `ifdef EMAX_PROBES
   logic [2431:0] unused_probes;

@@ -160,9 +160,11 @@ TEST(Schedule, CheckSeesAConsumerOneCycleEarly) {
     seen += fault(design.graph, design.options.latencies, early) != "" ? 1 : 0;
   }
   EXPECT_EQ(seen, static_cast<int>(design.probes.size()));
-  Latencies fewer_levels = design.options.latencies;
-  fewer_levels.levels = 2;
-  EXPECT_NE(fault(design.graph, fewer_levels, design.schedule), "");
+  Latencies more_levels = design.options.latencies;
+  ++more_levels.levels;
+  const Schedule crowded = make_schedule(design.graph, more_levels);
+  ASSERT_EQ(fault(design.graph, more_levels, crowded), "");
+  EXPECT_NE(fault(design.graph, design.options.latencies, crowded), "");
 }
 
 TEST(Schedule, RefusesLatenciesThatCannotBeBuilt) {
