@@ -25,7 +25,7 @@
 //
 // Schedule, from the cycle in which a pair is accepted: its distance at LATENCY
 // (emax_distance_schedule.svh), its minimum two later, the block's worst point three later; out of the
-// FIFOs four cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
+// FIFOs five cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
 // nothing that was accepted before a reset comes out after it.
 `include "mutation.svh"
 `include "emax_distance_schedule.svh"
@@ -55,8 +55,8 @@ module emax_element #(
   localparam int LATENCY = `EMAX_DISTANCE_LATENCY;
   localparam int LAST_READ = `EMAX_DISTANCE_LAST_READ;
   // Depth of the output FIFOs, each a block RAM: a credit is away from its pair's acceptance until
-  // its word has left the FIFO, unhindered LATENCY + 8 cycles, and one is never lent.
-  localparam int OUTPUT_BITS = $clog2(LATENCY + 10);
+  // its word has left the FIFO, unhindered LATENCY + 9 cycles, and one is never lent.
+  localparam int OUTPUT_BITS = $clog2(LATENCY + 11);
 
   // Streams see aresetn at once, what lies behind them a cycle later, from a register that nothing
   // else drives: it reaches every part.

@@ -6,7 +6,7 @@
 // record's last pair enters). The datapath reads the fields of a record at several cycles, the last
 // of them LAST_READ cycles after the pair entered: only then is the slot free again. `loaded_next`
 // says whether the next cycle has a record to read. s_axis_record_tready is a register. A different
-// record every cycle is sustained when 2^SLOT_BITS >= LAST_READ + 5.
+// record every cycle is sustained when 2^SLOT_BITS >= LAST_READ + 6.
 `include "mutation.svh"
 
 module record_ring #(
@@ -26,12 +26,13 @@ module record_ring #(
 );
   localparam logic [SLOT_BITS:0] ALL = (SLOT_BITS + 1)'(1) << SLOT_BITS;
 
-  logic [SLOT_BITS:0] free, free_next, loaded;
+  logic [SLOT_BITS:0] free, loaded;
+  logic room_next;
   logic arrived, arriving, release_late, release_slot;
   logic [SLOT_BITS-1:0] next_slot;
 
   assign arrived = s_axis_record_tvalid && s_axis_record_tready;
-  assign free_next = free + (SLOT_BITS + 1)'(release_slot) - (SLOT_BITS + 1)'(arrived);
+  assign room_next = free > 1 || (free == 1 && !arrived);  // a slot freed now counts a cycle later
   assign loaded_next = loaded > 1 || (loaded == 1 && !advance);
   assign release_slot = `MUTATED(SLOT_FREED_EARLY, release_late, advance);
 
@@ -53,13 +54,13 @@ module record_ring #(
       write_enable <= arriving;
       if (arriving) next_slot <= next_slot + 1;
       if (advance) slot <= slot + `MUTATED(RING_SKIPS_A_SLOT, 1, 2);
-      free <= free_next;
+      free <= free + (SLOT_BITS + 1)'(release_slot) - (SLOT_BITS + 1)'(arrived);
       loaded <= loaded + (SLOT_BITS + 1)'(arriving) - (SLOT_BITS + 1)'(advance);
     end
   end
 
   always_ff @(posedge clk) begin
-    s_axis_record_tready <= aresetn && !reset && `MUTATED(RING_OVERFILLED, free_next != 0, 1'b1);
+    s_axis_record_tready <= aresetn && !reset && `MUTATED(RING_OVERFILLED, room_next, 1'b1);
   end
 
 `ifndef SYNTHESIS

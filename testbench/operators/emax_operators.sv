@@ -3,8 +3,8 @@
 module emax_operators #(
     parameter int EXPONENT = 8,
     parameter int MANTISSA = 23,
-    parameter int ADD_LATENCY = 13,
-    parameter int MULTIPLY_LATENCY = 9,
+    parameter int ADD_LATENCY = 12,
+    parameter int MULTIPLY_LATENCY = 10,
     parameter int LESS_LATENCY = 3
 ) (
     input  logic                       clk,
