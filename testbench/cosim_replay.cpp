@@ -13,12 +13,13 @@
 #include <fstream>
 #include <string_view>
 
-#include "Vemax_element_probed.h"
-#include "Vemax_element_probed___024root.h"
-#include "Vemax_element_probed_device.h"
-#include "Vemax_element_probed_device___024root.h"
-#include "Vemax_element_probed_device_emax_mutation.h"
-#include "Vemax_element_probed_emax_mutation.h"
+#include <Vemax_element_probed.h>
+#include <Vemax_element_probed___024root.h>
+#include <Vemax_element_probed_device.h>
+#include <Vemax_element_probed_device___024root.h>
+#include <Vemax_element_probed_device_emax_mutation.h>
+#include <Vemax_element_probed_emax_mutation.h>
+
 #include "sw_model/error.h"
 #include "testbench/diagnosis.h"
 #include "testbench/failure_folder.h"

@@ -1,7 +1,8 @@
-#include "Vemax_element_covered.h"
+#include <Vemax_element_covered.h>
+#include <verilated_cov.h>
+
 #include "testbench/verilated_element.h"
 #include "testbench/verilated_variants.h"
-#include "verilated_cov.h"
 
 namespace emax {
 namespace {

@@ -1,6 +1,7 @@
-#include "Vemax_element_mutated.h"
-#include "Vemax_element_mutated___024root.h"
-#include "Vemax_element_mutated_emax_mutation.h"
+#include <Vemax_element_mutated.h>
+#include <Vemax_element_mutated___024root.h>
+#include <Vemax_element_mutated_emax_mutation.h>
+
 #include "testbench/verilated_element.h"
 #include "testbench/verilated_variants.h"
 

@@ -1,5 +1,6 @@
-#include "Vemax_element_plain.h"
-#include "Vemax_element_plain_device.h"
+#include <Vemax_element_plain.h>
+#include <Vemax_element_plain_device.h>
+
 #include "testbench/verilated_element.h"
 #include "testbench/verilated_variants.h"
 

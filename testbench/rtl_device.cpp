@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "Vemax_element_plain_device.h"
+#include <Vemax_element_plain_device.h>
+
 #include "hls/kernel/reduce.h"
 #include "sw_model/error.h"
 #include "testbench/verilated_element.h"

@@ -1,4 +1,5 @@
-#include "Voperators_covered_rtl.h"
+#include <Voperators_covered_rtl.h>
+
 #include "testbench/operators/verilated_operators.h"
 
 namespace emax {

@@ -1,6 +1,7 @@
-#include "Voperators_mutant_rtl.h"
-#include "Voperators_mutant_rtl___024root.h"
-#include "Voperators_mutant_rtl_emax_mutation.h"
+#include <Voperators_mutant_rtl.h>
+#include <Voperators_mutant_rtl___024root.h>
+#include <Voperators_mutant_rtl_emax_mutation.h>
+
 #include "testbench/operators/verilated_operators.h"
 
 namespace emax {

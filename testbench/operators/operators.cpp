@@ -1,6 +1,7 @@
-#include "Voperators_4_3_rtl.h"
-#include "Voperators_5_2_rtl.h"
-#include "Voperators_8_23_rtl.h"
+#include <Voperators_4_3_rtl.h>
+#include <Voperators_5_2_rtl.h>
+#include <Voperators_8_23_rtl.h>
+
 #include "testbench/operators/verilated_operators.h"
 
 namespace emax {

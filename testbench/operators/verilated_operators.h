@@ -4,11 +4,12 @@
 #include <span>
 #include <type_traits>
 
+#include <verilated.h>
+
 #include "sw_model/error.h"
 #include "testbench/operators/operator_unit.h"
-#include "verilated.h"
 #if VM_COVERAGE
-#include "verilated_cov.h"
+#include <verilated_cov.h>
 #endif
 
 namespace emax {
