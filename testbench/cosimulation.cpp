@@ -1,5 +1,6 @@
 #include "testbench/cosimulation.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace emax {
@@ -30,7 +31,8 @@ TestReport run_test(const ElementTest& test, const ElementFactory& make_element,
   const auto start = Clock::now();
   const auto element = make_element(test.slot_bits);
   element->set_mutant(options.mutant);
-  const std::uint64_t count = options.full ? test.full_runs : test.quick_runs;
+  const std::uint64_t all = options.full ? test.full_runs : test.quick_runs;
+  const std::uint64_t count = std::max(all / options.part, std::min<std::uint64_t>(all, 2));
   std::uint64_t free_pairs = 0, free_cycles = 0;
   for (std::uint64_t i = 0; i < count && !report.failure; ++i) {
     if (options.stop != nullptr && *options.stop) {

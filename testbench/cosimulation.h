@@ -19,6 +19,7 @@ using ElementFactory = std::function<std::unique_ptr<ElementSimulation>(std::uin
 struct CosimulationOptions {
   std::uint64_t seed = 1;
   bool full = false;
+  std::uint64_t part = 1;  // runs one of so many, at least two
   std::uint32_t mutant = 0;
   std::function<void(double)> progress;     // share done; called now and then
   const std::atomic<bool>* stop = nullptr;  // ends a test after the present run
