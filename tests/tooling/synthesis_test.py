@@ -139,7 +139,7 @@ class DesignTest(unittest.TestCase):
     def test_the_shell_reaches_every_port_bit_once(self):
         design = designs.Design("d", "d", 100, {"N": 4})
         text = designs.shell(design, [("clk", "input", 1), ("a", "input", 8), ("b", "input", 1), ("q", "output", 3)])
-        for part in [".a(held[7:0])", ".b(held[8:8])", ".q(out[2:0])", "reg [8:0] held", "reg [2:0] taken", "#(.N(4))"]:
+        for part in [".a(offered[7:0])", ".b(offered[8:8])", ".q(out[2:0])", "reg [8:0] held", "reg [2:0] given, taken", "#(.N(4))"]:
             self.assertIn(part, text)
 
     def test_the_critical_path_is_the_clocks_own(self):
