@@ -107,6 +107,8 @@ int run(const Options& options, Suite suite) {
   if (result.interrupted) std::printf("interrupted: the tests above are all that ran\n");
   std::printf("cosim: %llu pairs, %llu mismatches\n", static_cast<unsigned long long>(result.pairs),
               static_cast<unsigned long long>(result.mismatches));
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error("standard output cannot be written; is the disk full?");
   return result.mismatches > 0 ? 1 : result.interrupted ? 130 : 0;
 }
 

@@ -28,11 +28,37 @@ class Recording {
   DataflowGraph* outer_;
 };
 
+#ifdef __cpp_lib_source_location
+using CallPlace = std::source_location;
+#else
+// What Clang before 16 has in its place.
+class CallPlace {
+ public:
+  static constexpr CallPlace current(const char* file = __builtin_FILE(),
+                                     const char* function = __builtin_FUNCTION(),
+                                     unsigned line = __builtin_LINE(),
+                                     unsigned column = __builtin_COLUMN()) {
+    return {file, function, line, column};
+  }
+  constexpr const char* file_name() const { return file_; }
+  constexpr const char* function_name() const { return function_; }
+  constexpr unsigned line() const { return line_; }
+  constexpr unsigned column() const { return column_; }
+
+ private:
+  constexpr CallPlace(const char* file, const char* function, unsigned line, unsigned column)
+      : file_(file), function_(function), line_(line), column_(column) {}
+
+  const char *file_, *function_;
+  unsigned line_, column_;
+};
+#endif
+
 template <class Recorded>
 struct Located {
   // Implicit: this conversion is where the place of the operation is taken.
   Located(const Recorded& recorded,  // NOLINT(google-explicit-constructor)
-          std::source_location at = std::source_location::current())
+          CallPlace at = CallPlace::current())
       : node(recorded.node()), place{at.file_name(), at.line(), at.column(), at.function_name()} {}
 
   NodeId node;
