@@ -16,15 +16,15 @@ namespace emax {
 // While it lives, this thread records into `graph`. Recordings nest.
 class Recording {
  public:
-  explicit Recording(DataflowGraph& graph) : outer_(active_) { active_ = &graph; }
-  ~Recording() { active_ = outer_; }
+  explicit Recording(DataflowGraph& graph) : outer_(active) { active = &graph; }
+  ~Recording() { active = outer_; }
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  static DataflowGraph& graph() { return *active_; }
+  static DataflowGraph& graph() { return *active; }
 
  private:
-  static inline thread_local DataflowGraph* active_ = nullptr;
+  static inline thread_local DataflowGraph* active = nullptr;
   DataflowGraph* outer_;
 };
 
