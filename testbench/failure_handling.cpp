@@ -38,7 +38,7 @@ fs::path keep_failure(const Failure& failure, const ElementFactory& make_element
   std::printf("\nmismatch in %smaking it small ...\n", describe(failure).c_str());
   std::fflush(stdout);
   const Failure small = shrink(failure, make_element);
-  const fs::path folder = parent / folder_name(small);
+  fs::path folder = parent / folder_name(small);
   write_failure(folder, small);
   const ElementRun& run = small.runs.back();
   std::printf("%zu pairs, %zu records left\n", run.pairs.size(), run.records.size());
