@@ -74,7 +74,7 @@ struct Point {
 void read_file(const std::string& file, std::map<std::string, Point>& points) {
   std::ifstream in(file);
   if (!in) throw Error(file + ": cannot be read; write it with --coverage first");
-  static const std::regex kParameters("__.*$");
+  static const std::regex parameters("__.*$");
   for (std::string line; std::getline(in, line);) {
     const std::size_t end = line.rfind('\'');
     if (!line.starts_with("C '") || end < 3) continue;
@@ -84,7 +84,7 @@ void read_file(const std::string& file, std::map<std::string, Point>& points) {
       if (page.substr(0, slash) != std::string("v_") + kKinds[kind]) continue;
       const std::string source = field(name, "f");
       Point point;
-      point.module = std::regex_replace(page.substr(slash + 1), kParameters, "");
+      point.module = std::regex_replace(page.substr(slash + 1), parameters, "");
       point.kind = kind;
       point.name = std::string(kKinds[kind]) + " " + field(name, "o");
       point.place = source.substr(source.rfind('/') + 1) + ":" + field(name, "l");
