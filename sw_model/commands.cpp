@@ -58,6 +58,18 @@ void append_reduce(std::vector<Word>& words, bool list_points) {
   append_header(words, kReduce, list_points ? kReduceListsPoints : 0);
 }
 
+std::size_t payload_words(Word header) {
+  const std::size_t count = header_count(header);
+  switch (header_opcode(header)) {
+    case kLoadPoints:
+      return count * kPointWords;
+    case kRecords:
+      return count * kRecordWords;
+    default:
+      return 0;
+  }
+}
+
 ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points) {
   std::array<Word, 1> header;
   device.receive(header);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +14,9 @@ namespace emax {
 void append_load_points(std::vector<Word>& words, std::span<const Vector3<float>> points);
 void append_records(std::vector<Word>& words, std::span<const TriangleRecord<float>> records);
 void append_reduce(std::vector<Word>& words, bool list_points);
+
+// Words that follow a command's header.
+std::size_t payload_words(Word header);
 
 struct ReduceAnswer {
   std::uint32_t squared_bits;

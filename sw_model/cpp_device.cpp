@@ -1,23 +1,9 @@
 #include "sw_model/cpp_device.h"
 
+#include "sw_model/commands.h"
 #include "sw_model/error.h"
 
 namespace emax {
-namespace {
-
-std::size_t payload_words(Word header) {
-  const std::size_t count = header_count(header);
-  switch (header_opcode(header)) {
-    case kLoadPoints:
-      return count * kPointWords;
-    case kRecords:
-      return count * kRecordWords;
-    default:
-      return 0;
-  }
-}
-
-}  // namespace
 
 void CppDevice::send(std::span<const Word> words) {
   for (const Word word : words) {

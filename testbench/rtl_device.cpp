@@ -5,6 +5,7 @@
 #include <Vemax_element_plain_device.h>
 
 #include "hls/kernel/reduce.h"
+#include "sw_model/commands.h"
 #include "sw_model/error.h"
 #include "testbench/verilated_element.h"
 
@@ -14,18 +15,6 @@ namespace {
 constexpr std::uint64_t kPatience = 10000;  // cycles without a result: many times the pipeline
 
 static_assert(kMaxBlockPoints <= 1u << kPointBits, "the element keeps a minimum for every point");
-
-std::size_t payload_words(Word header) {
-  const std::size_t count = header_count(header);
-  switch (header_opcode(header)) {
-    case kLoadPoints:
-      return count * kPointWords;
-    case kRecords:
-      return count * kRecordWords;
-    default:
-      return 0;
-  }
-}
 
 }  // namespace
 
