@@ -7,6 +7,7 @@
 // after each; a LATENCY below 13 leaves out cuts in the order of DROPPED, 14 adds a register at the
 // input, which eases routing.
 `include "mutation.svh"
+`include "registered.svh"
 
 module fp_add #(
     parameter int EXPONENT = 8,
@@ -59,20 +60,16 @@ module fp_add #(
   logic [W-1:0] order_0;
   /* verilator lint_on UNUSEDSIGNAL */
   assign order_0 = {1'b0, a_0[W-2:0]} - {1'b0, b_0[W-2:0]};
-  delay_line #(.WIDTH(W), .DEPTH(32'(CUT[1]))) cut_1a (.clk, .d(a_0), .q(a_1));
-  delay_line #(.WIDTH(W), .DEPTH(32'(CUT[1]))) cut_1b (.clk, .d(b_0), .q(b_1));
-  delay_line #(.WIDTH(2 * EXPONENT + 3), .DEPTH(32'(CUT[1]))) cut_1c (
-      .clk,
-      .d({
-        a_0[W-2-:EXPONENT] - b_0[W-2-:EXPONENT],
-        b_0[W-2-:EXPONENT] - a_0[W-2-:EXPONENT],
-        `MUTATED(ADD_ORDER_BY_EXPONENT, order_0[W-1],
-                 a_0[W-2-:EXPONENT] < b_0[W-2-:EXPONENT]),
-        a_0[W-2-:EXPONENT] == '0,
-        b_0[W-2-:EXPONENT] == '0
-      }),
-      .q({a_minus_b_1, b_minus_a_1, less_1, a_zero_1, b_zero_1})
-  );
+  `REGISTERED(CUT[1], a_1, a_0)
+  `REGISTERED(CUT[1], b_1, b_0)
+  `REGISTERED(CUT[1], {a_minus_b_1, b_minus_a_1, less_1, a_zero_1, b_zero_1}, {
+      a_0[W-2-:EXPONENT] - b_0[W-2-:EXPONENT],
+      b_0[W-2-:EXPONENT] - a_0[W-2-:EXPONENT],
+      `MUTATED(ADD_ORDER_BY_EXPONENT, order_0[W-1],
+               a_0[W-2-:EXPONENT] < b_0[W-2-:EXPONENT]),
+      a_0[W-2-:EXPONENT] == '0,
+      b_0[W-2-:EXPONENT] == '0
+    })
 
   // Step 2: the larger and the smaller operand and how far to shift the latter. What goes along:
   // the larger's sign, whether both are negative (the sign of a zero sum), whether to subtract.
@@ -80,23 +77,15 @@ module fp_add #(
   logic [MANTISSA-1:0] smaller_2;
   logic [EXPONENT-1:0] shift_2;
   logic small_zero_2, sign_2, negative_2, subtract_2;
-  delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[2]))) cut_2a (
-      .clk, .d(less_1 ? b_1[W-2:0] : a_1[W-2:0]), .q(larger_2)
-  );
-  delay_line #(.WIDTH(MANTISSA), .DEPTH(32'(CUT[2]))) cut_2b (
-      .clk, .d(less_1 ? a_1[MANTISSA-1:0] : b_1[MANTISSA-1:0]), .q(smaller_2)
-  );
-  delay_line #(.WIDTH(EXPONENT + 4), .DEPTH(32'(CUT[2]))) cut_2c (
-      .clk,
-      .d({
-        less_1 ? b_minus_a_1 : a_minus_b_1,
-        less_1 ? a_zero_1 : b_zero_1,
-        less_1 ? b_1[W-1] : a_1[W-1],
-        a_1[W-1] & b_1[W-1],
-        a_1[W-1] ^ b_1[W-1]
-      }),
-      .q({shift_2, small_zero_2, sign_2, negative_2, subtract_2})
-  );
+  `REGISTERED(CUT[2], larger_2, less_1 ? b_1[W-2:0] : a_1[W-2:0])
+  `REGISTERED(CUT[2], smaller_2, less_1 ? a_1[MANTISSA-1:0] : b_1[MANTISSA-1:0])
+  `REGISTERED(CUT[2], {shift_2, small_zero_2, sign_2, negative_2, subtract_2}, {
+      less_1 ? b_minus_a_1 : a_minus_b_1,
+      less_1 ? a_zero_1 : b_zero_1,
+      less_1 ? b_1[W-1] : a_1[W-1],
+      a_1[W-1] & b_1[W-1],
+      a_1[W-1] ^ b_1[W-1]
+    })
 
   // Step 3: shift the smaller by eights; find out what is special (the fraction is looked at in
   // halves: fewer levels of logic). An infinite smaller operand shows as a shift of zero beside a
@@ -117,33 +106,25 @@ module fp_add #(
   logic far_3, small_zero_3, lost_3, sign_3, subtract_3;
   logic zero_3, special_3, upper_3, lower_3, opposite_3, negative_3;
   assign smaller_0b = {1'b1, smaller_2, 2'b00};
-  delay_line #(.WIDTH(ALIGNED), .DEPTH(32'(CUT[3]))) cut_3a (
-      .clk, .d(smaller_0b >> (shift_2[SHIFT_BITS-1:0] & ~SHIFT_BITS'(7))), .q(smaller_3)
-  );
-  delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[3]))) cut_3b (
-      .clk, .d(larger_2), .q({exponent_3, larger_3})
-  );
-  delay_line #(.WIDTH(14), .DEPTH(32'(CUT[3]))) cut_3c (
-      .clk,
-      .d({
-        3'(shift_2),
-        (shift_2 >> SHIFT_BITS) != '0,
-        small_zero_2,
-        lost_bytes(32'(smaller_0b), shift_2[SHIFT_BITS-1:0]),
-        sign_2,
-        subtract_2,
-        larger_2[W-2-:EXPONENT] == '0,
-        larger_2[W-2-:EXPONENT] == '1,
-        larger_2[MANTISSA-1:HALF] != '0,
-        larger_2[HALF-1:0] != '0,
-        subtract_2 & shift_2 == '0,
-        negative_2
-      }),
-      .q({
+  `REGISTERED(CUT[3], smaller_3, smaller_0b >> (shift_2[SHIFT_BITS-1:0] & ~SHIFT_BITS'(7)))
+  `REGISTERED(CUT[3], {exponent_3, larger_3}, larger_2)
+  `REGISTERED(CUT[3], {
         shift_3, far_3, small_zero_3, lost_3, sign_3, subtract_3,
         zero_3, special_3, upper_3, lower_3, opposite_3, negative_3
-      })
-  );
+      }, {
+      3'(shift_2),
+      (shift_2 >> SHIFT_BITS) != '0,
+      small_zero_2,
+      lost_bytes(32'(smaller_0b), shift_2[SHIFT_BITS-1:0]),
+      sign_2,
+      subtract_2,
+      larger_2[W-2-:EXPONENT] == '0,
+      larger_2[W-2-:EXPONENT] == '1,
+      larger_2[MANTISSA-1:HALF] != '0,
+      larger_2[HALF-1:0] != '0,
+      subtract_2 & shift_2 == '0,
+      negative_2
+    })
 
   // Step 4: shift by twos; nothing is left of a zero, and only a sticky bit of what is far below.
   logic [ALIGNED-1:0] smaller_4;
@@ -155,29 +136,19 @@ module fp_add #(
   assign low_3 = 6'(smaller_3);
   assign lost_now_3 = lost_3 | far_3 | ((shift_3[2] | shift_3[1]) & (|low_3[1:0]))
       | (shift_3[2] & (|low_3[3:2])) | (shift_3[2] & shift_3[1] & (|low_3[5:4]));
-  delay_line #(.WIDTH(ALIGNED), .DEPTH(32'(CUT[4]))) cut_4a (
-      .clk,
-      .d(far_3 | `MUTATED(ADD_SUBNORMAL_OPERAND, small_zero_3, 1'b0)
-         ? '0 : smaller_3 >> {shift_3[2:1], 1'b0}),
-      .q(smaller_4)
-  );
-  delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[4]))) cut_4b (
-      .clk, .d({exponent_3, larger_3}), .q({exponent_4, larger_4})
-  );
-  delay_line #(.WIDTH(4 + KINDS), .DEPTH(32'(CUT[4]))) cut_4c (
-      .clk,
-      .d({
-        shift_3[0],
-        ~small_zero_3 & lost_now_3,
-        sign_3,
-        subtract_3,
-        zero_3,
-        special_3,
-        special_3 & (upper_3 | lower_3 | opposite_3),
-        negative_3
-      }),
-      .q({shift_4, lost_4, sign_4, subtract_4, kind_4})
-  );
+  `REGISTERED(CUT[4], smaller_4, far_3 | `MUTATED(ADD_SUBNORMAL_OPERAND, small_zero_3, 1'b0)
+       ? '0 : smaller_3 >> {shift_3[2:1], 1'b0})
+  `REGISTERED(CUT[4], {exponent_4, larger_4}, {exponent_3, larger_3})
+  `REGISTERED(CUT[4], {shift_4, lost_4, sign_4, subtract_4, kind_4}, {
+      shift_3[0],
+      ~small_zero_3 & lost_now_3,
+      sign_3,
+      subtract_3,
+      zero_3,
+      special_3,
+      special_3 & (upper_3 | lower_3 | opposite_3),
+      negative_3
+    })
 
   // Step 5: shift by one and complement for a subtraction, together one level of logic.
   logic [ALIGNED-1:0] smaller_5;
@@ -185,19 +156,11 @@ module fp_add #(
   logic [EXPONENT-1:0] exponent_5;
   logic lost_5, sign_5, subtract_5;
   logic [KINDS-1:0] kind_5;
-  delay_line #(.WIDTH(ALIGNED), .DEPTH(32'(CUT[5]))) cut_5a (
-      .clk,
-      .d((shift_4 ? {1'b0, smaller_4[ALIGNED-1:1]} : smaller_4) ^ {ALIGNED{subtract_4}}),
-      .q(smaller_5)
-  );
-  delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[5]))) cut_5b (
-      .clk, .d({exponent_4, larger_4}), .q({exponent_5, larger_5})
-  );
-  delay_line #(.WIDTH(3 + KINDS), .DEPTH(32'(CUT[5]))) cut_5c (
-      .clk,
-      .d({lost_4 | (shift_4 & smaller_4[0]), sign_4, subtract_4, kind_4}),
-      .q({lost_5, sign_5, subtract_5, kind_5})
-  );
+  `REGISTERED(CUT[5], smaller_5,
+              (shift_4 ? {1'b0, smaller_4[ALIGNED-1:1]} : smaller_4) ^ {ALIGNED{subtract_4}})
+  `REGISTERED(CUT[5], {exponent_5, larger_5}, {exponent_4, larger_4})
+  `REGISTERED(CUT[5], {lost_5, sign_5, subtract_5, kind_5},
+              {lost_4 | (shift_4 & smaller_4[0]), sign_4, subtract_4, kind_4})
 
   // Step 6: add. What was lost borrows one from a difference, and it stays as the sticky bit.
   /* verilator lint_off UNUSEDSIGNAL */  // bit 0 makes the carry in
@@ -209,26 +172,13 @@ module fp_add #(
   logic [KINDS-1:0] kind_6;
   assign chain_5 = {2'b01, larger_5, 3'b001}
       + {subtract_5, smaller_5, subtract_5 & ~`MUTATED(ADD_NO_BORROW, lost_5, 1'b0)};
-  delay_line #(.WIDTH(ALIGNED + 1), .DEPTH(32'(CUT[6]))) cut_6a (
-      .clk, .d(chain_5[ALIGNED+1:1]), .q(total_6)
-  );
-  delay_line #(.WIDTH(EXPONENT + 2 + KINDS), .DEPTH(32'(CUT[6]))) cut_6b (
-      .clk,
-      .d({exponent_5, `MUTATED(ADD_LOST_STICKY, lost_5, 1'b0), sign_5, kind_5}),
-      .q({exponent_6, lost_6, sign_6, kind_6})
-  );
+  `REGISTERED(CUT[6], total_6, chain_5[ALIGNED+1:1])
+  `REGISTERED(CUT[6], {exponent_6, lost_6, sign_6, kind_6},
+              {exponent_5, `MUTATED(ADD_LOST_STICKY, lost_5, 1'b0), sign_5, kind_5})
 
   // Step 7: the sticky bit joins below the total (it is set only where at most one leading bit is
   // zero) and leading zero nibbles are counted.
   // The count's last bit is one of four flags, chosen by its other bits a step later.
-  localparam int COUNTED = 6;
-  function automatic logic [COUNTED-1:0] zero_nibbles(input logic [31:0] value);
-    logic [7:1] some;
-    for (int i = 1; i < 8; i++) some[i] = |value[4*i+:4];
-    zero_nibbles[5] = ~(|some[7:4]);
-    zero_nibbles[4] = (|some[7:4]) ? ~(|some[7:6]) : ~(|some[3:2]);
-    zero_nibbles[3:0] = ~{some[1], some[3], some[5], some[7]};
-  endfunction
   logic [31:0] total_6w, total_7;
   logic [EXPONENT-1:0] exponent_7;
   logic [1:0] zeros_7;
@@ -236,12 +186,15 @@ module fp_add #(
   logic sign_7;
   logic [KINDS-1:0] kind_7;
   assign total_6w = 32'({total_6, lost_6}) << (30 - ALIGNED);
-  delay_line #(.WIDTH(32), .DEPTH(32'(CUT[7]))) cut_7a (.clk, .d(total_6w), .q(total_7));
-  delay_line #(.WIDTH(EXPONENT + 1 + COUNTED + KINDS), .DEPTH(32'(CUT[7]))) cut_7b (
-      .clk,
-      .d({exponent_6, zero_nibbles(total_6w), sign_6, kind_6}),
-      .q({exponent_7, zeros_7, odd_7, sign_7, kind_7})
-  );
+  `REGISTERED(CUT[7], total_7, total_6w)
+  `REGISTERED(CUT[7], {exponent_7, zeros_7, odd_7, sign_7, kind_7}, {
+      exponent_6,
+      ~(|total_6w[31:16]),
+      (|total_6w[31:16]) ? ~(|total_6w[31:24]) : ~(|total_6w[15:8]),
+      ~{|total_6w[7:4], |total_6w[15:12], |total_6w[23:20], |total_6w[31:28]},
+      sign_6,
+      kind_6
+    })
 
   // Step 8: normalise by sixteen and eight.
   logic [31:0] total_8;
@@ -249,14 +202,9 @@ module fp_add #(
   logic [2:0] zeros_8;
   logic sign_8;
   logic [KINDS-1:0] kind_8;
-  delay_line #(.WIDTH(32), .DEPTH(32'(CUT[8]))) cut_8a (
-      .clk, .d(total_7 << {zeros_7, 3'b000}), .q(total_8)
-  );
-  delay_line #(.WIDTH(EXPONENT + 4 + KINDS), .DEPTH(32'(CUT[8]))) cut_8b (
-      .clk,
-      .d({exponent_7, zeros_7, odd_7[zeros_7], sign_7, kind_7}),
-      .q({exponent_8, zeros_8, sign_8, kind_8})
-  );
+  `REGISTERED(CUT[8], total_8, total_7 << {zeros_7, 3'b000})
+  `REGISTERED(CUT[8], {exponent_8, zeros_8, sign_8, kind_8},
+              {exponent_7, zeros_7, odd_7[zeros_7], sign_7, kind_7})
 
   // Step 9: normalise by four and count what is left; the exponent, now one bit wider and signed,
   // follows. It stays one below that of the sum until the hidden bit is added to it.
@@ -266,32 +214,23 @@ module fp_add #(
   logic sign_9;
   logic [KINDS-1:0] kind_9;
   assign total_8n = zeros_8[0] ? {total_8[27:0], 4'b0000} : total_8;
-  delay_line #(.WIDTH(32), .DEPTH(32'(CUT[9]))) cut_9a (.clk, .d(total_8n), .q(total_9));
-  delay_line #(.WIDTH(EXPONENT + 4 + KINDS), .DEPTH(32'(CUT[9]))) cut_9b (
-      .clk,
-      .d({
-        {1'b0, exponent_8} - (EXPONENT + 1)'({zeros_8, 2'b00}),
-        ~(|total_8n[31:30]),
-        (|total_8n[31:30]) ? ~total_8n[31] : ~total_8n[29],
-        sign_8,
-        kind_8
-      }),
-      .q({exponent_9, zeros_9, sign_9, kind_9})
-  );
+  `REGISTERED(CUT[9], total_9, total_8n)
+  `REGISTERED(CUT[9], {exponent_9, zeros_9, sign_9, kind_9}, {
+      {1'b0, exponent_8} - (EXPONENT + 1)'({zeros_8, 2'b00}),
+      ~(|total_8n[31:30]),
+      (|total_8n[31:30]) ? ~total_8n[31] : ~total_8n[29],
+      sign_8,
+      kind_8
+    })
 
   // Step 10: normalise by two and one.
   logic [31:0] total_10;
   logic [EXPONENT:0] exponent_10;
   logic sign_10;
   logic [KINDS-1:0] kind_10;
-  delay_line #(.WIDTH(32), .DEPTH(32'(CUT[10]))) cut_10a (
-      .clk, .d(total_9 << zeros_9), .q(total_10)
-  );
-  delay_line #(.WIDTH(EXPONENT + 2 + KINDS), .DEPTH(32'(CUT[10]))) cut_10b (
-      .clk,
-      .d({exponent_9 - (EXPONENT + 1)'(zeros_9), sign_9, kind_9}),
-      .q({exponent_10, sign_10, kind_10})
-  );
+  `REGISTERED(CUT[10], total_10, total_9 << zeros_9)
+  `REGISTERED(CUT[10], {exponent_10, sign_10, kind_10},
+              {exponent_9 - (EXPONENT + 1)'(zeros_9), sign_9, kind_9})
 
   // Step 11: round; the carry runs through the exponent, where the hidden bit adds one. Whether to
   // round up is decided inside the chain: adding the half bit to each reason in turn carries when
@@ -309,30 +248,20 @@ module fp_add #(
   assign rounded_10 = {exponent_10[EXPONENT-1:0], total_10[30:LAST], {REASONS{total_10[LAST-1]}}}
       + {EXPONENT'(1), MANTISSA'(0), total_10[LAST-2-:REASONS-1],
          `MUTATED(ADD_TIES_UP, total_10[LAST], 1'b1)};
-  delay_line #(.WIDTH(W - 1), .DEPTH(32'(CUT[11]))) cut_11a (
-      .clk, .d(rounded_10[W-2+REASONS:REASONS]), .q(rounded_11)
-  );
-  delay_line #(.WIDTH(5), .DEPTH(32'(CUT[11]))) cut_11b (
-      .clk,
-      .d({
-        ~nan_10 & (none_10 ? `MUTATED(ADD_ZERO_SIGN, negative_10, sign_10) : sign_10),
-        special_10,
-        ~special_10 & (none_10 | `MUTATED(ADD_NO_FLUSH, exponent_10[EXPONENT], 1'b0)),
-        special_10 | none_10 | exponent_10[EXPONENT]
-            | `MUTATED(ADD_OVERFLOW_FRACTION, exponent_10 == (EXPONENT + 1)'((1 << EXPONENT) - 2), 1'b0),
-        nan_10
-      }),
-      .q({sign_11, ones_exponent_11, clear_exponent_11, clear_fraction_11, nan_11})
-  );
+  `REGISTERED(CUT[11], rounded_11, rounded_10[W-2+REASONS:REASONS])
+  `REGISTERED(CUT[11], {sign_11, ones_exponent_11, clear_exponent_11, clear_fraction_11, nan_11}, {
+      ~nan_10 & (none_10 ? `MUTATED(ADD_ZERO_SIGN, negative_10, sign_10) : sign_10),
+      special_10,
+      ~special_10 & (none_10 | `MUTATED(ADD_NO_FLUSH, exponent_10[EXPONENT], 1'b0)),
+      special_10 | none_10 | exponent_10[EXPONENT]
+          | `MUTATED(ADD_OVERFLOW_FRACTION, exponent_10 == (EXPONENT + 1)'((1 << EXPONENT) - 2), 1'b0),
+      nan_10
+    })
 
   // Step 12: the result.
-  delay_line #(.WIDTH(W), .DEPTH(32'(CUT[12]))) cut_12 (
-      .clk,
-      .d({
-        sign_11,
-        ones_exponent_11 ? '1 : clear_exponent_11 ? '0 : rounded_11[W-2-:EXPONENT],
-        clear_fraction_11 ? {nan_11, (MANTISSA - 1)'(0)} : rounded_11[MANTISSA-1:0]
-      }),
-      .q(sum)
-  );
+  `REGISTERED(CUT[12], sum, {
+      sign_11,
+      ones_exponent_11 ? '1 : clear_exponent_11 ? '0 : rounded_11[W-2-:EXPONENT],
+      clear_fraction_11 ? {nan_11, (MANTISSA - 1)'(0)} : rounded_11[MANTISSA-1:0]
+    })
 endmodule

@@ -1,6 +1,7 @@
 // less = a < b, LATENCY clock edges later (at least 1), a pair every cycle. Subnormals count as zero,
 // -0 equals +0, nothing is less than or greater than a NaN.
 `include "mutation.svh"
+`include "registered.svh"
 
 module fp_less #(
     parameter int EXPONENT = 8,
@@ -30,27 +31,19 @@ module fp_less #(
   logic [W-2:0] below_1, above_1;
   logic swap_0, a_sign_1, b_sign_1, a_ones_1, b_ones_1, a_some_1, b_some_1, nonzero_1;
   assign swap_0 = `MUTATED(LESS_IGNORES_SIGN, a_0[W-1], 1'b0);
-  delay_line #(.WIDTH(W - 1), .DEPTH(CUT_1)) cut_below (
-      .clk, .d(swap_0 ? b_0[W-2:0] : a_0[W-2:0]), .q(below_1)
-  );
-  delay_line #(.WIDTH(W - 1), .DEPTH(CUT_1)) cut_above (
-      .clk, .d(swap_0 ? a_0[W-2:0] : b_0[W-2:0]), .q(above_1)
-  );
-  delay_line #(.WIDTH(7), .DEPTH(CUT_1)) cut_1 (
-      .clk,
-      .d({
-        a_0[W-1],
-        b_0[W-1],
-        a_0[W-2-:EXPONENT] == '1,
-        b_0[W-2-:EXPONENT] == '1,
-        a_0[MANTISSA-1:0] != '0,
-        b_0[MANTISSA-1:0] != '0,
-        `MUTATED(LESS_SIGNED_ZEROS_DIFFER, 1'b0, a_0[W-1] != b_0[W-1])
-            | `MUTATED(LESS_SUBNORMALS_DIFFER, {a_0[W-2-:EXPONENT], b_0[W-2-:EXPONENT]} != '0,
-                       {a_0[W-2:0], b_0[W-2:0]} != '0)
-      }),
-      .q({a_sign_1, b_sign_1, a_ones_1, b_ones_1, a_some_1, b_some_1, nonzero_1})
-  );
+  `REGISTERED(CUT_1, below_1, swap_0 ? b_0[W-2:0] : a_0[W-2:0])
+  `REGISTERED(CUT_1, above_1, swap_0 ? a_0[W-2:0] : b_0[W-2:0])
+  `REGISTERED(CUT_1, {a_sign_1, b_sign_1, a_ones_1, b_ones_1, a_some_1, b_some_1, nonzero_1}, {
+      a_0[W-1],
+      b_0[W-1],
+      a_0[W-2-:EXPONENT] == '1,
+      b_0[W-2-:EXPONENT] == '1,
+      a_0[MANTISSA-1:0] != '0,
+      b_0[MANTISSA-1:0] != '0,
+      `MUTATED(LESS_SIGNED_ZEROS_DIFFER, 1'b0, a_0[W-1] != b_0[W-1])
+          | `MUTATED(LESS_SUBNORMALS_DIFFER, {a_0[W-2-:EXPONENT], b_0[W-2-:EXPONENT]} != '0,
+                     {a_0[W-2:0], b_0[W-2:0]} != '0)
+    })
 
   // A difference's top bit leaves a carry chain faster than a comparison does.
   /* verilator lint_off UNUSEDSIGNAL */
@@ -58,20 +51,12 @@ module fp_less #(
   /* verilator lint_on UNUSEDSIGNAL */
   logic a_sign_2, b_sign_2, less_2, counts_2;
   assign order_1 = {1'b0, below_1} - {1'b0, above_1};
-  delay_line #(.WIDTH(4), .DEPTH(CUT_2)) cut_2 (
-      .clk,
-      .d({
-        a_sign_1,
-        b_sign_1,
-        `MUTATED(LESS_OR_EQUAL, order_1[W-1], below_1 <= above_1),
-        nonzero_1 & `MUTATED(LESS_NAN_IS_ORDERED,
-                             ~((a_ones_1 & a_some_1) | (b_ones_1 & b_some_1)), 1'b1)
-      }),
-      .q({a_sign_2, b_sign_2, less_2, counts_2})
-  );
-  delay_line #(.WIDTH(1), .DEPTH(1)) result (
-      .clk,
-      .d(counts_2 & (a_sign_2 == b_sign_2 ? less_2 : a_sign_2)),
-      .q(less)
-  );
+  `REGISTERED(CUT_2, {a_sign_2, b_sign_2, less_2, counts_2}, {
+      a_sign_1,
+      b_sign_1,
+      `MUTATED(LESS_OR_EQUAL, order_1[W-1], below_1 <= above_1),
+      nonzero_1 & `MUTATED(LESS_NAN_IS_ORDERED,
+                           ~((a_ones_1 & a_some_1) | (b_ones_1 & b_some_1)), 1'b1)
+    })
+  always_ff @(posedge clk) less <= counts_2 & (a_sign_2 == b_sign_2 ? less_2 : a_sign_2);
 endmodule

@@ -28,8 +28,6 @@ package emax_mutation;
   localparam int LESS_NAN_IS_ORDERED = 43;  // fp_less: a NaN compares as beyond infinity
   localparam int LESS_SUBNORMALS_DIFFER = 44;  // fp_less: subnormals are told from zero
   localparam int LESS_SIGNED_ZEROS_DIFFER = 45;  // fp_less: -0 < +0
-  localparam int ZERO_COMPARE_SUBNORMAL = 51;  // fp_zero_compare: a subnormal is not zero
-  localparam int ZERO_COMPARE_NAN = 52;  // fp_zero_compare: a NaN has a side
   localparam int DELAY_ONE_SHORT = 61;  // delay_line: lines in distributed RAM are one edge short
   localparam int FIELD_ALWAYS_WRITTEN = 62;  // field_memory: writes without write_enable
   localparam int ECP5_MIDDLE_TOO_NARROW = 71;  // ecp5/mantissa_multiply: the middle sum loses its carry

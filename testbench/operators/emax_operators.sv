@@ -16,7 +16,7 @@ module emax_operators #(
     output logic [EXPONENT+MANTISSA:0] difference,
     output logic [EXPONENT+MANTISSA:0] product,
     output logic [EXPONENT+MANTISSA:0] square,
-    output logic [2:0]                 compared  // a < b, a < 0, 0 < a
+    output logic                       less
 );
   localparam int W = 1 + EXPONENT + MANTISSA;
   localparam int LATENCY = 16;
@@ -24,7 +24,7 @@ module emax_operators #(
   delay_line #(.WIDTH(1), .DEPTH(LATENCY)) valid_line (.clk, .d(valid_in), .q(valid));
 
   logic [W-1:0] sum_early, difference_early, product_early, square_early;
-  logic less, negative, positive;
+  logic less_early;
   fp_add #(
       .EXPONENT(EXPONENT), .MANTISSA(MANTISSA), .LATENCY(ADD_LATENCY)
   ) add (
@@ -48,12 +48,7 @@ module emax_operators #(
   fp_less #(
       .EXPONENT(EXPONENT), .MANTISSA(MANTISSA), .LATENCY(LESS_LATENCY)
   ) less_than (
-      .clk, .a, .b, .less
-  );
-  fp_zero_compare #(
-      .EXPONENT(EXPONENT), .MANTISSA(MANTISSA)
-  ) zero_compare (
-      .a, .negative, .positive
+      .clk, .a, .b, .less(less_early)
   );
 
   delay_line #(.WIDTH(W), .DEPTH(LATENCY - ADD_LATENCY)) sum_line (.clk, .d(sum_early), .q(sum));
@@ -71,9 +66,6 @@ module emax_operators #(
       .clk, .d(square_early), .q(square)
   );
   delay_line #(.WIDTH(1), .DEPTH(LATENCY - LESS_LATENCY)) less_line (
-      .clk, .d(less), .q(compared[2])
-  );
-  delay_line #(.WIDTH(2), .DEPTH(LATENCY)) zero_line (
-      .clk, .d({negative, positive}), .q(compared[1:0])
+      .clk, .d(less_early), .q(less)
   );
 endmodule

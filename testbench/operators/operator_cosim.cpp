@@ -11,8 +11,8 @@
 namespace emax {
 namespace {
 
-constexpr std::array<const char*, kOperators> kNames = {"add",  "subtract", "multiply", "square",
-                                                        "less", "negative", "positive"};
+constexpr std::array<const char*, kOperators> kNames = {"add", "subtract", "multiply", "square",
+                                                        "less"};
 constexpr std::size_t kBatch = 4096;
 
 bool gives_float(Operator op) { return op <= Operator::kSquare; }

@@ -11,7 +11,7 @@
 
 namespace emax {
 
-// "add", "subtract", "multiply", "square", "less", "negative" (a < 0), "positive" (0 < a).
+// "add", "subtract", "multiply", "square", "less" (a < b).
 const char* operator_name(Operator op);
 std::optional<Operator> operator_of_name(const std::string& name);
 

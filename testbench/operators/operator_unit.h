@@ -8,13 +8,13 @@
 namespace emax {
 
 // A pair of operands and what every operator makes of it. Formats narrower than 32 bits use the low
-// bits of a word; comparisons are 0 or 1.
+// bits of a word; a comparison is 0 or 1.
 struct OperandPair {
   std::uint32_t a, b;
 };
 
-enum class Operator { kAdd, kSubtract, kMultiply, kSquare, kLess, kNegative, kPositive };
-constexpr int kOperators = 7;
+enum class Operator { kAdd, kSubtract, kMultiply, kSquare, kLess };
+constexpr int kOperators = 5;
 
 struct OperatorResults {
   std::uint32_t word[kOperators];
