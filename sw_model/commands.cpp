@@ -70,6 +70,11 @@ std::size_t payload_words(Word header) {
   }
 }
 
+bool is_answered(Word header) {
+  const Word opcode = header_opcode(header);
+  return opcode == kReduce || opcode == kIdentify || opcode == kCounters;
+}
+
 ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points) {
   std::array<Word, 1> header;
   device.receive(header);
@@ -82,12 +87,31 @@ ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points
   if (header[0] != command_header(kReduce, static_cast<Word>(kAnswerWorst + listed))) {
     refuse(device, "an answer does not belong to its question");
   }
+  std::vector<std::uint32_t> nearest(listed);
+  device.receive(nearest);
   std::array<Word, kAnswerWorst> worst;
   device.receive(worst);
   if (worst[1] >= points) refuse(device, "an answer names a point outside its block");
-  ReduceAnswer answer = {worst[0], worst[1], std::vector<std::uint32_t>(listed)};
-  device.receive(answer.points_squared_bits);
-  return answer;
+  return {worst[0], worst[1], std::move(nearest)};
+}
+
+void ask_cycles(Device& device, DeviceCounters& counters) {
+  device.send(std::array<Word, 1>{command_header(kCounters, 0)});
+  std::array<Word, 1> header;
+  device.receive(header);
+  if (header[0] == command_header(kCounters, 0)) return;
+  if (header[0] != command_header(kCounters, kAnswerCounters)) {
+    refuse(device, "an answer does not belong to its question");
+  }
+  std::array<Word, kAnswerCounters> words;
+  device.receive(words);
+  const auto wide = [&words](std::size_t i) {
+    return words[i] | std::uint64_t{words[i + 1]} << 32;
+  };
+  counters.busy = wide(0);
+  counters.stalled = wide(2);
+  counters.idle = wide(4);
+  counters.cycles = *counters.busy + *counters.stalled + *counters.idle;
 }
 
 void require_compatible(Device& device) {

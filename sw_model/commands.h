@@ -17,6 +17,8 @@ void append_reduce(std::vector<Word>& words, bool list_points);
 
 // Words that follow a command's header.
 std::size_t payload_words(Word header);
+// Whether it is answered; such a command has no payload.
+bool is_answered(Word header);
 
 struct ReduceAnswer {
   std::uint32_t squared_bits;
@@ -27,6 +29,10 @@ struct ReduceAnswer {
 // Waits for the answer to a kReduce over `points` points. Throws Error where the device answers
 // with an error or out of step.
 ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points);
+
+// Asks for the device's cycles and adds them to `counters`; a device that does not count them
+// leaves them as they are. No other answer is under way. Throws Error where it answers out of step.
+void ask_cycles(Device& device, DeviceCounters& counters);
 
 // Asks who is there. Throws Error for another kernel version or record layout.
 void require_compatible(Device& device);

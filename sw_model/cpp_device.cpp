@@ -37,6 +37,12 @@ void CppDevice::account(Word header) {
     case kReduce:
       cycles_.reduce((count & kReduceListsPoints) != 0);
       break;
+    case kIdentify:
+      cycles_.answer(kAnswerIdentity);
+      break;
+    case kCounters:
+      cycles_.answer(0);
+      break;
     default:
       break;
   }

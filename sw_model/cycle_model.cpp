@@ -9,15 +9,26 @@
 namespace emax {
 namespace {
 
-constexpr std::uint64_t kPipelineDepth = 128;  // of the distance datapath, drained once per reduce
+// The core's own figures, in cycles; tests compare the first two with the generated datapath and
+// the sum of all with the Verilated core.
+constexpr std::uint64_t kLatency = 142;                  // of the distance
+constexpr std::uint64_t kLastRead = 98;                  // when a pair reads its record last
+constexpr std::uint64_t kLeastRows = 5;                  // of a pass
+constexpr std::uint64_t kSlotAfterPass = kLastRead + 5;  // a slot is free again
+constexpr std::uint64_t kPassAfterRecord = 2;
+constexpr std::uint64_t kPassAfterReduce = 3;
+constexpr std::uint64_t kAnswerAfterPair = kLatency + 12;
+constexpr std::uint64_t kOutputRoom = 255;  // words in an element's output
+constexpr std::uint64_t kGather = 2;        // per element
+constexpr std::uint64_t kAnswerOverhead = 4;
 
-// ULX3S: a serial link of 3 Mbaud, ten bits a byte. The others: what their bus sustains in common
-// use. Elements: what their DSP blocks hold at about 60 of them per element.
+// ULX3S: a serial link of 3 Mbaud, ten bits a byte. The others: a 32-bit word a cycle, which is
+// what the core takes. Elements: what their LUTs hold at about 13,000 each (docs/synthesis.md).
 constexpr std::array<BoardModel, 4> kBoards = {{
     {"ulx3s", "Lattice ECP5-85F", 120e6, 2, 3e5},
     {"zynq7020", "AMD Zynq-7020", 150e6, 3, 6e8},
-    {"u50", "AMD Alveo U50", 300e6, 64, 1e10},
-    {"u250", "AMD Alveo U250", 300e6, 128, 1e10},
+    {"u50", "AMD Alveo U50", 300e6, 40, 1.2e9},
+    {"u250", "AMD Alveo U250", 300e6, 80, 1.2e9},
 }};
 
 }  // namespace
@@ -33,26 +44,64 @@ const BoardModel& board_model(std::string_view name) {
 }
 
 void CycleModel::load_points(std::uint64_t points) {
-  block_points_ = points;
-  cycles_ += 1 + points * kPointWords;
+  if (record_waits_) pass(next_word_);  // a block given up: a beat, which this counts as a pass
+  record_waits_ = false;
+  const bool fits = points <= kMaxBlockPoints;
+  points_ = fits ? points : 0;
+  rows_ = std::max((points_ + elements_ - 1) / elements_, kLeastRows);
+  next_word_ = std::max(next_word_, pass_end_) + 1 + points * kPointWords;
 }
 
 void CycleModel::stream_records(std::uint64_t records) {
-  if (records == 0) {
-    cycles_ += 1;
+  ++next_word_;
+  if (points_ == 0) {
+    next_word_ += records * kRecordWords;
     return;
   }
-  const std::uint64_t share = (block_points_ + elements_ - 1) / elements_;
-  const std::uint64_t per_record = std::max<std::uint64_t>(share, kRecordWords);
-  busy_ += records * share;
-  stalled_ += records * (per_record - share);
-  cycles_ += 1 + kRecordWords + records * per_record;
+  for (std::uint64_t i = 0; i < records; ++i) {
+    next_word_ = std::max(next_word_, record_gone_) + kRecordWords;
+    record_gone_ = std::max(next_word_, slot_free_[records_ % kSlots]);
+    ++records_;
+    if (record_waits_) pass(record_gone_ + kPassAfterRecord);
+    record_waits_ = true;
+  }
+}
+
+void CycleModel::pass(std::uint64_t from) {
+  pass_end_ = std::max(pass_end_, from) + rows_;
+  slot_free_[passes_ % kSlots] = pass_end_ + kSlotAfterPass;
+  ++passes_;
+  busy_ += rows_;
 }
 
 void CycleModel::reduce(bool list_points) {
-  const std::uint64_t share = (block_points_ + elements_ - 1) / elements_;
-  cycles_ += 1 + kPipelineDepth + share + 1 + kAnswerWorst + (list_points ? block_points_ : 0);
+  next_word_ = std::max(next_word_, record_gone_) + 1;
+  const bool met = record_waits_;
+  const std::uint64_t listed = list_points ? points_ : 0;
+  std::uint64_t ready = next_word_;
+  if (met) {
+    const std::uint64_t begin = std::max(pass_end_, next_word_ + kPassAfterReduce);
+    pass(begin);
+    // Listing gives a word a cycle; the elements wait where their output has no room.
+    const std::uint64_t first = std::max(begin + kAnswerAfterPair, answer_end_);
+    const std::uint64_t room = elements_ * kOutputRoom;
+    if (listed > room) pass_end_ = std::max(pass_end_, first + listed - room);
+    ready = std::max(first + listed, pass_end_ + kAnswerAfterPair) +
+            kGather * std::min(elements_, points_);
+    record_waits_ = false;
+  } else {
+    ready += listed;
+  }
+  answer_end_ = std::max(answer_end_, ready) + kAnswerWorst + kAnswerOverhead;
+  points_ = 0;
 }
+
+void CycleModel::answer(std::uint64_t words) {
+  ++next_word_;
+  answer_end_ = std::max(answer_end_, next_word_) + 1 + words + kAnswerOverhead;
+}
+
+std::uint64_t CycleModel::cycles() const { return std::max(next_word_, answer_end_); }
 
 double predicted_seconds(const BoardModel& board, std::uint64_t cycles, std::uint64_t words_in,
                          std::uint64_t words_out) {

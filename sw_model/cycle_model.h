@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -22,9 +23,9 @@ std::span<const BoardModel> board_models();
 // Throws Error naming the known boards.
 const BoardModel& board_model(std::string_view name);
 
-// Counts the cycles of commands on the streaming core: one word a cycle in and out, one pair a
-// cycle per element, the next record's words arriving while the present one computes. A record that
-// meets fewer points than it has words leaves the elements waiting (stalled).
+// Counts the cycles that commands take on the core (hls/rtl/core), command words offered and answer
+// words taken without pause: a word a cycle, a row of pairs a cycle, a record's pass once the next
+// record is there, and no more records than the elements' rings hold. Constant time per record.
 class CycleModel {
  public:
   explicit CycleModel(std::uint32_t elements) : elements_(elements) {}
@@ -32,15 +33,28 @@ class CycleModel {
   void load_points(std::uint64_t points);
   void stream_records(std::uint64_t records);
   void reduce(bool list_points);
+  // A command that is answered with so many words behind the header.
+  void answer(std::uint64_t words);
 
-  std::uint64_t cycles() const { return cycles_; }
-  std::uint64_t busy() const { return busy_; }        // elements take a pair
-  std::uint64_t stalled() const { return stalled_; }  // elements wait for a record's words
+  std::uint64_t cycles() const;                                // until the last answer has left
+  std::uint64_t busy() const { return busy_; }                 // elements take a beat
+  std::uint64_t stalled() const { return cycles() - busy(); }  // they wait
 
  private:
+  static constexpr std::size_t kSlots = 16;
+
+  // The oldest record that waits meets the points; its pass may begin at `from`.
+  void pass(std::uint64_t from);
+
   std::uint64_t elements_;
-  std::uint64_t block_points_ = 0;
-  std::uint64_t cycles_ = 0, busy_ = 0, stalled_ = 0;
+  std::uint64_t points_ = 0, rows_ = 0;  // of the block; rows of a pass
+  std::uint64_t next_word_ = 0;          // when the decoder can take one
+  std::uint64_t record_gone_ = 0;        // when the record assembled last left for the ring
+  bool record_waits_ = false;            // of the block, for its successor
+  std::uint64_t pass_end_ = 0, answer_end_ = 0;
+  std::uint64_t records_ = 0, passes_ = 0;
+  std::array<std::uint64_t, kSlots> slot_free_ = {};
+  std::uint64_t busy_ = 0;
 };
 
 // Seconds that work of so many cycles and words takes on a board, computing and transfer

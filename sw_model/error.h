@@ -12,4 +12,10 @@ class Error : public std::runtime_error {
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
+// The device is at fault and not the work: whatever is asked of it next fails too.
+class DeviceFailure : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace emax

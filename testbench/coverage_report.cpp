@@ -26,7 +26,7 @@ const std::vector<Exception>& exceptions() {
        std::regex("toggle (m_axis_worst_tdata\\[(4[2-9]|5.|6.)\\]|"
                   "(so_far|next|result|greater)_index\\[(1.|2.|3.)\\])"),
        "an index's bits above the 10 that points have: zero"},
-      {std::regex("emax_.*|mantissa_square|fp_square|worst_point|running_minimum|axis_fifo|"
+      {std::regex("emax_.*|mantissa_square|fp_square|worst_point|running_minimum|ring_memory|"
                   "block_memory"),
        std::regex(
            "toggle (square|square_early|exact|off_plane|in_plane|.*squared_distance|"

@@ -67,9 +67,9 @@ std::vector<Word> expected_answer(const Block& block) {
   const std::vector<std::uint32_t> nearest = nearest_squared_bits(block.points, block.records);
   const EmaxResult worst = worst_of(nearest);
   std::vector<Word> answer = {
-      command_header(kReduce, static_cast<Word>(kAnswerWorst + nearest.size())), worst.squared_bits,
-      worst.worst_point};
+      command_header(kReduce, static_cast<Word>(kAnswerWorst + nearest.size()))};
   answer.insert(answer.end(), nearest.begin(), nearest.end());
+  answer.insert(answer.end(), {worst.squared_bits, worst.worst_point});
   return answer;
 }
 

@@ -212,7 +212,8 @@ def main():
     print("\n" + document.tables(results))
     measured, versions = flat(results), runner.versions
     if options.complete:
-        DOCUMENT.write_text(document.page(results, versions, baseline.TOLERANCES))
+        before = DOCUMENT.read_text() if DOCUMENT.exists() else ""
+        DOCUMENT.write_text(document.page(results, versions, baseline.TOLERANCES, document.board_of(before)))
         runner.say(f"{DOCUMENT} written")
     if options.update_baseline:
         baseline.write(BASELINE, versions, measured, options.complete)

@@ -1,17 +1,18 @@
 // The command layer: what crosses the two streams of 32-bit words of a device.
 //
-//   command        header            payload                          answer
-//   kIdentify      opcode, 0         -                                header, kAnswerIdentity words
-//   kLoadPoints    opcode, n         n x (x, y, z)                    -
-//   kRecords       opcode, m         m x record (20 words)            -
-//   kReduce        opcode, options   -                                header, worst d^2, its index
-//                                                                     in the block[, d^2 of each]
+//   command        header            payload                answer
+//   kIdentify      opcode, 0         -                      header, kAnswerIdentity words
+//   kLoadPoints    opcode, n         n x (x, y, z)          -
+//   kRecords       opcode, m         m x record (20 words)  -
+//   kReduce        opcode, options   -                      header[, d^2 of each point], greatest
+//                                                           d^2, its index in the block
+//   kCounters      opcode, 0         -                      header, kAnswerCounters words or none
 //
 // A header is the opcode in the upper 8 bits and a count or options in the lower 24. Loading points
-// starts a block: every point's running minimum becomes infinity. Each record then meets every
-// point of the block. An answer's header repeats the opcode and counts the words behind it. A
-// malformed command is remembered, its payload skipped, and the next kReduce answers kError with
-// the reason in place of a result; the block is then forgotten.
+// begins a block: every point's running minimum becomes infinity. Each record then meets every
+// point of the block; kReduce answers and ends it. An answer's header repeats the opcode and counts
+// the words behind it. A malformed command is remembered, its payload skipped, and the next kReduce
+// answers kError with the reason in place of a result. docs/protocol.md says it all.
 #pragma once
 
 #include "hls/kernel/triangle_record.h"
@@ -21,7 +22,14 @@ namespace emax {
 
 constexpr Word kKernelVersion = 1;  // changes whenever the kernel's bits would
 
-enum Opcode : Word { kIdentify = 1, kLoadPoints = 2, kRecords = 3, kReduce = 4, kError = 0xff };
+enum Opcode : Word {
+  kIdentify = 1,
+  kLoadPoints = 2,
+  kRecords = 3,
+  kReduce = 4,
+  kCounters = 5,
+  kError = 0xff
+};
 
 enum DeviceError : Word {
   kNoError = 0,
@@ -34,7 +42,9 @@ constexpr Word kReduceListsPoints = 1;  // option of kReduce: also the d^2 of ev
 
 constexpr Word kMaxBlockPoints = 1024;
 constexpr Word kPointWords = 3;
-constexpr Word kAnswerIdentity = 3;  // kernel version, kMaxBlockPoints, kRecordWords
+// Kernel version, kMaxBlockPoints, kRecordWords, elements, clock in kHz (0: not known).
+constexpr Word kAnswerIdentity = 5;
+constexpr Word kAnswerCounters = 6;  // cycles busy, stalled, idle: each its low and its high word
 constexpr Word kAnswerWorst = 2;     // squared distance, index
 
 constexpr Word kCountBits = 24;

@@ -24,6 +24,8 @@ class EmaxKernel {
         answers.write(kKernelVersion);
         answers.write(kMaxBlockPoints);
         answers.write(kRecordWords);
+        answers.write(1);  // element
+        answers.write(0);  // no clock
         break;
       case kLoadPoints:
         load_points(count, commands);
@@ -35,6 +37,9 @@ class EmaxKernel {
         break;
       case kReduce:
         reduce((count & kReduceListsPoints) != 0, answers);
+        break;
+      case kCounters:
+        answers.write(command_header(kCounters, 0));
         break;
       default:
         error_ = kUnknownCommand;
@@ -107,18 +112,18 @@ class EmaxKernel {
       count_ = 0;
       return;
     }
+    answers.write(command_header(kReduce, kAnswerWorst + (list_points ? count_ : 0)));
     WorstPoint<Word> worst = {nearest_[0], 0};
-    for (Word i = 1; i < count_; ++i) {
+    for (Word i = 0; i < count_; ++i) {
       EMAX_HLS(PIPELINE II = 1)
       worst = maximum(worst, WorstPoint<Word>{nearest_[i], i});
+      if (list_points) {
+        answers.write(nearest_[i]);
+      }
     }
-    answers.write(command_header(kReduce, kAnswerWorst + (list_points ? count_ : 0)));
     answers.write(worst.squared_distance);
     answers.write(worst.index);
-    for (Word i = 0; list_points && i < count_; ++i) {
-      EMAX_HLS(PIPELINE II = 1)
-      answers.write(nearest_[i]);
-    }
+    count_ = 0;
   }
 
   Vector3<Scalar> points_[kMaxBlockPoints];

@@ -35,6 +35,13 @@ class Stream {
     words_.pop_front();
     return word;
   }
+  bool read_nb(Word& word) {
+    if (empty()) {
+      return false;
+    }
+    word = read();
+    return true;
+  }
 
  private:
   std::deque<Word> words_;

@@ -36,7 +36,7 @@ package emax_mutation;
 
   localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
   localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back
-  localparam int FIFO_IGNORES_STALL = 103;  // axis_fifo: the output moves on before its word is taken
+  localparam int FIFO_IGNORES_STALL = 103;  // ring_memory: the output moves on before its word is taken
   localparam int VALID_OUTLIVES_RESET = 104;  // valid_line: what is in flight survives a reset
   localparam int SLOT_FREED_EARLY = 105;  // record_ring: a slot is free before its last skewed read
   localparam int RING_SKIPS_A_SLOT = 106;  // record_ring: advances by two slots
@@ -50,6 +50,28 @@ package emax_mutation;
   localparam int FINAL_IGNORED = 114;  // emax_element: every minimum comes out
   localparam int LAST_LOST = 115;  // emax_element: the last beat of a block is not marked
   localparam int EDGES_SWAPPED = 116;  // emax_element: fields of edge13 and edge23 change places
+
+  localparam int ONE_POINT_TOO_MANY = 121;  // core/command_decoder: takes a block of 1,025 points
+  localparam int REDUCE_LEAVES_BLOCK_OPEN = 122;  // core/command_decoder: a block can be reduced twice
+  localparam int PASS_NOT_PADDED = 123;  // core/pair_sequencer: a point's pairs follow too closely
+  localparam int PADDING_IS_FINAL = 124;  // core/pair_sequencer: rows beyond the points come out
+  localparam int LAST_RECORD_NOT_HELD = 125;  // core/pair_sequencer: no pass is the final one
+  localparam int DROP_IGNORED = 126;  // core/pair_sequencer: records of a block given up stay
+  localparam int BLOCK_KEEPS_ANY_OF_EQUALS = 127;  // core/block_answer: the first element's worst stays
+  localparam int ELEMENTS_OUT_OF_TURN = 128;  // core/block_answer: one element gives the whole list
+
+  localparam int LINK_CRC_NOT_CHECKED = 201;  // link_receiver: every frame is whole
+  localparam int LINK_LENGTH_NOT_CHECKED = 202;  // link_receiver: reads on after an impossible length
+  localparam int LINK_GAP_IGNORED = 203;  // link_receiver: a frame that broke off swallows the next
+  localparam int LINK_NO_ROLLBACK = 204;  // link_command_ring: words of a dropped frame stay
+  localparam int LINK_COUNTS_BEFORE_CRC = 205;  // link_command_ring: words pass before their frame is whole
+  localparam int LINK_SESSION_NOT_CHECKED = 206;  // emax_link: frames of any session count
+  localparam int LINK_VERSION_NOT_CHECKED = 207;  // emax_link: frames of any version count
+  localparam int LINK_SEQUENCE_NOT_CHECKED = 208;  // emax_link: data frames count in any order
+  localparam int LINK_CREDIT_TOO_LARGE = 209;  // emax_link: promises 256 words that it has not
+  localparam int LINK_SILENT_ABOUT_ROOM = 210;  // emax_link: says nothing when there is room again
+  localparam int LINK_ANY_ACKNOWLEDGES = 211;  // link_answers: any frame of the host passes an answer
+  localparam int LINK_DATA_NOT_REPEATED = 212;  // link_sender: the data frame under way is sent once
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 /* verilator lint_on DECLFILENAME */

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "host/app/commands.h"
+#include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_file.h"
@@ -30,6 +31,9 @@ int run_error(const ErrorOptions& options) {
   search.interrupted = was_interrupted;
   MeasuredError measured = constraint.measure(mesh.view(), *evaluator, search);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const DeviceCounters counters = evaluator->counters();
+  std::optional<CpuTwin> cpu;
+  if (address.board) cpu.emplace(constraint).measure(mesh.view(), measured);
   const CertifiedError certified =
       in_file_indices(certify(scan.cloud.points, mesh.view(), measured.excluded), scan.cloud);
   measured.kept.worst_point = scan.cloud.index_in_file(measured.kept.worst_point);
@@ -49,9 +53,9 @@ int run_error(const ErrorOptions& options) {
   }
   fmt::print("worst point    {}\n", measured.kept.worst_point);
   fmt::print("kernel         e_max^2 bits 0x{:08x}\n", measured.kept.squared_bits);
-  fmt::print("device {:<7} {} in {:.3f} s\n", options.common.device,
-             describe_counters(evaluator->counters()), took.count());
-  if (address.board) print_prediction(*address.board, evaluator->counters());
+  fmt::print("device {:<7} {} in {:.3f} s\n", options.common.device, describe_counters(counters),
+             took.count());
+  if (address.board) print_prediction(*address.board, counters, cpu->seconds());
 
   if (!options.common.json.empty()) {
     ResultReport report;
@@ -67,8 +71,9 @@ int run_error(const ErrorOptions& options) {
     report.transform = constraint.cloud().normalization();
     report.seed = options.common.seed;
     report.device = options.common.device;
-    report.counters = evaluator->counters();
+    report.counters = counters;
     report.board = address.board;
+    if (cpu) report.cpu_seconds = cpu->seconds();
     write_atomically(options.common.json, to_json_text(report));
   }
   return tolerance && !feasible ? kExitNo : kExitOk;

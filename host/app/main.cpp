@@ -11,6 +11,7 @@
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
 #include "host/decimate/chain_parameters.h"
+#include "host/device/device_address.h"
 #include "host/emax_search/emax_search.h"
 #include "host/optimize/config.h"
 #include "sw_model/error.h"
@@ -22,10 +23,7 @@ namespace {
 void add_common(CLI::App& command, CommonOptions& options) {
   command.add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .pts .obj .off")
       ->required();
-  command
-      .add_option(
-          "--device", options.device,
-          "who evaluates the kernel: cpu, sim, sim:board=NAME or rtl (the Verilated element)")
+  command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
       ->capture_default_str();
   command.add_option("--seed", options.seed, "seed of every random choice")->capture_default_str();
   command.add_option("--json", options.json, "also write the result to this file");

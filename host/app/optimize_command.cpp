@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "host/app/commands.h"
+#include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/progress.h"
 #include "host/geometry/atomic_file.h"
@@ -85,14 +86,22 @@ class OptimizeCommand {
 
   int run() {
     const auto start = std::chrono::steady_clock::now();
+    if (address_.board) {
+      cpu_.emplace(*constraint_);
+      settings_.measured = [this](MeshView mesh, const MeasuredError& error) {
+        cpu_->measure(mesh, error);
+      };
+    }
     {
       Progress progress(*constraint_, settings_.time);
       state_ = optimize(scan_.cloud.points, *constraint_, *evaluator_, settings_,
                         [&progress](const OptimizeState& state) { progress.show(state); });
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    counters_ = evaluator_->counters();
     if (!state_.best && !state_.least_error) {
       if (state_.interrupted) throw Interrupted{};
+      if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
       throw Error(fmt::format("{}: no mesh could be made of it in {} evaluations{}",
                               scan_.path.string(), state_.evaluations, describe_failures(state_)));
     }
@@ -107,6 +116,10 @@ class OptimizeCommand {
     print_common(shown, took.count());
     write_json(shown);
     if (state_.interrupted) return kExitInterrupted;
+    if (!state_.device_failure.empty()) {
+      throw DeviceFailure(state_.device_failure +
+                          "; the search ended there, with the result above");
+    }
     return state_.best ? kExitOk : kExitNo;
   }
 
@@ -164,9 +177,8 @@ class OptimizeCommand {
                state_.interrupted   ? "; interrupted"
                : state_.out_of_time ? "; out of time"
                                     : "");
-    fmt::print("device {:<7} {}\n", options_.common.device,
-               describe_counters(evaluator_->counters()));
-    if (address_.board) print_prediction(*address_.board, evaluator_->counters());
+    fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
+    if (address_.board) print_prediction(*address_.board, counters_, cpu_->seconds());
   }
 
   void write_json(const BestMesh& shown) const {
@@ -185,8 +197,9 @@ class OptimizeCommand {
     report.reconstruction_triangles = shown.reconstruction_triangles;
     report.unmeshed_points = shown.unmeshed_points;
     report.device = options_.common.device;
-    report.counters = evaluator_->counters();
+    report.counters = counters_;
     report.board = address_.board;
+    if (cpu_) report.cpu_seconds = cpu_->seconds();
     write_atomically(options_.common.json, to_json_text(report));
   }
 
@@ -198,6 +211,8 @@ class OptimizeCommand {
   double epsilon_ = 0;
   std::optional<ErrorConstraint> constraint_;
   OptimizeState state_;
+  DeviceCounters counters_;
+  std::optional<CpuTwin> cpu_;  // with a board to compare with
   MeshValidity validity_;
   CertifiedError certified_;
 };

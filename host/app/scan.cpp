@@ -45,21 +45,6 @@ std::string grouped(std::uint64_t number) {
   return text;
 }
 
-std::string describe_counters(const DeviceCounters& counters) {
-  std::string text =
-      fmt::format("{} blocks, {} pairs", grouped(counters.blocks), grouped(counters.pairs));
-  if (counters.words_in > 0) {
-    text += fmt::format(", {} words in, {} out", grouped(counters.words_in),
-                        grouped(counters.words_out));
-  }
-  if (counters.cycles) {
-    text += fmt::format(", {} cycles ({:.0f}% busy)", grouped(*counters.cycles),
-                        100.0 * static_cast<double>(counters.busy.value_or(0)) /
-                            static_cast<double>(std::max<std::uint64_t>(*counters.cycles, 1)));
-  }
-  return text;
-}
-
 std::string describe(const MeshValidity& v) {
   if (v.valid()) return "valid: manifold, consistently oriented, free of self-intersections";
   std::string text = "not valid:";
@@ -79,13 +64,6 @@ void print_excluded(const CertifiedError& certified, std::size_t excludable) {
   if (excludable == 0) return;
   fmt::print("outliers       {} of at most {} points excluded; e_max over all points {:.9g}\n",
              grouped(certified.excluded.size()), grouped(excludable), certified.e_max_upper_all);
-}
-
-void print_prediction(const BoardModel& board, const DeviceCounters& counters) {
-  const double seconds =
-      predicted_seconds(board, counters.cycles.value_or(0), counters.words_in, counters.words_out);
-  fmt::print("predicted      {:.3g} s on {} ({}, {} elements at {:.0f} MHz; estimated)\n", seconds,
-             board.name, board.device, board.elements, board.clock_hz / 1e6);
 }
 
 }  // namespace emax

@@ -45,16 +45,10 @@ CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud);
 // 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 
-// "blocks 12, pairs 3,456,789, ..."
-std::string describe_counters(const DeviceCounters& counters);
-
 // "valid: ..." or "not valid: 3 non-manifold edges, ..."
 std::string describe(const MeshValidity& validity);
 
 // Prints how many points were left out, where that is allowed, and e_max over all of them.
 void print_excluded(const CertifiedError& certified, std::size_t excludable);
-
-// Prints what `board` would take for the work.
-void print_prediction(const BoardModel& board, const DeviceCounters& counters);
 
 }  // namespace emax

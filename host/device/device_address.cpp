@@ -1,29 +1,122 @@
 #include "host/device/device_address.h"
 
+#include <algorithm>
+#include <charconv>
+
 #include "host/device/device_evaluator.h"
+#include "host/device/link_device.h"
+#include "host/device/queued_device.h"
+#include "host/device/xrt_device.h"
 #include "host/emax_search/simd_evaluator.h"
 #include "sw_model/cpp_device.h"
 #include "sw_model/error.h"
-#include "testbench/rtl_device.h"
+#include "testbench/core/rtl_device.h"
 
 namespace emax {
+namespace {
+
+struct Form {
+  const char* text;
+  const char* meaning;
+};
+constexpr Form kForms[] = {
+    {"cpu", "this processor"},
+    {"sim", "the device in C++"},
+    {"sim:board=NAME", "the same, and the time that a board would take"},
+    {"rtl[:pes=N]", "the Verilated core of N elements"},
+    {"tty:PATH[@BAUD]", "a board on a serial port"},
+    {"xrt:XCLBIN[@INDEX]", "an Alveo card; never run on one"},
+};
+constexpr std::uint32_t kLeastBaud = 1200, kMostBaud = 12000000;
+
+[[noreturn]] void refuse(std::string_view text, const std::string& remedy) {
+  throw Error("unknown device '" + std::string(text) + "'; " + remedy);
+}
+
+std::optional<std::uint32_t> number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+DeviceAddress parse_rtl(std::string_view text, std::string_view options) {
+  constexpr std::string_view kElements = "pes=";
+  const auto counts = rtl_element_counts();
+  const auto elements =
+      options.starts_with(kElements) ? number(options.substr(kElements.size())) : std::nullopt;
+  if (!elements || std::find(counts.begin(), counts.end(), *elements) == counts.end()) {
+    std::string accepted;
+    for (const std::uint32_t count : counts) {
+      accepted += (accepted.empty() ? "rtl:pes=" : ", rtl:pes=") + std::to_string(count);
+    }
+    refuse(text, "use rtl or one of " + accepted);
+  }
+  return {.kind = "rtl", .elements = *elements};
+}
+
+DeviceAddress parse_tty(std::string_view text, std::string_view place) {
+  DeviceAddress address = {.kind = "tty"};
+  const std::size_t at = place.rfind('@');
+  if (at != place.npos) {
+    const auto baud = number(place.substr(at + 1));
+    if (!baud || *baud < kLeastBaud || *baud > kMostBaud) {
+      refuse(text, "the number after @ is a speed of " + std::to_string(kLeastBaud) + " to " +
+                       std::to_string(kMostBaud) + " baud");
+    }
+    address.baud = *baud;
+  }
+  address.place = place.substr(0, at);
+  if (address.place.empty()) refuse(text, "use tty:PATH[@BAUD], such as tty:/dev/ttyUSB0");
+  return address;
+}
+
+std::unique_ptr<Device> make_device(const DeviceAddress& address) {
+  if (address.kind == "rtl") return make_rtl_device(address.elements);
+  if (address.kind == "tty") {
+    return std::make_unique<LinkDevice>(
+        std::make_unique<SerialChannel>(address.place, address.baud),
+        LinkLimits::for_baud(address.baud));
+  }
+  return std::make_unique<CppDevice>(address.elements);
+}
+
+}  // namespace
 
 DeviceAddress DeviceAddress::parse(std::string_view text) {
-  constexpr std::string_view kBoard = "sim:board=";
-  if (text == "cpu" || text == "sim" || text == "rtl") {
-    return {std::string(text), std::nullopt};
+  if (text == "cpu" || text == "sim" || text == "rtl") return {.kind = std::string(text)};
+  const std::size_t colon = text.find(':');
+  const std::string_view kind = text.substr(0, colon);
+  const std::string_view rest = colon == text.npos ? "" : text.substr(colon + 1);
+  constexpr std::string_view kBoard = "board=";
+  if (kind == "sim" && rest.starts_with(kBoard)) {
+    const BoardModel board = board_model(rest.substr(kBoard.size()));
+    return {.kind = "sim", .board = board, .elements = board.elements};
   }
-  if (text.starts_with(kBoard)) return {"sim", board_model(text.substr(kBoard.size()))};
-  throw Error("unknown device '" + std::string(text) + "'; use cpu, sim, sim:board=NAME or rtl");
+  if (kind == "rtl" && colon != text.npos) return parse_rtl(text, rest);
+  if (kind == "tty") return parse_tty(text, rest);
+  if (kind == "xrt" && !rest.empty()) return {.kind = "xrt", .place = std::string(rest)};
+  std::string accepted;
+  for (const Form& form : kForms)
+    accepted += (accepted.empty() ? "" : ", ") + std::string(form.text);
+  refuse(text, "use one of " + accepted);
+}
+
+std::string device_help() {
+  std::string help;
+  for (const Form& form : kForms) {
+    help += (help.empty() ? "" : ", ") + std::string(form.text) + " (" + form.meaning + ")";
+  }
+  return help;
 }
 
 std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address) {
   if (address.kind == "cpu") return std::make_unique<SimdEvaluator>();
-  if (address.kind == "rtl") {
-    return std::make_unique<DeviceEvaluator>(std::make_unique<RtlDevice>());
+  if (address.kind == "xrt") {
+    return std::make_unique<DeviceEvaluator>(
+        std::make_unique<XrtDevice>(open_xrt_card(address.place)));
   }
-  return std::make_unique<DeviceEvaluator>(
-      std::make_unique<CppDevice>(address.board ? address.board->elements : 1));
+  return std::make_unique<DeviceEvaluator>(std::make_unique<QueuedDevice>(make_device(address)));
 }
 
 }  // namespace emax

@@ -1,24 +1,33 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "host/device/serial_channel.h"
 #include "host/emax_search/evaluator.h"
 #include "sw_model/cycle_model.h"
 
 namespace emax {
 
-// A value of --device: `cpu`, `sim`, `sim:board=NAME` or `rtl`.
+// A value of --device, in one of the forms that device_help() lists.
 struct DeviceAddress {
-  std::string kind = "cpu";
-  std::optional<BoardModel> board;  // whose time is predicted; its elements are simulated
+  std::string kind = "cpu";              // what stands before the colon
+  std::optional<BoardModel> board = {};  // of sim: whose time is predicted
+  std::uint32_t elements = 1;            // of sim and rtl
+  std::string place = {};                // of tty and xrt
+  std::uint32_t baud = kDefaultBaud;
 
   // Throws Error naming what is accepted.
   static DeviceAddress parse(std::string_view text);
 };
 
+// Every form with what it means, for people.
+std::string device_help();
+
+// Throws Error where the device cannot be reached or is not compatible.
 std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address);
 
 }  // namespace emax

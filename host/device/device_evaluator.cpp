@@ -1,11 +1,23 @@
 #include "host/device/device_evaluator.h"
 
 #include "sw_model/commands.h"
+#include "sw_model/error.h"
 
 namespace emax {
 
 DeviceEvaluator::DeviceEvaluator(std::unique_ptr<Device> device) : device_(std::move(device)) {
   require_compatible(*device_);
+}
+
+template <class Action>
+auto DeviceEvaluator::on_device(Action action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    failed_ = true;
+    in_flight_.clear();
+    throw DeviceFailure(error.what());
+  }
 }
 
 std::size_t DeviceEvaluator::block_points() const { return kMaxBlockPoints; }
@@ -28,7 +40,7 @@ void DeviceEvaluator::submit(const Block& block, bool list_points) {
   append_load_points(words, points);
   append_records(words, candidates);
   append_reduce(words, list_points);
-  device_->send(words);
+  on_device([&] { device_->send(words); });
 
   ++counters_.blocks;
   counters_.pairs += points.size() * candidates.size();
@@ -39,13 +51,15 @@ void DeviceEvaluator::submit(const Block& block, bool list_points) {
 BlockAnswer DeviceEvaluator::collect() {
   const Asked asked = std::move(in_flight_.front());
   in_flight_.pop_front();
-  ReduceAnswer answer = receive_reduce(*device_, asked.points.size(), asked.list_points);
+  ReduceAnswer answer =
+      on_device([&] { return receive_reduce(*device_, asked.points.size(), asked.list_points); });
   counters_.words_out += 1 + kAnswerWorst + answer.points_squared_bits.size();
   return {{answer.squared_bits, asked.points[answer.worst]}, std::move(answer.points_squared_bits)};
 }
 
 DeviceCounters DeviceEvaluator::counters() const {
   DeviceCounters counters = device_->counters();
+  if (in_flight_.empty() && !failed_) ask_cycles(*device_, counters);
   counters.blocks = counters_.blocks;
   counters.pairs = counters_.pairs;
   counters.words_in = counters_.words_in;

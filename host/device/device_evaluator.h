@@ -8,7 +8,8 @@
 
 namespace emax {
 
-// The driver: turns blocks into commands for a device and its answers into results.
+// The driver: turns blocks into commands for a device and its answers into results. Throws
+// DeviceFailure where the device throws an Error; nothing is asked of it after that.
 class DeviceEvaluator : public Evaluator {
  public:
   // Throws Error when the device is not compatible.
@@ -28,10 +29,14 @@ class DeviceEvaluator : public Evaluator {
     bool list_points;
   };
 
+  template <class Action>
+  auto on_device(Action action);
+
   std::unique_ptr<Device> device_;
   std::span<const Vector3<float>> points_;
   std::span<const TriangleRecord<float>> records_;
   std::deque<Asked> in_flight_;
+  bool failed_ = false;
   DeviceCounters counters_;
 };
 

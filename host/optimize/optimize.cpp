@@ -32,11 +32,15 @@ class Run {
     try {
       TriangleMesh mesh = as_stored(result.mesh, format);
       MeasuredError error = constraint_.measure(mesh.view(), evaluator_, search_);
+      settings_.measured(mesh.view(), error);
       const Evaluation evaluation = {true, static_cast<double>(mesh.triangles.size()),
                                      error.violation};
       offer({completed.ticket, std::move(mesh), std::move(error), std::move(parameters),
              result.reconstruction_triangles, result.unmeshed_points});
       return evaluation;
+    } catch (const DeviceFailure& failure) {
+      state_.device_failure = failure.what();
+      return {};
     } catch (const Error& error) {
       fail("error", error.what());
       return {};
@@ -130,6 +134,7 @@ OptimizeState optimize(std::span<const Point> cloud, const ErrorConstraint& cons
     }
     state.evaluations = genocop.asked() - pool.outstanding();
     observe(state);
+    if (!state.device_failure.empty()) return state;
   }
   return state;
 }

@@ -27,6 +27,8 @@ struct OptimizeSettings {
   unsigned jobs = 1;                                  // worker processes
   std::filesystem::path output;  // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
+  // Called with every mesh whose error was measured.
+  std::function<void(MeshView, const MeasuredError&)> measured = [](MeshView, const auto&) {};
 };
 
 // The best point so far, or at the end.
@@ -47,6 +49,7 @@ struct OptimizeState {
   std::optional<BestMesh> best;         // feasible
   std::optional<BestMesh> least_error;  // of the meshes that are not
   bool interrupted = false, out_of_time = false;
+  std::string device_failure;  // that ended the run
 };
 
 // Called after every evaluation and at least every tenth of a second.

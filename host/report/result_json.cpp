@@ -37,12 +37,18 @@ std::string to_json_text(const ResultReport& r) {
                {"unmeshed_points", or_null(r.unmeshed_points)},
                {"predicted", Json()}};
   if (r.board && r.counters.cycles) {
-    json["predicted"] = {{"board", r.board->name},
-                         {"clock_hz", r.board->clock_hz},
-                         {"elements", r.board->elements},
-                         {"seconds", predicted_seconds(*r.board, *r.counters.cycles,
-                                                       r.counters.words_in, r.counters.words_out)},
-                         {"basis", "estimated"}};
+    const DeviceCounters& c = r.counters;
+    json["predicted"] = {
+        {"board", r.board->name},
+        {"clock_hz", r.board->clock_hz},
+        {"elements", r.board->elements},
+        {"link_bytes_per_second", r.board->link_bytes_per_second},
+        {"seconds", predicted_seconds(*r.board, *c.cycles, c.words_in, c.words_out)},
+        {"computing_seconds", predicted_seconds(*r.board, *c.cycles, 0, 0)},
+        {"link_seconds", predicted_seconds(*r.board, 0, c.words_in, c.words_out)},
+        {"basis", "estimated"},
+        {"cpu_seconds", or_null(r.cpu_seconds)},
+        {"cpu_basis", "measured"}};
   }
   return json.dump(2) + "\n";
 }

@@ -27,7 +27,8 @@ struct ResultReport {
   std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
   std::string device;
   DeviceCounters counters;
-  std::optional<BoardModel> board;  // whose time is to be predicted
+  std::optional<BoardModel> board;    // whose time is to be predicted
+  std::optional<double> cpu_seconds;  // that the same work took on this CPU
 };
 
 std::string to_json_text(const ResultReport& report);

@@ -27,15 +27,15 @@ TEST(Top, GivesTheModelsBits) {
     const EmaxResult worst = worst_of(expected);
     ASSERT_EQ(answer.size(), 3 + points.size());
     EXPECT_EQ(answer[0], command_header(kReduce, static_cast<Word>(2 + points.size())));
-    EXPECT_EQ(answer[1], worst.squared_bits);
-    EXPECT_EQ(answer[2], worst.worst_point);
-    EXPECT_EQ(std::vector<Word>(answer.begin() + 3, answer.end()), expected);
+    EXPECT_EQ(std::vector<Word>(answer.begin() + 1, answer.end() - 2), expected);
+    EXPECT_EQ(answer[1 + points.size()], worst.squared_bits);
+    EXPECT_EQ(answer[2 + points.size()], worst.worst_point);
   }
 }
 
 TEST(Top, IdentifiesItself) {
-  const std::vector<Word> expected = {command_header(kIdentify, 3), kKernelVersion, kMaxBlockPoints,
-                                      kRecordWords};
+  const std::vector<Word> expected = {
+      command_header(kIdentify, 5), kKernelVersion, kMaxBlockPoints, kRecordWords, 1, 0};
   EXPECT_EQ(run_top({command_header(kIdentify, 0)}), expected);
 }
 
@@ -54,10 +54,17 @@ TEST(Top, AnswersMalformedCommandsWithTheReasonAndRecovers) {
   append_reduce(nothing, false);
   EXPECT_EQ(run_top(nothing), (std::vector<Word>{command_header(kError, 1), kNoPoints}));
 
+  EXPECT_EQ(run_top({command_header(kCounters, 0)}),
+            (std::vector<Word>{command_header(kCounters, 0)}));
+
   std::vector<Word> good;
   append_load_points(good, std::vector<Vector3<float>>{{0, 0, 0}});
   append_reduce(good, false);
   EXPECT_EQ(run_top(good), (std::vector<Word>{command_header(kReduce, 2), kInfinityWord, 0}));
+
+  append_reduce(good, false);  // the first ended the block
+  EXPECT_EQ(run_top(good), (std::vector<Word>{command_header(kReduce, 2), kInfinityWord, 0,
+                                              command_header(kError, 1), kNoPoints}));
 }
 
 }  // namespace

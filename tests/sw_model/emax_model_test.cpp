@@ -55,7 +55,7 @@ std::vector<Word> answer_of(EmaxKernel<float>& kernel, const std::vector<Word>& 
   while (!commands.empty()) kernel.serve(commands, answers);
   std::vector<Word> answer;
   while (!answers.empty()) answer.push_back(answers.read());
-  return {answer.begin() + 1 + kAnswerWorst, answer.end()};
+  return {answer.begin() + 1, answer.end() - kAnswerWorst};
 }
 
 // Distances whose squares are subnormal: an engine that keeps them gives other bits.

@@ -4,11 +4,14 @@
 # file with a row for each Debian package under the heading "## Loaded packages":
 #   | package | licence | folders of its source under the GPL, none of them in the library |
 # The third column is compared with the package's own machine-readable copyright file, or is
-# "free-form" for a package that has none. The GPL with a runtime exception, which the licence then
+# "free-form" for a package that has none; "all but FOLDER/" says that the library is of that folder
+# of a source that is otherwise under the GPL. With WITH=OPTION in the environment, the rows under
+# "### With OPTION" count as well. The GPL with a runtime exception, which the licence then
 # names, and the LGPL are no hindrance. What a program opens only while it runs is not seen.
 set -euo pipefail
 
 table=$1
+with=${WITH:-}
 shift
 copyrights=${COPYRIGHTS:-/usr/share/doc}
 faults=0
@@ -34,14 +37,14 @@ packages() {
 
 # row PACKAGE: its row of the table, cells separated by "|" without spaces around.
 row() {
-  awk -F ' *[|] *' -v package="$1" '
-    /^## / { inside = ($0 == "## Loaded packages") }
+  awk -F ' *[|] *' -v package="$1" -v with="### With $with" '
+    /^##/ { inside = ($0 == "## Loaded packages" || $0 == with) }
     inside && $2 == package { print $2 "|" $3 "|" $4; exit }' "$table"
 }
 
 rows() {
-  awk -F ' *[|] *' '
-    /^## / { inside = ($0 == "## Loaded packages") }
+  awk -F ' *[|] *' -v with="### With $with" '
+    /^##/ { inside = ($0 == "## Loaded packages" || $0 == with) }
     inside && /^[|]/ && $2 != "package" && $2 !~ /^-+$/ { print $2 }' "$table"
 }
 
@@ -53,7 +56,7 @@ gpl_files() {
       if (!sub(/.*(^|\n)License:[ ]*/, "", licence)) next
       sub(/\n.*/, "", licence)
       gsub(/LGPL/, "lesser", licence)
-      count = split(licence, choice, / or /)
+      count = split(licence, choice, / (and\/)?or /)
       for (i = 1; i <= count; ++i) if (choice[i] !~ /GPL/) next
       files = $0; sub(/.*(^|\n)Files:[ ]*/, "", files); sub(/\n[A-Z].*/, "", files)
       count = split(files, file, /[ \n\t]+/)
@@ -78,6 +81,15 @@ check_package() {
     fault "$name: no copyright file $copyright"
   elif ! head -n 1 "$copyright" | grep -q '^Format:'; then
     [ "$folders" = free-form ] || fault "$name: $copyright is free-form: read it and say so"
+  elif [[ $folders == "all but "* ]]; then
+    folder=${folders#all but }
+    if ! awk -v RS= '{ sub(/\nCopyright:.*/, ""); print }' "$copyright" |
+      tr -s ' ' '\n' | grep -qxF "$folder*"; then
+      fault "$name: $copyright says nothing of $folder"
+    fi
+    while read -r file; do
+      [[ $file != "$folder"* ]] || fault "$name: its source has $file under the GPL"
+    done < <(gpl_files "$copyright")
   else
     while read -r file; do
       listed=

@@ -66,6 +66,33 @@ named() { sed "s|^. libc6 .*|\| libc6 \| LGPL-2.1+ \| $1 \||" "$folder/right.md"
 named "programs/ tests/" >"$folder/named.md"
 expect pass "0 faults" "GPL files in the folders named" \
   env COPYRIGHTS="$folder/doc" "$check" "$folder/named.md" "$clean"
+other='Files: libown/*
+ libown/src/*
+Copyright: 2020 A. Person
+License: BSD-3-clause
+'
+sed "s|^Files: programs.*|Files: *|; s|^Files: both/c.c|$(sed ':a;N;$!ba;s/\n/\\n/g' <<<"$other")\n&|" \
+  "$folder/doc/libc6/copyright" >"$folder/catch_all"
+mkdir -p "$folder/all"
+cp -r "$folder/doc/." "$folder/all"
+cp "$folder/catch_all" "$folder/all/libc6/copyright"
+named "all but libown/" >"$folder/own.md"
+expect pass "0 faults" "a library of one folder" \
+  env COPYRIGHTS="$folder/all" "$check" "$folder/own.md" "$clean"
+named "all but tests/" >"$folder/own.md"
+expect fail "its source has tests/b.c under the GPL" "a folder under the GPL after all" \
+  env COPYRIGHTS="$folder/all" "$check" "$folder/own.md" "$clean"
+named "all but lib/" >"$folder/own.md"
+expect fail "says nothing of lib/" "a folder that the copyright file does not name" \
+  env COPYRIGHTS="$folder/all" "$check" "$folder/own.md" "$clean"
+
+# Rows that count only with an option.
+printf '### With SPECIAL\n\n' >"$folder/heading"
+sed '/^| libc6/d' "$folder/right.md" | cat - "$folder/heading" \
+  <(grep '^| libc6' "$folder/right.md") >"$folder/option.md"
+expect fail "libc6 (" "the option's rows without it" "$check" "$folder/option.md" "$clean"
+expect pass "0 faults" "with the option" env WITH=SPECIAL "$check" "$folder/option.md" "$clean"
+
 named "programs/" >"$folder/unnamed.md"
 expect fail "libc6: its source has tests/b.c under the GPL" "a GPL file elsewhere" \
   env COPYRIGHTS="$folder/doc" "$check" "$folder/unnamed.md" "$clean"

@@ -16,7 +16,8 @@ TOLERANCES = {
     "ff": (0.05, True),
     "dsp": (0, True),
     "ram": (0, True),
-    "fmax": (0.05, False),
+    # One placement for each: the same logic, placed anew, gave 159 to 173 MHz.
+    "fmax": (0.10, False),
 }
 
 

@@ -9,6 +9,7 @@ from .tools import Failure
 
 RTL = Path("hls/rtl")
 GENERATED = RTL / "generated"
+ULX3S = Path("hls/boards/ulx3s")
 
 
 @dataclass
@@ -18,13 +19,14 @@ class Design:
     target: float  # MHz
     parameters: dict = field(default_factory=dict)
     generated: list = None  # in place of the sources in hls/rtl/generated
+    more: list = field(default_factory=list)  # sources beside hls/rtl
 
     def sources(self, family):
         """All of the module library: Yosys keeps what the top uses. A module that the family does not
         map has its behavioural description."""
         mapped = {path.name: path for folder in ("behavioural", family) for path in (RTL / folder).glob("*.sv")}
         return [*sorted(RTL.glob("*.sv")), *(mapped[name] for name in sorted(mapped)),
-                *(self.generated or sorted(GENERATED.glob("*.sv")))]
+                *(self.generated or sorted(GENERATED.glob("*.sv"))), *self.more]
 
     def inputs(self, family):
         return [*self.sources(family), *sorted(RTL.glob("*.svh")), *sorted(GENERATED.glob("*.svh"))]
@@ -43,6 +45,13 @@ def operators(datapath, target):
 
 def element(target, generated=None):
     return Design("emax_element", "emax_element", target, {"SLOT_BITS": 4}, generated)
+
+
+def ulx3s(elements, target):
+    """The whole board, its clock and pins included."""
+    more = [path for folder in ("core", "link") for path in sorted((RTL / folder).glob("*.sv"))]
+    return Design(f"ULX3S, elements: {elements}", "emax_ulx3s", target, {"NUM_PE": elements},
+                  more=[*more, *sorted(ULX3S.glob("*.sv"))])
 
 
 def _read(design, family):
@@ -117,22 +126,33 @@ endmodule
 """
 
 
-def ecp5_script(design, shell_path, options):
-    """The design in its shell for ECP5. It is mapped with its boundary kept, counted, and then
-    dissolved into the shell for placement.
+def _ecp5_mapping(top, options):
+    """Synthesis for ECP5 of what was read.
 
     Before flip-flops are mapped, synchronous resets other than aresetn become logic: Yosys makes
     them of multiplexers with a zero, and such a control signal is shared by the flip-flops of a
     tile, reaches them late, and so spreads the datapath out.
     """
-    synthesis = f"synth_ecp5 -top synthesis_shell {options}"
-    return (f"{_read(design, 'ecp5')} {shell_path}; "
-            f"{synthesis} -run :map_ffs; "
-            "select -set by_reset w:aresetn %co1:+[R,SRST] w:* %d; select -clear; "
+    synthesis = f"synth_ecp5 -top {top} {options}"
+    return (f"{synthesis} -run :map_ffs; "
+            "select -set by_reset w:*aresetn %co1:+[R,SRST] w:* %d; select -clear; "
             "dffunmap -srst-only t:* @by_reset %d; opt_clean; "
-            f"{synthesis} -run map_ffs:; "
+            f"{synthesis} -run map_ffs:; ")
+
+
+def ecp5_script(design, shell_path, options):
+    """The design in its shell for ECP5. It is mapped with its boundary kept, counted, and then
+    dissolved into the shell for placement."""
+    return (f"{_read(design, 'ecp5')} {shell_path}; {_ecp5_mapping('synthesis_shell', options)}"
             "tee -q -o {folder}/cells.json stat -json; "
             "setattr -unset keep_hierarchy c:design; flatten; opt_clean; "
+            "write_json {folder}/netlist.json")
+
+
+def board_script(design, options):
+    """A board's top for ECP5, with its parameters."""
+    parameters = " ".join(f"-set {name} {value}" for name, value in design.parameters.items())
+    return (f"{_read(design, 'ecp5')}; chparam {parameters} {design.top}; {_ecp5_mapping(design.top, options)}"
             "write_json {folder}/netlist.json")
 
 
@@ -166,25 +186,42 @@ def xilinx_figures(netlist):
        "registered_inputs": registered_inputs}
 
 
-def ecp5_figures(report, log, cells):
-    """Figures, and what the critical path is, from nextpnr's report and log and from Yosys's count of
-    the shell's cells, which are subtracted."""
+def _placed(report, log):
+    """nextpnr's report, its counts of cells, the figures in it and in its log, and the critical path."""
     luts = re.search(r"Total LUT4s:\s+(\d+)/", log.read_text())
     if luts is None:
         raise Failure(f"{log} does not say how many LUT4s there are")
     report = json.loads(report.read_text())
     used = {kind: counts["used"] for kind, counts in report["utilization"].items()}
-    (shell_cells,) = [m["num_cells_by_type"] for name, m in json.loads(cells.read_text())["modules"].items()
-                      if name == "\\synthesis_shell"]
     clock = max(report["fmax"], key=lambda name: report["fmax"][name]["constraint"])
     figures = {
-        "lut": int(luts[1]) - shell_cells.get("LUT4", 0),
-        "ff": used["TRELLIS_FF"] - shell_cells.get("TRELLIS_FF", 0),
+        "lut": int(luts[1]),
+        "ff": used["TRELLIS_FF"],
         "dsp": used.get("MULT18X18D", 0),
         "ram": used.get("DP16KD", 0),
         "fmax": round(report["fmax"][clock]["achieved"], 2),
     }
-    return figures, {"cells": used["TRELLIS_COMB"] - shell_cells.get("LUT4", 0), "path": _critical_path(report, clock)}
+    return report, used, figures, _critical_path(report, clock)
+
+
+def ecp5_figures(report, log, cells):
+    """Figures, and what the critical path is, from nextpnr's report and log and from Yosys's count of
+    the shell's cells, which are subtracted."""
+    _, used, figures, path = _placed(report, log)
+    (shell_cells,) = [m["num_cells_by_type"] for name, m in json.loads(cells.read_text())["modules"].items()
+                      if name == "\\synthesis_shell"]
+    figures["lut"] -= shell_cells.get("LUT4", 0)
+    figures["ff"] -= shell_cells.get("TRELLIS_FF", 0)
+    return figures, {"cells": used["TRELLIS_COMB"] - shell_cells.get("LUT4", 0), "path": path}
+
+
+def board_figures(report, log):
+    """Figures of a whole device, its critical path, and of each kind of cell what is used and there."""
+    report, used, figures, path = _placed(report, log)
+    kinds = {"TRELLIS_COMB": "cells", "TRELLIS_FF": "FF", "MULT18X18D": "DSP", "DP16KD": "RAM",
+             "EHXPLLL": "PLL", "TRELLIS_IO": "pins"}
+    return figures, {"path": path, "utilisation": {
+        name: [used[kind], report["utilization"][kind]["available"]] for kind, name in kinds.items() if kind in used}}
 
 
 def _critical_path(report, clock):

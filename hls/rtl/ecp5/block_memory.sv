@@ -1,5 +1,6 @@
 // behavioural/block_memory.sv of DP16KD, 1024 words of 18 bits each, with the output register that
-// synthesis does not infer: without it a word leaves the memory 5.6 ns after the clock.
+// synthesis does not infer: without it a word leaves the memory 5.6 ns after the clock. A memory of
+// 2048 words is two of half the size, chosen between behind their output registers.
 module block_memory #(
     parameter int WIDTH = 32,
     parameter int ADDRESS_BITS = 10
@@ -13,52 +14,68 @@ module block_memory #(
     input  logic                    output_enable,
     output logic [WIDTH-1:0]        read_data
 );
-  localparam int PIECES = (WIDTH + 17) / 18;
-  if (WIDTH < 1 || ADDRESS_BITS < 1 || ADDRESS_BITS > 10) begin : bad_size
-    $error("block_memory: WIDTH must be at least 1 and ADDRESS_BITS 1 to 10");
+  if (WIDTH < 1 || ADDRESS_BITS < 1 || ADDRESS_BITS > 11) begin : bad_size
+    $error("block_memory: WIDTH must be at least 1 and ADDRESS_BITS 1 to 11");
   end
 
-  logic [9:0] to_write, to_read;
-  logic [18*PIECES-1:0] write_words;
-  /* verilator lint_off UNUSEDSIGNAL */  // the last piece may be wider than the word
-  logic [18*PIECES-1:0] read_words;
-  /* verilator lint_on UNUSEDSIGNAL */
-  assign to_write = 10'(write_address);
-  assign to_read = 10'(read_address);
-  assign write_words = (18 * PIECES)'(write_data);
-  assign read_data = read_words[WIDTH-1:0];
+  if (ADDRESS_BITS > 10) begin : halves
+    logic fetched_half, half;
+    logic [2*WIDTH-1:0] words;
+    for (genvar i = 0; i < 2; i++) begin : each
+      block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(10)) memory (
+          .clk, .write_enable(write_enable && write_address[ADDRESS_BITS-1] == (i == 1)),
+          .write_address(write_address[9:0]), .write_data, .read_enable,
+          .read_address(read_address[9:0]), .output_enable, .read_data(words[WIDTH*i+:WIDTH]));
+    end
+    always_ff @(posedge clk) begin
+      if (read_enable) fetched_half <= read_address[ADDRESS_BITS-1];
+      if (output_enable) half <= fetched_half;
+    end
+    assign read_data = half ? words[WIDTH+:WIDTH] : words[0+:WIDTH];
+  end else begin : blocks
+    localparam int PIECES = (WIDTH + 17) / 18;
+    logic [9:0] to_write, to_read;
+    logic [18*PIECES-1:0] write_words;
+    /* verilator lint_off UNUSEDSIGNAL */  // the last piece may be wider than the word
+    logic [18*PIECES-1:0] read_words;
+    /* verilator lint_on UNUSEDSIGNAL */
+    assign to_write = 10'(write_address);
+    assign to_read = 10'(read_address);
+    assign write_words = (18 * PIECES)'(write_data);
+    assign read_data = read_words[WIDTH-1:0];
 
-  for (genvar piece = 0; piece < PIECES; piece++) begin : pieces
-    logic [17:0] write_piece, read_piece;
-    assign write_piece = write_words[18*piece+:18];
-    assign read_words[18*piece+:18] = read_piece;
-    DP16KD #(
-        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("NOREG"), .REGMODE_B("OUTREG"),
-        .RESETMODE("SYNC"), .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .CSDECODE_A("0b000"),
-        .CSDECODE_B("0b000"), .GSR("DISABLED")
-    ) memory (
-        .CLKA(clk), .CEA(write_enable), .WEA(write_enable), .OCEA(1'b0), .RSTA(1'b0),
-        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
-        .CLKB(clk), .CEB(read_enable), .WEB(1'b0), .OCEB(output_enable), .RSTB(1'b0),
-        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
-        // The lowest address bits of a port of 18 bits enable its bytes.
-        .ADA0(1'b1), .ADA1(1'b1), .ADA2(1'b0), .ADA3(1'b0), .ADA4(to_write[0]), .ADA5(to_write[1]),
-        .ADA6(to_write[2]), .ADA7(to_write[3]), .ADA8(to_write[4]), .ADA9(to_write[5]),
-        .ADA10(to_write[6]), .ADA11(to_write[7]), .ADA12(to_write[8]), .ADA13(to_write[9]),
-        .ADB0(1'b0), .ADB1(1'b0), .ADB2(1'b0), .ADB3(1'b0), .ADB4(to_read[0]), .ADB5(to_read[1]),
-        .ADB6(to_read[2]), .ADB7(to_read[3]), .ADB8(to_read[4]), .ADB9(to_read[5]),
-        .ADB10(to_read[6]), .ADB11(to_read[7]), .ADB12(to_read[8]), .ADB13(to_read[9]),
-        .DIA0(write_piece[0]), .DIA1(write_piece[1]), .DIA2(write_piece[2]), .DIA3(write_piece[3]),
-        .DIA4(write_piece[4]), .DIA5(write_piece[5]), .DIA6(write_piece[6]), .DIA7(write_piece[7]),
-        .DIA8(write_piece[8]), .DIA9(write_piece[9]), .DIA10(write_piece[10]),
-        .DIA11(write_piece[11]), .DIA12(write_piece[12]), .DIA13(write_piece[13]),
-        .DIA14(write_piece[14]), .DIA15(write_piece[15]), .DIA16(write_piece[16]),
-        .DIA17(write_piece[17]),
-        .DOB0(read_piece[0]), .DOB1(read_piece[1]), .DOB2(read_piece[2]), .DOB3(read_piece[3]),
-        .DOB4(read_piece[4]), .DOB5(read_piece[5]), .DOB6(read_piece[6]), .DOB7(read_piece[7]),
-        .DOB8(read_piece[8]), .DOB9(read_piece[9]), .DOB10(read_piece[10]), .DOB11(read_piece[11]),
-        .DOB12(read_piece[12]), .DOB13(read_piece[13]), .DOB14(read_piece[14]),
-        .DOB15(read_piece[15]), .DOB16(read_piece[16]), .DOB17(read_piece[17])
-    );
+    for (genvar piece = 0; piece < PIECES; piece++) begin : pieces
+      logic [17:0] write_piece, read_piece;
+      assign write_piece = write_words[18*piece+:18];
+      assign read_words[18*piece+:18] = read_piece;
+      DP16KD #(
+          .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("NOREG"), .REGMODE_B("OUTREG"),
+          .RESETMODE("SYNC"), .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .CSDECODE_A("0b000"),
+          .CSDECODE_B("0b000"), .GSR("DISABLED")
+      ) memory (
+          .CLKA(clk), .CEA(write_enable), .WEA(write_enable), .OCEA(1'b0), .RSTA(1'b0),
+          .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+          .CLKB(clk), .CEB(read_enable), .WEB(1'b0), .OCEB(output_enable), .RSTB(1'b0),
+          .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+          // The lowest address bits of a port of 18 bits enable its bytes.
+          .ADA0(1'b1), .ADA1(1'b1), .ADA2(1'b0), .ADA3(1'b0), .ADA4(to_write[0]), .ADA5(to_write[1]),
+          .ADA6(to_write[2]), .ADA7(to_write[3]), .ADA8(to_write[4]), .ADA9(to_write[5]),
+          .ADA10(to_write[6]), .ADA11(to_write[7]), .ADA12(to_write[8]), .ADA13(to_write[9]),
+          .ADB0(1'b0), .ADB1(1'b0), .ADB2(1'b0), .ADB3(1'b0), .ADB4(to_read[0]), .ADB5(to_read[1]),
+          .ADB6(to_read[2]), .ADB7(to_read[3]), .ADB8(to_read[4]), .ADB9(to_read[5]),
+          .ADB10(to_read[6]), .ADB11(to_read[7]), .ADB12(to_read[8]), .ADB13(to_read[9]),
+          .DIA0(write_piece[0]), .DIA1(write_piece[1]), .DIA2(write_piece[2]), .DIA3(write_piece[3]),
+          .DIA4(write_piece[4]), .DIA5(write_piece[5]), .DIA6(write_piece[6]), .DIA7(write_piece[7]),
+          .DIA8(write_piece[8]), .DIA9(write_piece[9]), .DIA10(write_piece[10]),
+          .DIA11(write_piece[11]), .DIA12(write_piece[12]), .DIA13(write_piece[13]),
+          .DIA14(write_piece[14]), .DIA15(write_piece[15]), .DIA16(write_piece[16]),
+          .DIA17(write_piece[17]),
+          .DOB0(read_piece[0]), .DOB1(read_piece[1]), .DOB2(read_piece[2]), .DOB3(read_piece[3]),
+          .DOB4(read_piece[4]), .DOB5(read_piece[5]), .DOB6(read_piece[6]), .DOB7(read_piece[7]),
+          .DOB8(read_piece[8]), .DOB9(read_piece[9]), .DOB10(read_piece[10]), .DOB11(read_piece[11]),
+          .DOB12(read_piece[12]), .DOB13(read_piece[13]), .DOB14(read_piece[14]),
+          .DOB15(read_piece[15]), .DOB16(read_piece[16]), .DOB17(read_piece[17])
+      );
+    end
   end
 endmodule

@@ -38,6 +38,15 @@ expect pass "" "the replay compiles" \
 expect pass "" "the C simulation compiles" \
   "${compile[@]}" -std=c++20 "$project/testbench/csim.cpp" "$folder/top.o" "$model" -o "$folder/csim"
 
+for kernel in movers emax_core_hls; do
+  expect pass "" "the card's $kernel compile" "${compile[@]}" -std=c++14 \
+    -c "$project/hls/boards/alveo/$kernel.cpp" -o "$folder/$kernel.o"
+done
+expect pass "" "the card's C simulation compiles" "${compile[@]}" -std=c++14 \
+  "$project/tests/hls/vendor/card_csim.cpp" "$folder"/{movers,emax_core_hls}.o -o "$folder/card_csim"
+expect pass "12 words, 0 answers left, 0 mismatches" "the card's kernels" "$folder/card_csim"
+expect fail "12 words, 1 answers left" "an answer that does not come" "$folder/card_csim" fault
+
 words=$folder/words.txt
 expect pass ", 0 mismatches" "C simulation" "$folder/csim" --seed 2 --blocks 300 --words "$words"
 expect pass "300 blocks" "replay" "$folder/replay" "$words"

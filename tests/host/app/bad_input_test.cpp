@@ -109,6 +109,7 @@ TEST_F(BadInput, Options) {
   expect_refusal(with("--bound", "two-sided"), {"one-sided"});
   expect_refusal(with("--device", "toaster"), {"toaster", "cpu", "sim", "rtl"});
   expect_refusal(with("--device", "sim:board=toaster"), {"toaster", "ulx3s"});
+  expect_refusal(with("--device", "xrt:none.xclbin"), {"xrt:none.xclbin"});
   expect_refusal(with("--budget", "0"), {"--budget"});
   expect_refusal(with("--jobs", "-1"), {"--jobs"});
   expect_refusal(with("--time", "soon"), {"--time"});

@@ -7,6 +7,7 @@
 
 #include "tests/host/app/program.h"
 #include "tests/host/geometry/temporary_folder.h"
+#include "tests/support/board_program.h"
 
 namespace emax {
 namespace {
@@ -72,6 +73,26 @@ TEST_F(EndToEnd, SameSeedSameBytesForAnyJobsAndDevice) {
   EXPECT_NE(certificate("one.ply"), certificate("other.ply"));
 }
 
+TEST_F(EndToEnd, OptimizesOnTheHardware) {
+  test::write_scan(folder_.path() / "scan.xyz", 400, 2);
+  const test::BoardProgram board(EMAX_BOARD_PROGRAM);
+  ASSERT_EQ(optimize("cpu.ply", {}, "20%", "6").exit_code, 0);
+  const json expected = read("cpu.ply.certificate.json");
+  for (const std::string& device : {std::string("rtl"), "tty:" + board.path()}) {
+    SCOPED_TRACE(device);
+    const ProgramRun run =
+        optimize("mesh.ply", {"--device", device, "--json", "result.json"}, "20%", "6");
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_EQ(text("mesh.ply"), text("cpu.ply"));
+    const json certificate = read("mesh.ply.certificate.json");
+    for (const char* key : {"e_max", "e_max_squared_bits", "worst_point", "triangles"}) {
+      EXPECT_EQ(certificate.at(key), expected.at(key)) << key;
+    }
+    EXPECT_GT(read("result.json").at("device_counters").at("busy"), 0);
+    EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+  }
+}
+
 TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
   test::write_surface(folder_.path() / "surface.off", 10, 14);
   std::vector<json> results;
@@ -101,9 +122,34 @@ TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
   for (const char* key : {"cycles", "busy", "stalled", "idle"}) {
     EXPECT_TRUE(results[5].at("device_counters").at(key).is_number_unsigned()) << key;
   }
-  EXPECT_GT(results[2].at("predicted").at("seconds").get<double>(), 0);
+  EXPECT_TRUE(results[1].at("device_counters").at("resends").is_null());
+  EXPECT_TRUE(results[1].at("predicted").is_null());
+  const json& predicted = results[2].at("predicted");
+  for (const char* key : {"seconds", "computing_seconds", "link_seconds", "cpu_seconds"}) {
+    EXPECT_GT(predicted.at(key).get<double>(), 0) << key;
+  }
+  EXPECT_EQ(predicted.at("seconds"), std::max(predicted.at("computing_seconds").get<double>(),
+                                              predicted.at("link_seconds").get<double>()));
+  EXPECT_EQ(predicted.at("basis"), "estimated");
+  EXPECT_EQ(predicted.at("cpu_basis"), "measured");
   EXPECT_EQ(results[3].at("device_counters").at("pairs"),
             results[4].at("device_counters").at("pairs"));
+}
+
+TEST_F(EndToEnd, ABoardsPredictionStandsBesideTheMeasuredCpu) {
+  const ProgramRun run =
+      optimize("board.ply", {"--device", "sim:board=u50", "--json", "r.json"}, "10%", "6");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  for (const char* text : {"% busy", " s on u50 (AMD Alveo U50), estimated: computing ",
+                           "this CPU ", " s, measured: "}) {
+    EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
+  }
+  EXPECT_GT(read("r.json").at("predicted").at("cpu_seconds").get<double>(), 0);
+  // Without a board nothing is predicted, and what is not measured is not printed.
+  const ProgramRun cpu = optimize("cpu.ply", {}, "3%", "6");
+  for (const char* text : {"estimated", "measured", "cycles", "resends"}) {
+    EXPECT_EQ(cpu.output.find(text), std::string::npos) << text << "\n" << cpu.output;
+  }
 }
 
 TEST_F(EndToEnd, InfeasibleToleranceIsSaidAndNothingWritten) {

@@ -103,8 +103,22 @@ TEST(DeviceEvaluator, StartsAfreshAfterAnInterruptedSearch) {
 
 TEST(DeviceAddress, NamesWhatItAccepts) {
   EXPECT_EQ(DeviceAddress::parse("sim:board=ulx3s").board->name, "ulx3s");
-  for (const char* bad : {"gpu", "sim:", "sim:board=", "sim:board=x", "cpu:1", ""}) {
-    EXPECT_THROW(DeviceAddress::parse(bad), Error) << bad;
+  EXPECT_EQ(DeviceAddress::parse("xrt:a:b.xclbin@1").place, "a:b.xclbin@1");
+  EXPECT_EQ(DeviceAddress::parse("rtl:pes=2").elements, 2u);
+  EXPECT_EQ(DeviceAddress::parse("tty:/dev/ttyUSB0").place, "/dev/ttyUSB0");
+  EXPECT_EQ(DeviceAddress::parse("tty:/dev/ttyUSB0").baud, 3000000u);
+  EXPECT_EQ(DeviceAddress::parse("tty:/dev/a:b@115200").place, "/dev/a:b");
+  EXPECT_EQ(DeviceAddress::parse("tty:/dev/a:b@115200").baud, 115200u);
+  for (const char* bad :
+       {"gpu", "sim:", "sim:board=", "sim:board=x", "cpu:1", "", "rtl:", "rtl:pes=3", "rtl:pes=2x",
+        "tty", "tty:", "tty:@9600", "tty:/dev/x@", "tty:/dev/x@fast", "tty:/dev/x@1", "xrt:"}) {
+    try {
+      DeviceAddress::parse(bad);
+      ADD_FAILURE() << bad;
+    } catch (const Error& error) {
+      // An unknown form names every form; a wrong part names what that part may be.
+      EXPECT_NE(std::string(error.what()).find_first_of(";"), std::string::npos) << error.what();
+    }
   }
 }
 

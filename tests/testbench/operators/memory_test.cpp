@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "Vbehavioural_memory_rtl.h"
+#include "Vecp5_deep_memory_rtl.h"
 #include "Vecp5_memory_rtl.h"
 #include "Vmemories_rtl.h"
 #include "Vmemories_rtl___024root.h"
@@ -117,20 +118,20 @@ TEST(FieldMemory, WriteWithoutEnableIsSeen) {
 
 // Words that differ from those of an array with two registers behind it; what a read gives that
 // meets a write of its address is left out.
-template <class Rtl>
+template <class Rtl, std::uint32_t kWords = 512>
 int wrong_block_words() {
   VerilatedContext context;
   Rtl rtl(&context);
   Random random(named_seed("wrong_block_words", 1));
-  std::array<std::optional<std::uint64_t>, 512> words;
+  std::array<std::optional<std::uint64_t>, kWords> words;
   std::optional<std::uint64_t> fetched, expected;
   int wrong = 0;
   for (int cycle = 0; cycle < 20 * kCycles; ++cycle) {
     rtl.write_enable = random.one_in(2);
-    rtl.write_address = static_cast<SData>(random.below(512));
+    rtl.write_address = static_cast<SData>(random.below(kWords));
     rtl.write_data = random.bits() & 0x1'ffff'ffff;
     rtl.read_enable = !random.one_in(3);
-    rtl.read_address = static_cast<SData>(random.below(512));
+    rtl.read_address = static_cast<SData>(random.below(kWords));
     rtl.output_enable = !random.one_in(3);
     if (rtl.output_enable) expected = fetched;
     if (rtl.read_enable) {
@@ -154,6 +155,7 @@ TEST(BlockMemory, ReadsWhatWasWritten) {
 
 TEST(BlockMemory, MappedOntoEcp5ReadsWhatWasWritten) {
   EXPECT_EQ(wrong_block_words<Vecp5_memory_rtl>(), 0);
+  EXPECT_EQ((wrong_block_words<Vecp5_deep_memory_rtl, 2048>()), 0);
 }
 
 }  // namespace

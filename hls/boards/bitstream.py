@@ -1,0 +1,124 @@
+"""`./dev bitstream`: a board's bitstream with Yosys, nextpnr and ecppack.
+
+Tries seeds of the placement in order until the clock is met, and writes the bitstream to
+build/bitstream and its figures into docs/synthesis.md. A bitstream that misses its clock is not
+written.
+"""
+
+import argparse
+import shutil
+import signal
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from synthesis import designs, document
+from synthesis.tools import Background, Failure, Runner
+
+FOLDER = Path("build/bitstream")
+DOCUMENT = Path("docs/synthesis.md")
+CONSTRAINTS = designs.ULX3S / "ulx3s.lpf"
+TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
+YOSYS = "-nodsp"  # as in synthesize.py
+# Minutes of one core, with two elements on a 2-core machine.
+SYNTHESIS_MINUTES, SEED_MINUTES = 6, 15
+
+
+def build(runner, options, results):
+    design = designs.ulx3s(options.elements, TARGET)
+    folder = f"ulx3s/{options.elements}"
+    (netlist,) = runner.step("yosys", f"{design.name}, synthesis", f"{folder}/yosys",
+                             ["-p", designs.board_script(design, YOSYS)], design.inputs("ecp5"), ["netlist.json"])
+
+    def route(seed):
+        report, log, placed = runner.step(
+            "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
+            ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{TARGET:g}",
+             "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist),
+             "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json"],
+            [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config"])
+        figures, detail = designs.board_figures(report, log)
+        runner.say(f"{design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {TARGET:g}")
+        return {"figures": figures, **detail, "seed": seed, "placed": placed}
+
+    tried = first_that_meets(route, options.seeds, options.jobs, TARGET)
+    best = max(tried, key=lambda result: result["figures"]["fmax"])
+    best.update(elements=options.elements, target=TARGET,
+                tried={str(result["seed"]): result["figures"]["fmax"] for result in tried})
+    if best["figures"]["fmax"] >= TARGET:
+        (best["bitstream"],) = runner.step(
+            "ecppack", f"{design.name}, bitstream", f"{folder}/bitstream",
+            ["--compress", "--input", str(best["placed"]), "--bit", "{folder}/ulx3s.bit"], [best["placed"]],
+            ["ulx3s.bit"])
+    results.append(best)
+
+
+def first_that_meets(route, seeds, at_once, target):
+    """Results of route(seed), in the order of the seeds, up to the first whose fmax is the target."""
+    tried = []
+    for first in range(1, seeds + 1, at_once):
+        batch = range(first, min(first + at_once, seeds + 1))
+        with ThreadPoolExecutor(len(batch)) as pool:
+            for result in pool.map(route, batch):
+                tried.append(result)
+                if result["figures"]["fmax"] >= target:
+                    return tried
+    return tried
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="./dev bitstream", description="Makes build/bitstream/BOARD.bit with Yosys, nextpnr and ecppack and"
+        " writes its figures into docs/synthesis.md. Logs and results stay in build/synth, and what has not"
+        " changed since is taken from there.")
+    parser.add_argument("board", choices=["ulx3s"], help="ULX3S with an ECP5-85F")
+    parser.add_argument("--elements", type=int, default=2, metavar="N", help="processing elements (2)")
+    parser.add_argument("--seeds", type=int, default=8, metavar="N", help="at most N placements (8)")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="placements at a time (1; each wants a core and 3 GB)")
+    parser.add_argument("--fresh", action="store_true", help="run every step again")
+    parser.add_argument("--plan", action="store_true", help="say what would be done and how long it takes, and stop")
+    options = parser.parse_args()
+    if min(options.elements, options.seeds, options.jobs) < 1:
+        parser.error("--elements, --seeds and --jobs must be positive")
+    return options
+
+
+def main():
+    options = arguments()
+    target = FOLDER / f"{options.board}.bit"
+    if options.plan:
+        print(f"bitstream: {target} with {options.elements} elements: synthesis about {SYNTHESIS_MINUTES} min, then up to"
+              f" {options.seeds} placements of about {SEED_MINUTES} min, {options.jobs} at a time; what has not changed"
+              " is not run again", flush=True)
+        return 0
+    runner = Runner(options.jobs, options.fresh, name="bitstream")
+    runner.prepare()
+    results = []
+    work = Background(runner)
+    work.start(build, runner, options, results)
+    try:
+        work.wait(30 if not sys.stdout.isatty() else 15)
+    except KeyboardInterrupt:
+        runner.stop()
+        raise
+    (result,) = results
+    print("\n" + document.board_section(result, runner.versions))
+    if "bitstream" not in result:
+        target.unlink(missing_ok=True)
+        raise Failure(f"no bitstream: {result['figures']['fmax']:.1f} MHz is the best of {len(result['tried'])} seeds,"
+                      f" and the board's clock is {TARGET:g} MHz; try more --seeds or fewer --elements")
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(result["bitstream"], target)
+    DOCUMENT.write_text(document.with_board(DOCUMENT.read_text(), document.board_section(result, runner.versions)))
+    runner.say(f"{target} and its section in {DOCUMENT} written")
+    return 0
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    try:
+        sys.exit(main())
+    except Failure as failure:
+        sys.exit(f"bitstream: {failure}")
+    except KeyboardInterrupt:
+        sys.exit("bitstream: stopped; what was done stays in build/synth")

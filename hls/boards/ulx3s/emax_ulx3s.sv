@@ -1,0 +1,34 @@
+// The ULX3S: clock, reset and pins around emax_board. The USB serial port runs at
+// 120 MHz / CLOCKS_PER_BIT, 3 Mbaud. Lamps from the left: running, three that are off, core at work,
+// session known, bytes to the host, bytes from the host. The FIRE1 button is a reset.
+module emax_ulx3s #(
+    parameter int NUM_PE = 2,
+    parameter int CLOCKS_PER_BIT = 40
+) (
+    input  logic       clk_25mhz,
+    input  logic       reset_button,
+    input  logic       ftdi_txd,  // from the host
+    output logic       ftdi_rxd,  // to the host
+    output logic [7:0] led,
+    output logic       wifi_gpio0
+);
+  localparam int CLOCK_KHZ = 120_000;
+
+  logic clk, locked, runs_first, runs, aresetn;
+  logic [3:0] settling, activity;
+
+  ulx3s_clock clock (.clk_25mhz, .clk, .locked);
+
+  always_ff @(posedge clk) begin
+    runs_first <= locked && !reset_button;
+    runs <= runs_first;
+    settling <= runs ? settling + {3'b0, settling != '1} : '0;
+    aresetn <= runs && settling == '1;
+  end
+
+  emax_board #(.NUM_PE(NUM_PE), .CLOCK_KHZ(CLOCK_KHZ), .CLOCKS_PER_BIT(CLOCKS_PER_BIT)) board (
+      .clk, .aresetn, .uart_rxd(ftdi_txd), .uart_txd(ftdi_rxd), .activity);
+
+  assign led = {aresetn, 3'b0, activity};
+  assign wifi_gpio0 = 1'b1;
+endmodule

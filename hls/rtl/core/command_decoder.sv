@@ -1,0 +1,162 @@
+// Takes a device's command words (docs/protocol.md) apart: points go to the point memories, records
+// to the elements, and whatever answers to the queue of block_answers. A word a cycle where nothing
+// holds it: a header waits for room in that queue, LoadPoints for the passes of the block before
+// (`sequencer_idle`), a record's word for the elements to take the record before it.
+//
+// Point i of a block goes to element i mod NUM_PE, row i / NUM_PE.
+`include "mutation.svh"
+
+module command_decoder #(
+    parameter int NUM_PE = 1,
+    parameter int ROW_BITS = 10,
+    parameter int MAX_POINTS = 1024
+) (
+    input  logic                clk,
+    input  logic                aresetn,
+    input  logic [31:0]         word,
+    input  logic                word_valid,
+    output logic                take,
+    // To the point memories: x, y, z of a point.
+    output logic [NUM_PE-1:0]   point_write,
+    output logic [ROW_BITS-1:0] point_row,
+    output logic [95:0]         point,
+    // To the elements.
+    output logic [639:0]        record,
+    output logic                record_valid,
+    input  logic                record_taken,
+    // To the sequencer.
+    output logic [ROW_BITS-1:0] last_row,    // of the block; rows below it are full
+    output logic [NUM_PE-1:0]   last_row_in, // the elements that have a point in it
+    output logic                finish,      // a pulse: the block's last record has come
+    output logic                drop,        // a pulse: forget the records that wait
+    input  logic                sequencer_idle,
+    // To the answers.
+    output logic                request_valid,
+    input  logic                request_ready,
+    output logic [1:0]          request_kind,
+    output logic                request_list,   // every point's squared distance is asked for
+    output logic                request_empty,  // the block has met no record
+    output logic [10:0]         request_count,  // the block's points, or the fault
+    output logic                under_way
+);
+  localparam logic [7:0] IDENTIFY = 8'd1, LOAD_POINTS = 8'd2, RECORDS = 8'd3, REDUCE = 8'd4,
+      COUNTERS = 8'd5;
+  localparam logic [1:0] UNKNOWN_COMMAND = 2'd1, TOO_MANY_POINTS = 2'd2, NO_POINTS = 2'd3;
+  localparam logic [1:0] ASK_IDENTITY = 2'd0, ASK_RESULT = 2'd1, ASK_COUNTERS = 2'd2, ASK_FAULT = 2'd3;
+  localparam logic [1:0] HEADER = 2'd0, POINTS = 2'd1, RECORD = 2'd2, SKIP = 2'd3;
+
+  logic [1:0] state, fault;
+  logic block;          // points are loaded and may meet records
+  logic met;            // they have met one
+  logic [10:0] points;  // of the block
+  logic [23:0] items;   // of the payload that are still to come
+  logic [4:0] left;     // words of the present item after this one
+  logic [NUM_PE-1:0] to_element;
+  logic [ROW_BITS-1:0] next_row;
+  logic skips_records;
+
+  logic [7:0] opcode;
+  logic [23:0] count;
+  logic asks, may_begin, last_word, fits;
+  assign opcode = word[31:24];
+  assign count = word[23:0];
+  assign asks = opcode == IDENTIFY || opcode == REDUCE || opcode == COUNTERS;
+  assign fits = count <= `MUTATED(ONE_POINT_TOO_MANY, 24'(MAX_POINTS), 24'(MAX_POINTS + 1));
+  // A block that is given up is dropped first; `drop` goes out once, then its header waits.
+  assign may_begin = opcode == LOAD_POINTS ? sequencer_idle && !finish && !drop && !block
+      : opcode == REDUCE ? request_ready && !record_valid && !finish
+      : asks ? request_ready : 1'b1;
+  assign last_word = left == '0;
+
+  assign take = word_valid && (state == HEADER ? may_begin : state != RECORD || !record_valid || record_taken);
+  assign under_way = state != HEADER || block || record_valid;
+
+  always_ff @(posedge clk) begin
+    point_write   <= '0;
+    finish        <= 1'b0;
+    drop          <= 1'b0;
+    request_valid <= 1'b0;
+    if (record_taken) record_valid <= 1'b0;
+
+    if (word_valid && state == HEADER && opcode == LOAD_POINTS && block && !record_valid) begin
+      block <= 1'b0;
+      drop  <= met;
+    end
+
+    if (take && state == HEADER) begin
+      items <= count - 1'b1;
+      left  <= opcode == RECORDS ? 5'd19 : 5'd2;
+      request_list  <= count[0];
+      request_empty <= !met;
+      request_count <= points;
+      case (opcode)
+        IDENTIFY, COUNTERS: begin
+          request_valid <= 1'b1;
+          request_kind  <= opcode == IDENTIFY ? ASK_IDENTITY : ASK_COUNTERS;
+        end
+        LOAD_POINTS: begin
+          points <= count[10:0];
+          met    <= 1'b0;
+          block  <= fits && count != '0;
+          if (!fits) fault <= TOO_MANY_POINTS;
+          if (count != '0) state <= fits ? POINTS : SKIP;
+        end
+        RECORDS: if (count != '0) state <= block ? RECORD : SKIP;
+        REDUCE: begin
+          request_valid <= 1'b1;
+          request_kind  <= block && fault == '0 ? ASK_RESULT : ASK_FAULT;
+          if (fault != '0) request_count <= 11'(fault);
+          else if (!block) request_count <= 11'(NO_POINTS);
+          finish <= block && fault == '0 && met;
+          drop   <= fault != '0 && met;
+          fault  <= '0;
+          block  <= `MUTATED(REDUCE_LEAVES_BLOCK_OPEN, 1'b0, block);
+          met    <= 1'b0;
+        end
+        default: fault <= UNKNOWN_COMMAND;
+      endcase
+    end else if (take) begin
+      left <= left - 1'b1;
+      if (last_word) begin
+        left  <= state == RECORD || skips_records ? 5'd19 : 5'd2;
+        items <= items - 1'b1;
+        if (items == '0) state <= HEADER;
+      end
+    end
+
+    if (take && state == POINTS) begin
+      point <= {word, point[95:32]};
+      if (last_word) begin
+        point_write <= to_element;
+        point_row   <= next_row;
+        last_row    <= next_row;
+        last_row_in <= to_element | (to_element - 1'b1);
+        to_element  <= NUM_PE'({to_element, to_element[NUM_PE-1]});
+        if (to_element[NUM_PE-1]) next_row <= next_row + 1'b1;
+      end
+    end
+    if (take && state == HEADER) begin
+      to_element <= NUM_PE'(1);
+      next_row <= '0;
+      skips_records <= opcode == RECORDS;
+    end
+
+    if (take && state == RECORD) begin
+      record <= {word, record[639:32]};
+      record_valid <= last_word;
+      met <= 1'b1;
+    end
+
+    if (!aresetn) begin
+      state <= HEADER;
+      fault <= '0;
+      block <= 1'b0;
+      met   <= 1'b0;
+      record_valid  <= 1'b0;
+      point_write   <= '0;
+      finish        <= 1'b0;
+      drop          <= 1'b0;
+      request_valid <= 1'b0;
+    end
+  end
+endmodule

@@ -1,0 +1,117 @@
+// The device: commands in, answers out (docs/protocol.md), with NUM_PE processing elements that share
+// one stream of records; each holds its own share of a block's points.
+//
+//   s_axis_command ─► axis_register ─► command_decoder ──records──► emax_element × NUM_PE
+//                                        │points                       ▲pairs      │minima, worst
+//                                        ▼                             │           ▼
+//                                   block_memory × NUM_PE ──► pair_sequencer    block_answer ─► m_axis_answer
+//
+// All elements take the same beat in the same cycle: their rows of points and their rings of records
+// stay in step, so one sequencer serves them all. A row a cycle while the next record's words come.
+module emax_core #(
+    parameter int NUM_PE = 1,
+    parameter int CLOCK_KHZ = 0  // 0: not known
+) (
+    input  logic        clk,
+    input  logic        aresetn,
+    input  logic [31:0] s_axis_command_tdata,
+    input  logic        s_axis_command_tvalid,
+    output logic        s_axis_command_tready,
+    output logic [31:0] m_axis_answer_tdata,
+    output logic        m_axis_answer_tvalid,
+    input  logic        m_axis_answer_tready,
+    output logic        under_way  // a block or a command is not finished
+);
+  localparam int MAX_POINTS = 1024;
+  localparam int ROWS = (MAX_POINTS + NUM_PE - 1) / NUM_PE;
+  localparam int ROW_BITS = ROWS > 8 ? $clog2(ROWS) : 3;  // a pass has at least five rows
+  localparam int SLOT_BITS = 4;
+
+  if (NUM_PE < 1 || NUM_PE > 512) begin : bad_elements
+    $error("emax_core: NUM_PE must be 1 to 512");
+  end
+
+  logic [31:0] word;
+  logic word_valid, take;
+  axis_register #(.WIDTH(32)) commands (
+      .clk, .aresetn, .s_axis_tdata(s_axis_command_tdata), .s_axis_tvalid(s_axis_command_tvalid),
+      .s_axis_tready(s_axis_command_tready), .m_axis_tdata(word), .m_axis_tvalid(word_valid),
+      .m_axis_tready(take));
+
+  logic [NUM_PE-1:0] point_write, last_row_in;
+  logic [ROW_BITS-1:0] point_row, last_row;
+  logic [95:0] point;
+  logic [639:0] record;
+  logic record_valid, record_taken, finish, drop, sequencer_idle, decoder_under_way;
+  logic request_valid, request_ready, request_list, request_empty;
+  logic [1:0] request_kind;
+  logic [10:0] request_count;
+  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .MAX_POINTS(MAX_POINTS)) decoder (
+      .clk, .aresetn, .word, .word_valid, .take, .point_write, .point_row, .point, .record,
+      .record_valid, .record_taken, .last_row, .last_row_in, .finish, .drop, .sequencer_idle,
+      .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
+      .under_way(decoder_under_way));
+
+  logic step, pair_valid, pair_taken, pair_first, pair_next_record;
+  logic [ROW_BITS-1:0] row, pair_row;
+  logic [NUM_PE-1:0] pair_final, pair_last;
+  pair_sequencer #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .SLOT_BITS(SLOT_BITS)) sequencer (
+      .clk, .aresetn, .last_row, .last_row_in, .record_taken, .finish, .drop, .idle(sequencer_idle),
+      .step, .row, .pair_valid, .pair_taken, .pair_row, .pair_first, .pair_next_record, .pair_final,
+      .pair_last);
+
+  logic [NUM_PE-1:0] record_tready, point_tready, nearest_tlast, nearest_tvalid, nearest_tready;
+  logic [NUM_PE-1:0] worst_tvalid, worst_tready;
+  logic [32*NUM_PE-1:0] nearest_tdata;
+  logic [64*NUM_PE-1:0] worst_tdata;
+  assign record_taken = record_valid && (&record_tready);
+  assign pair_taken = pair_valid && (&point_tready);
+
+  for (genvar p = 0; p < NUM_PE; p++) begin : elements
+    logic [95:0] pair_point;
+    for (genvar axis = 0; axis < 3; axis++) begin : points
+      block_memory #(.WIDTH(32), .ADDRESS_BITS(ROW_BITS)) memory (
+          .clk, .write_enable(point_write[p]), .write_address(point_row),
+          .write_data(point[32*axis+:32]), .read_enable(step), .read_address(row),
+          .output_enable(step), .read_data(pair_point[32*axis+:32]));
+    end
+    emax_element #(.POINT_BITS(ROW_BITS), .SLOT_BITS(SLOT_BITS)) element (
+        .clk, .aresetn,
+        .s_axis_record_tdata(record), .s_axis_record_tvalid(record_taken),
+        .s_axis_record_tready(record_tready[p]),
+        .s_axis_point_tdata(pair_point),
+        .s_axis_point_tuser({pair_first, pair_final[p], pair_next_record, pair_row}),
+        .s_axis_point_tlast(pair_last[p]), .s_axis_point_tvalid(pair_taken),
+        .s_axis_point_tready(point_tready[p]),
+        .m_axis_nearest_tdata(nearest_tdata[32*p+:32]), .m_axis_nearest_tlast(nearest_tlast[p]),
+        .m_axis_nearest_tvalid(nearest_tvalid[p]), .m_axis_nearest_tready(nearest_tready[p]),
+        .m_axis_worst_tdata(worst_tdata[64*p+:64]), .m_axis_worst_tvalid(worst_tvalid[p]),
+        .m_axis_worst_tready(worst_tready[p]));
+  end
+
+  logic [63:0] busy, stalled, idle;
+  logic [31:0] answer;
+  logic answer_valid, answer_ready, answer_under_way;
+  block_answer #(.NUM_PE(NUM_PE), .CLOCK_KHZ(CLOCK_KHZ), .MAX_POINTS(MAX_POINTS)) answers (
+      .clk, .aresetn, .request_valid, .request_ready, .request_kind, .request_list, .request_empty,
+      .request_count, .counters({idle, stalled, busy}), .nearest_tdata, .nearest_tlast, .nearest_tvalid,
+      .nearest_tready, .worst_tdata, .worst_tvalid, .worst_tready, .word(answer),
+      .word_valid(answer_valid), .word_ready(answer_ready), .under_way(answer_under_way));
+
+  axis_register #(.WIDTH(32)) answer_register (
+      .clk, .aresetn, .s_axis_tdata(answer), .s_axis_tvalid(answer_valid),
+      .s_axis_tready(answer_ready), .m_axis_tdata(m_axis_answer_tdata),
+      .m_axis_tvalid(m_axis_answer_tvalid), .m_axis_tready(m_axis_answer_tready));
+
+  // Every cycle since the reset counts once.
+  logic now_busy, now_stalled;
+  assign under_way = word_valid || decoder_under_way || !sequencer_idle || answer_under_way || m_axis_answer_tvalid;
+  always_ff @(posedge clk) begin
+    now_busy <= pair_taken;
+    now_stalled <= !pair_taken && under_way;
+    if (!aresetn) {busy, stalled, idle} <= '0;
+    else if (now_busy) busy <= busy + 1'b1;
+    else if (now_stalled) stalled <= stalled + 1'b1;
+    else idle <= idle + 1'b1;
+  end
+endmodule

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "sw_model/device.h"
+
+namespace emax {
+
+// Runs another device in a thread of its own, so that the caller prepares blocks while earlier ones
+// are sent and computed. Words, their order and the counters are those of the other device.
+//
+// send() waits only while `most_words` or more are queued. An answer is fetched when it is awaited
+// and nothing is queued: the calls of the other device, and so its counts, do not depend on timing.
+// An exception of the other device comes out of the next send() or receive() that needs
+// the device. The end waits for the call that is under way, not for the queue.
+class QueuedDevice : public Device {
+ public:
+  static constexpr std::size_t kMostWords = std::size_t{1} << 22;
+
+  explicit QueuedDevice(std::unique_ptr<Device> device, std::size_t most_words = kMostWords);
+  ~QueuedDevice() override;
+  QueuedDevice(const QueuedDevice&) = delete;
+  QueuedDevice& operator=(const QueuedDevice&) = delete;
+
+  std::string name() const override { return device_->name(); }
+  void send(std::span<const Word> words) override;
+  void receive(std::span<Word> words) override;
+  // Waits until nothing is queued, so that equal calls give equal counts.
+  DeviceCounters counters() const override;
+
+ private:
+  void work();
+  void send_some(std::unique_lock<std::mutex>& lock);
+  void fetch_answer(std::unique_lock<std::mutex>& lock);
+  bool may_fetch() const { return due_ > 0 && answers_.size() < awaited_; }
+  bool idle() const { return failure_ || (!working_ && queue_.empty() && !may_fetch()); }
+  std::size_t questions_in(const std::vector<Word>& words);
+
+  const std::unique_ptr<Device> device_;
+  const std::size_t most_words_;
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::deque<Word> queue_, answers_;
+  std::size_t due_ = 0;      // answers to what was sent, not yet fetched
+  bool working_ = false;     // in a call of the device
+  std::size_t awaited_ = 0;  // words, by receive()
+  bool ending_ = false;
+  std::exception_ptr failure_;
+
+  std::size_t command_missing_ = 0;  // words, at the end of what was sent
+  std::thread thread_;               // last: it uses all of the above
+};
+
+}  // namespace emax

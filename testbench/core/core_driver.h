@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "testbench/core/core_simulation.h"
+#include "testbench/stream_pattern.h"
+
+namespace emax {
+
+// How the core's two streams behave.
+struct CorePatterns {
+  Pattern commands = Pattern::kAlways;
+  Pattern answers = Pattern::kAlways;
+  std::uint64_t seed = 1;
+};
+
+// Drives the words in and gives what the core answers until nothing is under way. `cycles`, when
+// given, grows by the cycles it took. Throws Error when the core hangs or an assertion of the
+// design fails.
+std::vector<Word> run_core(CoreSimulation& core, std::span<const Word> words,
+                           const CorePatterns& patterns = {}, std::uint64_t* cycles = nullptr);
+
+// What the C++ top answers to whole commands.
+std::vector<Word> answers_of_kernel(std::span<const Word> words);
+
+}  // namespace emax

@@ -1,0 +1,41 @@
+// The core (hls/rtl/core/emax_core.sv) as the testbench sees it: its two streams of words, one
+// clock cycle at a time, whichever Verilated variant stands behind.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "hls/kernel/word.h"
+
+namespace emax {
+
+// The registered outputs in the present cycle.
+struct CoreOutputs {
+  bool command_ready;
+  bool answer_valid;
+  bool under_way;
+  Word answer;
+};
+
+class CoreSimulation {
+ public:
+  virtual ~CoreSimulation() = default;
+
+  virtual std::uint32_t elements() const = 0;
+  virtual CoreOutputs outputs() const = 0;
+  // Inputs of the present cycle; null is no word. What is set stays until it is set anew.
+  virtual void offer_command(const Word* word) = 0;
+  virtual void set_answer_ready(bool ready) = 0;
+  // The rising edge that ends the present cycle; with `reset`, aresetn is low at it.
+  virtual void clock(bool reset = false) = 0;
+  // An assertion of the design failed since the start.
+  virtual bool assertion_failed() const = 0;
+  // Of a mutation build: the active mutant; 0 is the unchanged design. Throws std::logic_error
+  // elsewhere.
+  virtual void set_mutant(std::uint32_t mutant) = 0;
+};
+
+// The mutation build, of two elements. In the library emax_mutated_core.
+std::unique_ptr<CoreSimulation> make_mutated_core();
+
+}  // namespace emax

@@ -1,0 +1,16 @@
+#include <Vemax_core_mutated.h>
+#include <Vemax_core_mutated___024root.h>
+#include <Vemax_core_mutated_emax_mutation.h>
+
+#include "testbench/core/verilated_core.h"
+
+namespace emax {
+
+std::unique_ptr<CoreSimulation> make_mutated_core() {
+  const auto set_active = [](Vemax_core_mutated& model, std::uint32_t mutant) {
+    model.rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
+  };
+  return std::make_unique<VerilatedCore<Vemax_core_mutated, 2>>(set_active);
+}
+
+}  // namespace emax

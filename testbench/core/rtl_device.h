@@ -1,0 +1,37 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <span>
+
+#include "sw_model/device.h"
+#include "testbench/core/core_simulation.h"
+
+namespace emax {
+
+// The `rtl` device: the Verilated core, clocked while words go in and while an answer is awaited.
+// Its cycles are what the core counts (kCounters).
+class RtlDevice : public Device {
+ public:
+  explicit RtlDevice(std::unique_ptr<CoreSimulation> core);
+
+  std::string name() const override { return "rtl"; }
+  void send(std::span<const Word> words) override;
+  void receive(std::span<Word> words) override;
+  DeviceCounters counters() const override { return {}; }
+
+ private:
+  void clock(const Word* word);
+
+  std::unique_ptr<CoreSimulation> core_;
+  std::deque<Word> answers_;
+};
+
+// The numbers of elements that are built.
+std::span<const std::uint32_t> rtl_element_counts();
+
+// Throws Error naming them for any other.
+std::unique_ptr<CoreSimulation> make_core(std::uint32_t elements);
+std::unique_ptr<Device> make_rtl_device(std::uint32_t elements = 1);
+
+}  // namespace emax
