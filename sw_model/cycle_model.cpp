@@ -11,13 +11,14 @@ namespace {
 
 // The core's own figures, in cycles; tests compare the first two with the generated datapath and
 // the sum of all with the Verilated core.
-constexpr std::uint64_t kLatency = 142;                  // of the distance
-constexpr std::uint64_t kLastRead = 98;                  // when a pair reads its record last
-constexpr std::uint64_t kLeastRows = 5;                  // of a pass
-constexpr std::uint64_t kSlotAfterPass = kLastRead + 5;  // a slot is free again
+constexpr std::uint64_t kLatency = 142;                   // of the distance
+constexpr std::uint64_t kLastRead = 98;                   // when a pair reads its record last
+constexpr std::uint64_t kLeastRows = 5;                   // of a pass
+constexpr std::uint64_t kSlotAfterPass = kLastRead + 14;  // a slot is free again
+constexpr std::uint64_t kRecordHandover = 2;
 constexpr std::uint64_t kPassAfterRecord = 2;
 constexpr std::uint64_t kPassAfterReduce = 3;
-constexpr std::uint64_t kAnswerAfterPair = kLatency + 12;
+constexpr std::uint64_t kAnswerAfterPair = kLatency + 20;
 constexpr std::uint64_t kOutputRoom = 255;  // words in an element's output
 constexpr std::uint64_t kGather = 2;        // per element
 constexpr std::uint64_t kAnswerOverhead = 4;
@@ -59,8 +60,9 @@ void CycleModel::stream_records(std::uint64_t records) {
     return;
   }
   for (std::uint64_t i = 0; i < records; ++i) {
-    next_word_ = std::max(next_word_, record_gone_) + kRecordWords;
-    record_gone_ = std::max(next_word_, slot_free_[records_ % kSlots]);
+    next_word_ = std::max(next_word_, record_moved_) + kRecordWords;
+    record_moved_ = std::max(next_word_, record_gone_ + 1);
+    record_gone_ = std::max(record_moved_ + kRecordHandover, slot_free_[records_ % kSlots]);
     ++records_;
     if (record_waits_) pass(record_gone_ + kPassAfterRecord);
     record_waits_ = true;

@@ -49,7 +49,8 @@ class CycleModel {
   std::uint64_t elements_;
   std::uint64_t points_ = 0, rows_ = 0;  // of the block; rows of a pass
   std::uint64_t next_word_ = 0;          // when the decoder can take one
-  std::uint64_t record_gone_ = 0;        // when the record assembled last left for the ring
+  std::uint64_t record_moved_ = 0;       // when the record assembled last made room for the next
+  std::uint64_t record_gone_ = 0;        // when it left for the rings
   bool record_waits_ = false;            // of the block, for its successor
   std::uint64_t pass_end_ = 0, answer_end_ = 0;
   std::uint64_t records_ = 0, passes_ = 0;

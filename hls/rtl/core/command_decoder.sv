@@ -20,7 +20,7 @@ module command_decoder #(
     output logic [NUM_PE-1:0]   point_write,
     output logic [ROW_BITS-1:0] point_row,
     output logic [95:0]         point,
-    // To the elements.
+    // To the elements: a record is there from record_valid on until the cycle after record_taken.
     output logic [639:0]        record,
     output logic                record_valid,
     input  logic                record_taken,
@@ -51,39 +51,52 @@ module command_decoder #(
   logic [10:0] points;  // of the block
   logic [23:0] items;   // of the payload that are still to come
   logic [4:0] left;     // words of the present item after this one
+  logic [639:0] assembled;  // the next record, word by word
+  logic assembled_full, move;
   logic [NUM_PE-1:0] to_element;
   logic [ROW_BITS-1:0] next_row;
   logic skips_records;
 
   logic [7:0] opcode;
   logic [23:0] count;
-  logic asks, may_begin, last_word, fits;
+  logic asks, may_begin, last_word, fits, take_record, take_header;
   assign opcode = word[31:24];
   assign count = word[23:0];
   assign asks = opcode == IDENTIFY || opcode == REDUCE || opcode == COUNTERS;
   assign fits = count <= `MUTATED(ONE_POINT_TOO_MANY, 24'(MAX_POINTS), 24'(MAX_POINTS + 1));
   // A block that is given up is dropped first; `drop` goes out once, then its header waits.
   assign may_begin = opcode == LOAD_POINTS ? sequencer_idle && !finish && !drop && !block
-      : opcode == REDUCE ? request_ready && !record_valid && !finish
+      : opcode == REDUCE ? request_ready && !assembled_full && !record_valid && !finish
       : asks ? request_ready : 1'b1;
   assign last_word = left == '0;
 
-  assign take = word_valid && (state == HEADER ? may_begin : state != RECORD || !record_valid || record_taken);
-  assign under_way = state != HEADER || block || record_valid;
+  // Apart, so that nothing but registers beside it enables the 640 bits of a record.
+  assign take_record = word_valid && state == RECORD && (!assembled_full || move);
+  assign take_header = word_valid && state == HEADER && may_begin;
+  assign take = take_record || take_header || (word_valid && (state == POINTS || state == SKIP));
+  assign move = assembled_full && !record_valid;
+  assign under_way = state != HEADER || block || assembled_full || record_valid;
 
   always_ff @(posedge clk) begin
     point_write   <= '0;
     finish        <= 1'b0;
     drop          <= 1'b0;
     request_valid <= 1'b0;
-    if (record_taken) record_valid <= 1'b0;
+    if (move) begin
+      record <= assembled;
+      record_valid <= 1'b1;
+      assembled_full <= 1'b0;
+    end else if (record_taken) begin
+      record_valid <= 1'b0;
+    end
 
-    if (word_valid && state == HEADER && opcode == LOAD_POINTS && block && !record_valid) begin
+    if (word_valid && state == HEADER && opcode == LOAD_POINTS && block && !assembled_full
+        && !record_valid) begin
       block <= 1'b0;
       drop  <= met;
     end
 
-    if (take && state == HEADER) begin
+    if (take_header) begin
       items <= count - 1'b1;
       left  <= opcode == RECORDS ? 5'd19 : 5'd2;
       request_list  <= count[0];
@@ -135,15 +148,15 @@ module command_decoder #(
         if (to_element[NUM_PE-1]) next_row <= next_row + 1'b1;
       end
     end
-    if (take && state == HEADER) begin
+    if (take_header) begin
       to_element <= NUM_PE'(1);
       next_row <= '0;
       skips_records <= opcode == RECORDS;
     end
 
-    if (take && state == RECORD) begin
-      record <= {word, record[639:32]};
-      record_valid <= last_word;
+    if (take_record) begin
+      assembled <= {word, assembled[639:32]};
+      if (last_word) assembled_full <= 1'b1;
       met <= 1'b1;
     end
 
@@ -152,6 +165,7 @@ module command_decoder #(
       fault <= '0;
       block <= 1'b0;
       met   <= 1'b0;
+      assembled_full <= 1'b0;
       record_valid  <= 1'b0;
       point_write   <= '0;
       finish        <= 1'b0;

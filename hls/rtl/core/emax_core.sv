@@ -6,8 +6,9 @@
 //                                        ▼                             │           ▼
 //                                   block_memory × NUM_PE ──► pair_sequencer    block_answer ─► m_axis_answer
 //
-// All elements take the same beat in the same cycle: their rows of points and their rings of records
-// stay in step, so one sequencer serves them all. A row a cycle while the next record's words come.
+// One sequencer serves all elements: it reads a row of points for all of them at once, into a FIFO
+// before each, while those have room; a record goes to all of them when all have room for it. What
+// crosses the chip between them does so between registers.
 module emax_core #(
     parameter int NUM_PE = 1,
     parameter int CLOCK_KHZ = 0  // 0: not known
@@ -26,6 +27,7 @@ module emax_core #(
   localparam int ROWS = (MAX_POINTS + NUM_PE - 1) / NUM_PE;
   localparam int ROW_BITS = ROWS > 8 ? $clog2(ROWS) : 3;  // a pass has at least five rows
   localparam int SLOT_BITS = 4;
+  localparam int PAIR_BITS = 5;  // of the FIFO before an element
 
   if (NUM_PE < 1 || NUM_PE > 512) begin : bad_elements
     $error("emax_core: NUM_PE must be 1 to 512");
@@ -52,41 +54,81 @@ module emax_core #(
       .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
       .under_way(decoder_under_way));
 
-  logic step, pair_valid, pair_taken, pair_first, pair_next_record;
+  logic room, issue, pair_valid, pair_first, pair_next_record;
   logic [ROW_BITS-1:0] row, pair_row;
   logic [NUM_PE-1:0] pair_final, pair_last;
   pair_sequencer #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .SLOT_BITS(SLOT_BITS)) sequencer (
       .clk, .aresetn, .last_row, .last_row_in, .record_taken, .finish, .drop, .idle(sequencer_idle),
-      .step, .row, .pair_valid, .pair_taken, .pair_row, .pair_first, .pair_next_record, .pair_final,
+      .room, .issue, .row, .pair_valid, .pair_row, .pair_first, .pair_next_record, .pair_final,
       .pair_last);
 
-  logic [NUM_PE-1:0] record_tready, point_tready, nearest_tlast, nearest_tvalid, nearest_tready;
+  logic [NUM_PE-1:0] record_tready, room_next, nearest_tlast, nearest_tvalid, nearest_tready;
   logic [NUM_PE-1:0] worst_tvalid, worst_tready;
   logic [32*NUM_PE-1:0] nearest_tdata;
   logic [64*NUM_PE-1:0] worst_tdata;
-  assign record_taken = record_valid && (&record_tready);
-  assign pair_taken = pair_valid && (&point_tready);
+  logic reset;
+  always_ff @(posedge clk) begin
+    reset <= !aresetn;
+    room <= aresetn && !reset && (&room_next);
+  end
+
+  // Rings that have room keep it until a record comes: their word may be three cycles old, if three
+  // cycles pass after each record.
+  logic rings_ready;
+  logic [2:0] since_record;
+  always_ff @(posedge clk) begin
+    rings_ready <= &record_tready;
+    record_taken <= aresetn && record_valid && rings_ready && !record_taken && since_record == '0;
+    since_record <= {since_record[1:0], record_taken};
+    if (!aresetn) since_record <= '0;
+  end
+`ifndef SYNTHESIS
+  always_ff @(posedge clk) begin
+    assert (!record_taken || &record_tready) else $error("a record came to a ring without room");
+  end
+`endif
 
   for (genvar p = 0; p < NUM_PE; p++) begin : elements
-    logic [95:0] pair_point;
+    logic [95:0] pair_point, point_tdata;
     for (genvar axis = 0; axis < 3; axis++) begin : points
       block_memory #(.WIDTH(32), .ADDRESS_BITS(ROW_BITS)) memory (
           .clk, .write_enable(point_write[p]), .write_address(point_row),
-          .write_data(point[32*axis+:32]), .read_enable(step), .read_address(row),
-          .output_enable(step), .read_data(pair_point[32*axis+:32]));
+          .write_data(point[32*axis+:32]), .read_enable(1'b1), .read_address(row),
+          .output_enable(1'b1), .read_data(pair_point[32*axis+:32]));
     end
+
+    logic [ROW_BITS+2:0] point_tuser;
+    logic point_tlast, point_tvalid, point_tready;
+    axis_fifo #(.WIDTH(ROW_BITS + 100), .DEPTH_BITS(PAIR_BITS)) pairs (
+        .clk, .aresetn, .reset, .push(pair_valid),
+        .push_data({pair_last[p], pair_first, pair_final[p], pair_next_record, pair_row, pair_point}),
+        .m_axis_tdata({point_tlast, point_tuser, point_tdata}), .m_axis_tvalid(point_tvalid),
+        .m_axis_tready(point_tready));
+    credit_counter #(.CREDIT_BITS(PAIR_BITS)) credit (
+        .clk, .reset, .take(issue), .give(point_tvalid && point_tready), .room_next(room_next[p]));
+
+    logic [31:0] element_nearest;
+    logic [63:0] element_worst;
+    logic last, nearest_valid, nearest_ready, worst_valid, worst_ready;
     emax_element #(.POINT_BITS(ROW_BITS), .SLOT_BITS(SLOT_BITS)) element (
         .clk, .aresetn,
         .s_axis_record_tdata(record), .s_axis_record_tvalid(record_taken),
         .s_axis_record_tready(record_tready[p]),
-        .s_axis_point_tdata(pair_point),
-        .s_axis_point_tuser({pair_first, pair_final[p], pair_next_record, pair_row}),
-        .s_axis_point_tlast(pair_last[p]), .s_axis_point_tvalid(pair_taken),
-        .s_axis_point_tready(point_tready[p]),
-        .m_axis_nearest_tdata(nearest_tdata[32*p+:32]), .m_axis_nearest_tlast(nearest_tlast[p]),
-        .m_axis_nearest_tvalid(nearest_tvalid[p]), .m_axis_nearest_tready(nearest_tready[p]),
-        .m_axis_worst_tdata(worst_tdata[64*p+:64]), .m_axis_worst_tvalid(worst_tvalid[p]),
-        .m_axis_worst_tready(worst_tready[p]));
+        .s_axis_point_tdata(point_tdata), .s_axis_point_tuser(point_tuser),
+        .s_axis_point_tlast(point_tlast), .s_axis_point_tvalid(point_tvalid),
+        .s_axis_point_tready(point_tready),
+        .m_axis_nearest_tdata(element_nearest), .m_axis_nearest_tlast(last),
+        .m_axis_nearest_tvalid(nearest_valid), .m_axis_nearest_tready(nearest_ready),
+        .m_axis_worst_tdata(element_worst), .m_axis_worst_tvalid(worst_valid),
+        .m_axis_worst_tready(worst_ready));
+    axis_register #(.WIDTH(33)) nearest (
+        .clk, .aresetn, .s_axis_tdata({last, element_nearest}), .s_axis_tvalid(nearest_valid),
+        .s_axis_tready(nearest_ready), .m_axis_tdata({nearest_tlast[p], nearest_tdata[32*p+:32]}),
+        .m_axis_tvalid(nearest_tvalid[p]), .m_axis_tready(nearest_tready[p]));
+    axis_register #(.WIDTH(64)) worst (
+        .clk, .aresetn, .s_axis_tdata(element_worst), .s_axis_tvalid(worst_valid),
+        .s_axis_tready(worst_ready), .m_axis_tdata(worst_tdata[64*p+:64]),
+        .m_axis_tvalid(worst_tvalid[p]), .m_axis_tready(worst_tready[p]));
   end
 
   logic [63:0] busy, stalled, idle;
@@ -107,8 +149,8 @@ module emax_core #(
   logic now_busy, now_stalled;
   assign under_way = word_valid || decoder_under_way || !sequencer_idle || answer_under_way || m_axis_answer_tvalid;
   always_ff @(posedge clk) begin
-    now_busy <= pair_taken;
-    now_stalled <= !pair_taken && under_way;
+    now_busy <= issue;
+    now_stalled <= !issue && under_way;
     if (!aresetn) {busy, stalled, idle} <= '0;
     else if (now_busy) busy <= busy + 1'b1;
     else if (now_stalled) stalled <= stalled + 1'b1;

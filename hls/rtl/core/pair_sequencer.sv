@@ -7,9 +7,9 @@
 // hold. `drop` sends the records that wait through the elements with a pair each.
 //
 //   cycle  0     1        2
-//          row   (fetch)  pair offered, with the memories' read_data
+//          row   (fetch)  pair, with the memories' read_data
 //
-// All three stand still together while a pair waits (`step` low).
+// Nothing stops a row on its way: `room` of the elements' FIFOs, a register, lets it begin.
 `include "mutation.svh"
 
 module pair_sequencer #(
@@ -25,12 +25,11 @@ module pair_sequencer #(
     input  logic                record_taken,
     input  logic                finish,
     input  logic                drop,
-    output logic                idle,  // no record waits and no row is to be read any more
-    output logic                step,
+    output logic                idle,  // a cycle late: no record waits and no row is to be read
+    input  logic                room,
+    output logic                issue,  // a row begins
     output logic [ROW_BITS-1:0] row,
-    // The pair offered.
     output logic                pair_valid,
-    input  logic                pair_taken,
     output logic [ROW_BITS-1:0] pair_row,
     output logic                pair_first,
     output logic                pair_next_record,
@@ -45,19 +44,25 @@ module pair_sequencer #(
   logic [ROW_BITS-1:0] end_row;
   logic [NUM_PE-1:0] here;  // the elements with a point in this row
 
-  assign step = !pair_valid || pair_taken;
-  assign end_row = dropping_pass ? '0
-      : `MUTATED(PASS_NOT_PADDED, last_row < LEAST_LAST ? LEAST_LAST : last_row, last_row);
-  assign ends = passing && step && row == end_row;
+  assign issue = passing && room;
+  assign ends = issue && row == end_row;
   assign more = `MUTATED(LAST_RECORD_NOT_HELD, finishing || dropping, 1'b1) ? waiting != '0 : waiting > 1;
   assign begins = more && (ends || !passing);
   assign here = row < last_row ? '1 : row == last_row ? last_row_in
       : `MUTATED(PADDING_IS_FINAL, '0, last_row_in);
-  assign idle = !passing && !finishing && !dropping && waiting == '0;
+
+  // The points are there long before the first record is.
+  logic [ROW_BITS-1:0] last_padded;
+  always_ff @(posedge clk) begin
+    last_padded <= `MUTATED(PASS_NOT_PADDED, last_row < LEAST_LAST ? LEAST_LAST : last_row, last_row);
+    if (begins) end_row <= dropping ? '0 : last_padded;
+    // A block that met a record has one waiting from long before it is finished or dropped.
+    idle <= aresetn && !passing && !finishing && !dropping && waiting == '0;
+  end
 
   always_ff @(posedge clk) begin
     waiting <= waiting + (SLOT_BITS + 1)'(record_taken) - (SLOT_BITS + 1)'(begins);
-    if (passing && step) row <= row + 1'b1;
+    if (issue) row <= row + 1'b1;
     if (ends) begin
       passing    <= 1'b0;
       first_pass <= final_pass || dropping_pass;
@@ -96,19 +101,12 @@ module pair_sequencer #(
       : row + 1'b1 == last_row ? ~last_row_in : '0;
 
   always_ff @(posedge clk) begin
-    if (step) begin
-      {fetch_row, fetch_first, fetch_next_record} <= {row, first_pass || dropping_pass, row == end_row};
-      fetch_final <= {NUM_PE{last_in_block}} & here;
-      fetch_last  <= {NUM_PE{last_in_block}} & last_here;
-      {pair_row, pair_first, pair_next_record} <= {fetch_row, fetch_first, fetch_next_record};
-      {pair_final, pair_last} <= {fetch_final, fetch_last};
-    end
-    if (!aresetn) begin
-      fetch_valid <= 1'b0;
-      pair_valid  <= 1'b0;
-    end else if (step) begin
-      fetch_valid <= passing;
-      pair_valid  <= fetch_valid;
-    end
+    {fetch_row, fetch_first, fetch_next_record} <= {row, first_pass || dropping_pass, row == end_row};
+    fetch_final <= {NUM_PE{last_in_block}} & here;
+    fetch_last  <= {NUM_PE{last_in_block}} & last_here;
+    {pair_row, pair_first, pair_next_record} <= {fetch_row, fetch_first, fetch_next_record};
+    {pair_final, pair_last} <= {fetch_final, fetch_last};
+    fetch_valid <= aresetn && issue;
+    pair_valid  <= aresetn && fetch_valid;
   end
 endmodule

@@ -8,6 +8,7 @@
 #include "host/emax_search/emax_search.h"
 #include "host/geometry/cloud_file.h"
 #include "host/geometry/mesh_file.h"
+#include "sw_model/emax_model.h"
 #include "tests/support/board_program.h"
 
 namespace emax {
@@ -115,6 +116,15 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
   const EmaxResult all = thin("  sample, all pairs", sample, {"rtl", "rtl:pes=4"}, true);
   const EmaxResult searched = thin("  sample", sample, {"rtl", "tty:" + board}, false);
   EXPECT_EQ(all, searched);
+  // Every point's own bits.
+  const PreparedCloud cloud(every(scan, sample));
+  const TriangleTree tree(mesh.view(), cloud.normalization());
+  const auto expected = nearest_squared_bits(cloud.points(), tree.records());
+  for (const std::string& device :
+       {std::string("cpu"), std::string("sim"), std::string("rtl:pes=2"), "tty:" + board}) {
+    const auto evaluator = make_evaluator(DeviceAddress::parse(device));
+    EXPECT_EQ(search_nearest(cloud, tree, *evaluator), expected) << device;
+  }
 }
 
 TEST(Devices, AgreeOnRealScans) {
