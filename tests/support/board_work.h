@@ -24,6 +24,7 @@ struct BoardKind {
   std::size_t blocks, points, records;
   std::function<Board()> make;
 
+  // GoogleTest calls it by this name. NOLINTNEXTLINE(readability-identifier-naming)
   friend void PrintTo(const BoardKind& kind, std::ostream* out) { *out << kind.name; }
 };
 
