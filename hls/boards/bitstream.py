@@ -7,13 +7,12 @@ written.
 
 import argparse
 import shutil
-import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from synthesis import designs, document
-from synthesis.tools import Background, Failure, Runner
+from synthesis.tools import Background, Failure, Runner, run_command
 
 FOLDER = Path("build/bitstream")
 DOCUMENT = Path("docs/synthesis.md")
@@ -115,10 +114,4 @@ def main():
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
-    try:
-        sys.exit(main())
-    except Failure as failure:
-        sys.exit(f"bitstream: {failure}")
-    except KeyboardInterrupt:
-        sys.exit("bitstream: stopped; what was done stays in build/synth")
+    run_command("bitstream", main)

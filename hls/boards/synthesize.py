@@ -6,14 +6,13 @@ only). Writes docs/synthesis.md and compares with the checked-in baseline.
 
 import argparse
 import json
-import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from synthesis import baseline, designs, document
-from synthesis.tools import FOLDER, Background, Failure, Runner
+from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
 SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
 FORMS = ["visible_edge", "three_edge", "barycentric"]
@@ -232,10 +231,4 @@ def main():
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
-    try:
-        sys.exit(main())
-    except Failure as failure:
-        sys.exit(f"synth: {failure}")
-    except KeyboardInterrupt:
-        sys.exit("synth: stopped; what was done stays in build/synth")
+    run_command("synth", main)

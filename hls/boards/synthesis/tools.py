@@ -194,3 +194,15 @@ class Background:
         if self.failures:
             self.runner.stop()
             raise self.failures[0]
+
+
+def run_command(name, main):
+    """Ends the program with main's exit code, or with one line that says why it stopped. SIGTERM counts
+    as Ctrl-C."""
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    try:
+        sys.exit(main())
+    except Failure as failure:
+        sys.exit(f"{name}: {failure}")
+    except KeyboardInterrupt:
+        sys.exit(f"{name}: stopped; what was done stays in build/synth")
