@@ -1,5 +1,6 @@
 #include "sw_model/commands.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
@@ -73,6 +74,18 @@ std::size_t payload_words(Word header) {
 bool is_answered(Word header) {
   const Word opcode = header_opcode(header);
   return opcode == kReduce || opcode == kIdentify || opcode == kCounters;
+}
+
+CommandCursor::Part CommandCursor::take(std::span<const Word>& words) {
+  const bool begins = missing_ == 0;
+  if (begins) {
+    header_ = words[0];
+    missing_ = 1 + payload_words(header_);
+  }
+  const auto part = words.first(std::min(missing_, words.size()));
+  words = words.subspan(part.size());
+  missing_ -= part.size();
+  return {part, header_, begins, missing_ == 0};
 }
 
 ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points) {

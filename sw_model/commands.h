@@ -20,6 +20,22 @@ std::size_t payload_words(Word header);
 // Whether it is answered; such a command has no payload.
 bool is_answered(Word header);
 
+// Finds the commands in a stream of words that arrives in any cuts.
+class CommandCursor {
+ public:
+  struct Part {
+    std::span<const Word> words;  // of one command, its header included
+    Word header;
+    bool begins, ends;  // whether the command does here
+  };
+  // Takes the next part off `words`, which are not empty.
+  Part take(std::span<const Word>& words);
+
+ private:
+  Word header_ = 0;
+  std::size_t missing_ = 0;  // words of that command
+};
+
 struct ReduceAnswer {
   std::uint32_t squared_bits;
   std::uint32_t worst;                             // index in the block

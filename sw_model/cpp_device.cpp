@@ -1,18 +1,15 @@
 #include "sw_model/cpp_device.h"
 
-#include "sw_model/commands.h"
 #include "sw_model/error.h"
 
 namespace emax {
 
 void CppDevice::send(std::span<const Word> words) {
-  for (const Word word : words) {
-    if (words_missing_ == 0) {
-      account(word);
-      words_missing_ = 1 + payload_words(word);
-    }
-    commands_.write(word);
-    if (--words_missing_ == 0) kernel_.serve(commands_, answers_);
+  while (!words.empty()) {
+    const CommandCursor::Part part = cursor_.take(words);
+    if (part.begins) account(part.header);
+    for (const Word word : part.words) commands_.write(word);
+    if (part.ends) kernel_.serve(commands_, answers_);
   }
 }
 

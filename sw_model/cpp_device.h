@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "hls/kernel/emax_kernel.h"
+#include "sw_model/commands.h"
 #include "sw_model/cycle_model.h"
 #include "sw_model/device.h"
 #include "sw_model/flushed_float.h"
@@ -26,7 +27,7 @@ class CppDevice : public Device {
 
   EmaxKernel<FlushedFloat> kernel_;
   Stream<Word> commands_, answers_;
-  std::size_t words_missing_ = 0;  // of the command at the end of commands_
+  CommandCursor cursor_;
   CycleModel cycles_;
 };
 

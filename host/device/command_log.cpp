@@ -2,29 +2,19 @@
 
 #include <algorithm>
 
-#include "sw_model/commands.h"
-
 namespace emax {
 
 void CommandLog::append(std::span<const Word> words) {
   unsent_ += words.size();
   while (!words.empty()) {
-    const bool begins = command_missing_ == 0;
-    if (begins) {
-      header_ = words[0];
-      command_missing_ = 1 + payload_words(header_);
-      if (units_.empty() || units_.back().complete) units_.emplace_back();
-    }
+    const CommandCursor::Part part = cursor_.take(words);
+    if (part.begins && (units_.empty() || units_.back().complete)) units_.emplace_back();
     Unit& unit = units_.back();
-    const bool alone = begins && unit.words.empty();
-    const auto part = words.first(std::min(command_missing_, words.size()));
-    unit.words.insert(unit.words.end(), part.begin(), part.end());
-    words = words.subspan(part.size());
-    command_missing_ -= part.size();
-    if (command_missing_ > 0) continue;
-    if (!is_answered(header_)) continue;
+    const bool alone = unit.words.empty();
+    unit.words.insert(unit.words.end(), part.words.begin(), part.words.end());
+    if (!part.ends || !is_answered(part.header)) continue;
     unit.questions.push_back(unit.words.size());
-    unit.complete = header_opcode(header_) == kReduce || alone;
+    unit.complete = header_opcode(part.header) == kReduce || alone;
     ++due_;
   }
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hls/kernel/word.h"
+#include "sw_model/commands.h"
 
 namespace emax {
 
@@ -44,8 +44,7 @@ class CommandLog {
   bool finish_answer();
 
   std::deque<Unit> units_;  // only the last one may be incomplete
-  std::size_t command_missing_ = 0;
-  Word header_ = 0;  // of the command at the end
+  CommandCursor cursor_;
   std::size_t unsent_ = 0, due_ = 0;
   std::vector<Word> answer_;  // the one that is arriving
   std::size_t answer_missing_ = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sw_model/commands.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -111,16 +110,11 @@ void QueuedDevice::fetch_answer(std::unique_lock<std::mutex>& lock) {
 }
 
 // Commands that end in these words and are answered.
-std::size_t QueuedDevice::questions_in(const std::vector<Word>& words) {
+std::size_t QueuedDevice::questions_in(std::span<const Word> words) {
   std::size_t questions = 0;
-  for (std::size_t i = 0; i < words.size();) {
-    if (command_missing_ == 0) {
-      command_missing_ = 1 + payload_words(words[i]);
-      if (is_answered(words[i])) ++questions;  // it has no payload
-    }
-    const std::size_t count = std::min(command_missing_, words.size() - i);
-    command_missing_ -= count;
-    i += count;
+  while (!words.empty()) {
+    const CommandCursor::Part part = cursor_.take(words);
+    if (part.ends && is_answered(part.header)) ++questions;
   }
   return questions;
 }

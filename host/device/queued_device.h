@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "sw_model/commands.h"
 #include "sw_model/device.h"
 
 namespace emax {
@@ -41,7 +42,7 @@ class QueuedDevice : public Device {
   void fetch_answer(std::unique_lock<std::mutex>& lock);
   bool may_fetch() const { return due_ > 0 && answers_.size() < awaited_; }
   bool idle() const { return failure_ || (!working_ && queue_.empty() && !may_fetch()); }
-  std::size_t questions_in(const std::vector<Word>& words);
+  std::size_t questions_in(std::span<const Word> words);
 
   const std::unique_ptr<Device> device_;
   const std::size_t most_words_;
@@ -55,8 +56,8 @@ class QueuedDevice : public Device {
   bool ending_ = false;
   std::exception_ptr failure_;
 
-  std::size_t command_missing_ = 0;  // words, at the end of what was sent
-  std::thread thread_;               // last: it uses all of the above
+  CommandCursor cursor_;  // in what was sent
+  std::thread thread_;    // last: it uses all of the above
 };
 
 }  // namespace emax

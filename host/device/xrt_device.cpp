@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sw_model/commands.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -16,11 +15,6 @@ constexpr milliseconds kLook{0}, kMoment{1};
 // Without a word for so long, a run of the mover from the core ends and is started anew; or the
 // core has nothing more to say after a reset.
 constexpr milliseconds kPatience{1000}, kQuiet{2};
-
-bool asks_for_answer(Word header) {
-  const Word opcode = header_opcode(header);
-  return opcode == kIdentify || opcode == kReduce || opcode == kCounters;
-}
 
 }  // namespace
 
@@ -78,16 +72,11 @@ void XrtDevice::receive(std::span<Word> words) {
 }
 
 void XrtDevice::gather(std::span<const Word> words) {
-  for (std::size_t i = 0; i < words.size();) {
-    if (command_missing_ == 0) {
-      if (asks_for_answer(words[i])) ++gathered_answers_;
-      command_missing_ = 1 + payload_words(words[i]);
-    }
-    const std::size_t here = std::min(command_missing_, words.size() - i);
-    command_missing_ -= here;
-    i += here;
-  }
   gathered_.insert(gathered_.end(), words.begin(), words.end());
+  while (!words.empty()) {
+    const CommandCursor::Part part = cursor_.take(words);
+    if (part.ends && is_answered(part.header)) ++gathered_answers_;
+  }
 }
 
 void XrtDevice::start_gathered() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/device/card_movers.h"
+#include "sw_model/commands.h"
 #include "sw_model/device.h"
 
 namespace emax {
@@ -50,8 +51,8 @@ class XrtDevice : public Device {
   std::unique_ptr<CardMovers> movers_;
   std::chrono::milliseconds silence_;
   std::vector<Word> gathered_;
-  Word gathered_answers_ = 0;        // that the gathered commands ask for
-  std::size_t command_missing_ = 0;  // words of the command that the latest one began
+  Word gathered_answers_ = 0;  // that the gathered commands ask for
+  CommandCursor cursor_;       // in what was gathered
   std::array<bool, CardMovers::kSlots> moving_ = {};
   std::size_t slot_ = 0;               // of the next transfer
   AnswersDue due_;                     // of all commands whose transfer has started

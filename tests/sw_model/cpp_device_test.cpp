@@ -109,6 +109,49 @@ TEST(Commands, AskForTheCyclesOfADevice) {
   }
 }
 
+TEST(Commands, AreFoundInAnyCutOfTheWords) {
+  test::Random random(11);
+  const std::vector<Vector3<float>> points(5);
+  const std::vector<TriangleRecord<float>> records(3);
+  std::vector<Word> words;
+  std::vector<std::size_t> beginnings;
+  for (int i = 0; i < 200; ++i) {
+    beginnings.push_back(words.size());
+    switch (random.below(4)) {
+      case 0:
+        append_load_points(words, std::span(points).first(random.below(6)));
+        break;
+      case 1:
+        append_records(words, std::span(records).first(random.below(4)));
+        break;
+      case 2:
+        append_reduce(words, true);
+        break;
+      default:
+        words.push_back(command_header(kIdentify, 0));
+    }
+  }
+  beginnings.push_back(words.size());
+
+  CommandCursor cursor;
+  std::size_t taken = 0, command = 0;
+  while (taken < words.size()) {
+    std::span<const Word> cut = std::span(words).subspan(
+        taken, std::min<std::size_t>(1 + random.below(30), words.size() - taken));
+    while (!cut.empty()) {
+      const CommandCursor::Part part = cursor.take(cut);
+      ASSERT_EQ(part.words.data(), &words[taken]);
+      EXPECT_EQ(part.header, words[beginnings[command]]);
+      EXPECT_EQ(part.begins, taken == beginnings[command]);
+      taken += part.words.size();
+      ASSERT_LE(taken, beginnings[command + 1]);
+      EXPECT_EQ(part.ends, taken == beginnings[command + 1]);
+      if (part.ends) ++command;
+    }
+  }
+  EXPECT_EQ(command, beginnings.size() - 1);
+}
+
 TEST(CycleModel, CountsOnePairACyclePerElement) {
   CycleModel one(1), two(2);
   for (CycleModel* model : {&one, &two}) {
