@@ -131,27 +131,31 @@ DistanceBounds point_triangle_distance(const Point& p, const std::array<Point, 3
   return bounds(p, corners);
 }
 
-ExactMesh::ExactMesh(MeshView mesh) {
-  require_no_flush("the exact distance");
-  const std::size_t count = mesh.triangles.size();
-  if (count == 0) throw Error("the mesh has no triangles: no distance to it exists");
-  corners_.reserve(count);
-  std::vector<Point> centres;
-  centres.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
+void require_measurable(MeshView mesh) {
+  if (mesh.triangles.empty()) throw Error("the mesh has no triangles: no distance to it exists");
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t vertex : mesh.triangles[i]) {
       if (vertex >= mesh.vertices.size()) {
         throw std::invalid_argument("triangle " + std::to_string(i) + " names vertex " +
                                     std::to_string(vertex) + ", which does not exist");
       }
-    }
-    const std::array<Point, 3> corners = mesh.corners(i);
-    for (const Point& corner : corners) {
-      if (!(corner.array().abs() < 1e150).all()) {  // also for NaN
+      if (!(mesh.vertices[vertex].array().abs() < 1e150).all()) {  // also for NaN
         throw Error("triangle " + std::to_string(i) +
                     " has a vertex that is not finite or beyond 1e150: correct the mesh");
       }
     }
+  }
+}
+
+ExactMesh::ExactMesh(MeshView mesh) {
+  require_no_flush("the exact distance");
+  require_measurable(mesh);
+  const std::size_t count = mesh.triangles.size();
+  corners_.reserve(count);
+  std::vector<Point> centres;
+  centres.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<Point, 3> corners = mesh.corners(i);
     corners_.push_back(corners);
     centres.push_back(corners[0] / 3 + corners[1] / 3 + corners[2] / 3);
   }

@@ -25,6 +25,10 @@ struct DistanceBounds {
 // Coordinates finite and below 1e150. Throws std::logic_error while flush mode is on. O(1).
 DistanceBounds point_triangle_distance(const Point& p, const std::array<Point, 3>& corners);
 
+// Throws Error for a mesh without triangles or with a vertex that is not finite or beyond 1e150;
+// std::invalid_argument for an index out of range.
+void require_measurable(MeshView mesh);
+
 // A mesh as the oracle searches it: a median-split box tree in binary64. Copies what it needs.
 class ExactMesh {
  public:
@@ -33,8 +37,7 @@ class ExactMesh {
     std::uint32_t triangle;
   };
 
-  // Throws Error for a mesh without triangles or with a vertex that is not finite or beyond 1e150;
-  // std::invalid_argument for an index out of range. O(n log n).
+  // Throws as require_measurable does. O(n log n).
   explicit ExactMesh(MeshView mesh);
 
   // `upper` is the least upper bound over all triangles, the same to the bit as without the tree,
