@@ -1,61 +1,62 @@
 #include "sw_model/emax_simd.h"
 
-#include "hls/kernel/point_triangle.h"
-#include "hls/kernel/reduce.h"
+#include "sw_model/float_bits.h"
 #include "sw_model/flush_mode.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sw_model/emax_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include "sw_model/simd_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace emax {
+namespace HWY_NAMESPACE {
+
+[[gnu::flatten]] void update(const PointArrays& points,
+                             std::span<const TriangleRecord<float>> records,
+                             std::span<std::uint32_t> nearest) {
+  using Real = Lanes<hn::CappedTag<float, 16>>;
+  constexpr std::size_t kAtATime = 16, kLanes = Real::kCount, kVectors = kAtATime / kLanes;
+  alignas(64) float x[kAtATime] = {}, y[kAtATime] = {}, z[kAtATime] = {}, squared[kAtATime] = {};
+  for (std::size_t first = 0; first < nearest.size(); first += kAtATime) {
+    const std::size_t count = HWY_MIN(kAtATime, nearest.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      x[i] = points.x[first + i];
+      y[i] = points.y[first + i];
+      z[i] = points.z[first + i];
+      squared[i] = bits_float(nearest[first + i]);
+    }
+    kernel::Vector3<Real> at[kVectors];
+    Real best[kVectors];
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      at[v] = {Real::load(x + v * kLanes), Real::load(y + v * kLanes), Real::load(z + v * kLanes)};
+      best[v] = Real::load(squared + v * kLanes);
+    }
+    for (const TriangleRecord<float>& record : records) meet(record, at, best);
+    for (std::size_t v = 0; v < kVectors; ++v) best[v].store(squared + v * kLanes);
+    for (std::size_t i = 0; i < count; ++i) nearest[first + i] = float_bits(squared[i]);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace emax
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include "sw_model/simd_targets.h"
 
 namespace emax {
 namespace {
 
-// Compiled once per target below; the compiler vectorises the inner loop.
-[[gnu::always_inline]] inline void update(const PointArrays& points,
-                                          std::span<const TriangleRecord<float>> records,
-                                          std::span<std::uint32_t> nearest) {
-  const float* __restrict x = points.x.data();
-  const float* __restrict y = points.y.data();
-  const float* __restrict z = points.z.data();
-  std::uint32_t* __restrict best = nearest.data();
-  const std::size_t count = nearest.size();
-  for (const TriangleRecord<float>& in_memory : records) {
-    const TriangleRecord<float> record = in_memory;
-    const bool segment = (record.tag & kSegmentFlag) != 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vector3<float> point = {x[i], y[i], z[i]};
-      best[i] = minimum(best[i], to_word(squared_distance(record, segment, point)));
-    }
-  }
-}
-
-#if defined(__x86_64__)
-[[gnu::target("avx512f,avx512vl,avx512dq,prefer-vector-width=512"), gnu::flatten]] void
-update_avx512(const PointArrays& points, std::span<const TriangleRecord<float>> records,
-              std::span<std::uint32_t> nearest) {
-  update(points, records, nearest);
-}
-
-[[gnu::target("avx2"), gnu::flatten]] void update_avx2(
-    const PointArrays& points, std::span<const TriangleRecord<float>> records,
-    std::span<std::uint32_t> nearest) {
-  update(points, records, nearest);
-}
-#endif
-
-[[gnu::flatten]] void update_plain(const PointArrays& points,
-                                   std::span<const TriangleRecord<float>> records,
-                                   std::span<std::uint32_t> nearest) {
-  update(points, records, nearest);
-}
-
 std::vector<SimdTarget> available_targets() {
+  const std::int64_t supported = hwy::SupportedTargets();
   std::vector<SimdTarget> targets;
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq")) {
-    targets.emplace_back("avx512", update_avx512);
-  }
-  if (__builtin_cpu_supports("avx2")) targets.emplace_back("avx2", update_avx2);
-#endif
-  targets.emplace_back("plain", update_plain);
+#define EMAX_TARGET(BIT, NAME, NAMESPACE) \
+  if ((supported & (BIT)) != 0) targets.emplace_back(NAME, NAMESPACE::update);
+  EMAX_FOR_EACH_SIMD_TARGET(EMAX_TARGET)
+#undef EMAX_TARGET
   return targets;
 }
 
@@ -87,3 +88,5 @@ void SimdTarget::update_nearest(const PointArrays& points,
 }
 
 }  // namespace emax
+
+#endif

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hls/kernel/forms/barycentric.h"
+#include "sw_model/frame_arithmetic.h"
 #include "sw_model/mesh_view.h"
 #include "sw_model/normalization.h"
 
@@ -22,8 +23,6 @@ struct TriangleFrame {
   Eigen::Vector2d v3;                        // (y, z) in the frame
   bool segment;
 };
-
-constexpr double kSliverRatio = 1e-6;
 
 // Corners in normalised units. O(1).
 TriangleFrame make_frame(const std::array<Point, 3>& corners);

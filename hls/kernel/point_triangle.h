@@ -11,8 +11,8 @@
 // and among those it is the one with the least |r|; at equal |r| the lower edge number is taken.
 // h1, h2 and h3 are the barycentric coordinates of the paper (section 4), each scaled by a height.
 // 20 multiplications and 18 additions; the order of the operations is part of the numeric contract.
-#pragma once
-
+#ifndef EMAX_HLS_KERNEL_POINT_TRIANGLE_H
+#define EMAX_HLS_KERNEL_POINT_TRIANGLE_H
 #include "hls/kernel/scalar.h"
 #include "hls/kernel/triangle_record.h"
 
@@ -94,3 +94,5 @@ Scalar squared_distance(const TriangleRecord<Scalar>& t, const Condition& segmen
 }
 
 }  // namespace emax
+
+#endif

@@ -2,7 +2,8 @@
 // another kind (flushing, recording) declares the same names beside its own type; they are found by
 // argument. Conditions are never turned into control flow, so a scalar whose comparisons have no
 // truth value still compiles.
-#pragma once
+#ifndef EMAX_HLS_KERNEL_SCALAR_H
+#define EMAX_HLS_KERNEL_SCALAR_H
 
 namespace emax {
 
@@ -32,3 +33,5 @@ struct Vector2 {
 };
 
 }  // namespace emax
+
+#endif

@@ -3,7 +3,8 @@
 // The record holds the translation and rotation that put V1 on the origin, V2 on the z axis and V3
 // in the yz plane (paper, section 4), so that the distance becomes a problem in two dimensions.
 // V1V2 is the longest edge. Lengths are in normalised units; directions have unit length.
-#pragma once
+#ifndef EMAX_HLS_KERNEL_TRIANGLE_RECORD_H
+#define EMAX_HLS_KERNEL_TRIANGLE_RECORD_H
 
 #include <cstdint>
 
@@ -38,3 +39,5 @@ static_assert(sizeof(TriangleRecord<float>) == kRecordWords * 4,
               "a record is 20 words without padding: 3 + 9 + 1 + 3 + 3 + 1");
 
 }  // namespace emax
+
+#endif

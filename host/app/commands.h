@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/app/scan.h"
 
@@ -27,6 +28,11 @@ struct ErrorOptions {
   CommonOptions common;
   std::string mesh;
   std::string max_error;  // empty: only measure
+  bool two_sided = false;
+  std::string reference;          // a mesh or a cloud; empty: the cloud itself
+  std::vector<double> quantiles;  // percent; empty: the usual ones
+  std::size_t worst = 5;
+  std::string color, color_mesh;  // PLY files; empty: none
 };
 int run_error(const ErrorOptions& options);
 

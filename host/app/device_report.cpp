@@ -11,7 +11,9 @@
 
 namespace emax {
 
-std::string describe_counters(const DeviceCounters& counters) {
+std::string describe_counters(const std::optional<DeviceCounters>& counted) {
+  if (!counted) return fmt::format("{} instructions", engine_targets().front().name);
+  const DeviceCounters& counters = *counted;
   std::string text =
       fmt::format("{} blocks, {} pairs", grouped(counters.blocks), grouped(counters.pairs));
   if (counters.words_in > 0) {
@@ -39,10 +41,8 @@ std::string describe_counters(const DeviceCounters& counters) {
 }
 
 void CpuTwin::measure(MeshView mesh, const MeasuredError& by_device) {
-  SearchOptions search;
-  search.interrupted = was_interrupted;
   const auto start = std::chrono::steady_clock::now();
-  const MeasuredError here = constraint_.measure(mesh, cpu_, search);
+  const MeasuredError here = constraint_.measure(mesh, was_interrupted);
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (here.kept != by_device.kept || here.excluded != by_device.excluded) {
     throw DeviceFailure(

@@ -1,82 +1,294 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <numeric>
 
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
+#include "host/emax_search/point_distances.h"
 #include "host/geometry/atomic_file.h"
+#include "host/geometry/cloud_file.h"
+#include "host/geometry/input_file.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/tolerance.h"
 #include "host/optimize/error_constraint.h"
+#include "host/report/error_ply.h"
 #include "host/report/result_json.h"
+#include "host/report/surface_samples.h"
+#include "sw_model/error.h"
 
 namespace emax {
+namespace {
+
+constexpr std::size_t kSurfaceSamples = 100000;
+// How closely the greatest distance of the mesh from its reference is known.
+constexpr double kSurfacePrecision = 1e-3;
+constexpr double kFinest = 1e-6;  // and, where that is nothing, as a share of the width
+constexpr double kDecisionPrecision = 1e-9;
+constexpr std::array<std::string_view, 1> kColorEndings = {".ply"};
+constexpr const char* kStandardOutput = "-";
+
+void check_outputs(const ErrorOptions& options) {
+  const std::string& json = options.common.json;
+  if (!json.empty() && json != kStandardOutput) check_output(json, kJsonEndings);
+  if (!options.color.empty()) check_output(options.color, kColorEndings);
+  if (!options.color_mesh.empty()) check_output(options.color_mesh, kColorEndings);
+  if (!options.color.empty() && options.color == options.color_mesh) {
+    throw Error(options.color + ": --color and --color-mesh name the same file; give two");
+  }
+}
+
+// What the mesh is measured against: a surface, or a cloud as triangles of no size.
+struct Reference {
+  std::string name;
+  bool is_cloud;
+  TriangleMesh mesh;
+};
+
+Reference cloud_reference(std::string name, std::vector<Point> points) {
+  std::vector<Triangle> triangles = triangles_of_points(points.size());
+  return {std::move(name), true, {std::move(points), std::move(triangles)}};
+}
+
+Reference read_reference(const ErrorOptions& options, const Scan& scan) {
+  if (options.reference.empty()) {
+    return cloud_reference(scan.path.string(), scan.cloud.points);
+  }
+  // A file that may hold either is a surface where it has triangles.
+  const std::string ending = lower_case_ending(options.reference);
+  const bool may_be_mesh = std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
+  const bool may_be_cloud = std::ranges::find(cloud_endings(), ending) != cloud_endings().end();
+  if (may_be_mesh && (!may_be_cloud || holds_triangles(options.reference))) {
+    return {options.reference, false, read_mesh(options.reference)};
+  }
+  PointCloud cloud = read_cloud(options.reference, {options.common.skip_invalid});
+  return cloud_reference(options.reference, std::move(cloud.points));
+}
+
+void throw_if_interrupted() {
+  if (was_interrupted()) throw Interrupted{};
+}
+
+// The kernel's distances, by the oracle where a person reads one or it may lie on the other side of
+// the limit.
+class CloudMeasurement {
+ public:
+  CloudMeasurement(const PreparedCloud& prepared, const Scan& scan, const TriangleMesh& mesh)
+      : scan_(scan),
+        exact_(mesh.view()),
+        distances_(point_distances(prepared, mesh.view(), was_interrupted)) {}
+
+  void settle(double limit, double margin) {
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      if (std::abs(distances_[i] - limit) <= margin) {
+        distances_[i] = exact_.distance(scan_.cloud.points[i]).upper;
+      }
+    }
+  }
+
+  CloudErrors errors(const std::vector<double>& quantiles, std::size_t worst,
+                     std::optional<double> limit) {
+    std::vector<std::uint32_t> order(distances_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    // One even where none is asked for: it is the maximum.
+    const auto shown = order.begin() +
+                       static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(worst, 1, order.size()));
+    const auto farther = [this](std::uint32_t a, std::uint32_t b) {
+      return distances_[a] != distances_[b] ? distances_[a] > distances_[b] : a < b;
+    };
+    std::ranges::partial_sort(order, shown, farther);
+    std::vector<FarPoint> farthest;
+    for (auto at = order.begin(); at != shown; ++at) {
+      const ExactMesh::Nearest nearest = exact_.nearest(scan_.cloud.points[*at]);
+      distances_[*at] = nearest.distance.upper;
+      farthest.push_back({scan_.cloud.index_in_file(*at), scan_.cloud.points[*at],
+                          nearest.distance.upper, nearest.triangle});
+    }
+    std::ranges::stable_sort(
+        farthest, [](const FarPoint& a, const FarPoint& b) { return a.distance > b.distance; });
+    farthest.resize(std::min(worst, farthest.size()));
+    return {statistics_of(distances_, quantiles, limit), std::move(farthest)};
+  }
+
+  std::span<const double> distances() const { return distances_; }
+
+ private:
+  const Scan& scan_;
+  ExactMesh exact_;
+  std::vector<double> distances_;
+};
+
+SurfaceErrors measure_surface(const TriangleMesh& mesh, const Reference& reference, double width,
+                              const std::vector<double>& quantiles, std::optional<double> limit) {
+  const ExactMesh exact(reference.mesh.view());
+  SurfaceDistanceOptions options;
+  options.relative = kSurfacePrecision;
+  options.absolute = kFinest * width;
+  options.poll = throw_if_interrupted;
+  SurfaceDistance distance = surface_distance(mesh.view(), exact, options);
+  if (limit && distance.lower <= *limit && !distance.within(*limit)) {
+    options.limit = *limit;
+    options.relative = kDecisionPrecision;
+    options.absolute = 0;
+    distance = surface_distance(mesh.view(), exact, options);
+  }
+  const PreparedCloud samples(surface_samples(mesh.view(), kSurfaceSamples));
+  const auto distances = point_distances(samples, reference.mesh.view(), was_interrupted);
+  return {reference.name, reference.is_cloud, reference.mesh.triangles.size(), distance,
+          statistics_of(distances, quantiles, limit)};
+}
+
+// Distances up to the tolerance use the whole map; without one, all do.
+double color_range(std::span<const double> distances, std::optional<double> limit) {
+  return limit ? *limit : *std::ranges::max_element(distances);
+}
+
+void write_colors(const std::string& path, std::span<const Point> points,
+                  std::span<const double> distances, std::span<const Triangle> triangles,
+                  std::optional<double> limit, bool print) {
+  const double greatest = color_range(distances, limit);
+  write_error_ply(path, points, distances, greatest, triangles);
+  if (print) {
+    fmt::print("colours        {}: viridis, dark blue 0, green {:.6g}, yellow {:.6g}{}\n", path,
+               greatest / 2, greatest, limit ? " and beyond" : "");
+  }
+}
+
+// Everything that is said of the mesh.
+struct Findings {
+  std::optional<Tolerance> tolerance;
+  MeasuredError measured = {};
+  double seconds = 0;
+  std::optional<DeviceCounters> counters;
+  std::optional<BoardModel> board;
+  std::optional<double> cpu_seconds;
+  CertifiedError certified;
+  MeshValidity validity;
+  ErrorReport errors;
+
+  bool points_within() const { return errors.limit && certified.within(*errors.limit); }
+  bool feasible() const {
+    return points_within() && (!errors.surface || errors.surface->distance.within(*errors.limit));
+  }
+};
+
+void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
+           const TriangleMesh& mesh, std::size_t excludable) {
+  fmt::print("cloud          {}: {} points, width {:.6g}\n", scan.path.string(),
+             grouped(scan.cloud.points.size()), scan.width);
+  fmt::print("mesh           {}: {} triangles; {}\n", options.mesh, grouped(mesh.triangles.size()),
+             describe(f.validity));
+  fmt::print("e_max          {:.9g} certified ({:.4g}% of the width)\n", f.certified.e_max_upper,
+             100 * f.certified.e_max_upper / scan.width);
+  print_excluded(f.certified, excludable);
+  if (f.tolerance) {
+    fmt::print("tolerance      {}: {}\n", to_text(*f.tolerance, scan.width),
+               f.feasible()         ? "kept"
+               : !f.points_within() ? "exceeded"
+                                    : "exceeded by the mesh, seen from the reference");
+  }
+  fmt::print("worst point    {}\n", f.measured.kept.worst_point);
+  fmt::print("kernel         e_max^2 bits 0x{:08x}\n", f.measured.kept.squared_bits);
+  fmt::print("device {:<7} {} in {:.3f} s\n", options.common.device, describe_counters(f.counters),
+             f.seconds);
+  if (f.board) print_prediction(*f.board, *f.counters, *f.cpu_seconds);
+  fmt::print("{}", to_text(f.errors));
+}
+
+std::string json_text(const Findings& f, const ErrorOptions& options, const TriangleMesh& mesh,
+                      const Scan& scan, const Normalization& transform) {
+  ResultReport report;
+  if (f.tolerance) {
+    report.feasible = f.feasible();
+    report.epsilon = f.errors.limit;
+  }
+  report.validity = f.validity;
+  report.triangles = mesh.triangles.size();
+  report.certified = f.certified;
+  report.kernel = f.measured.kept;
+  report.points = scan.cloud.points.size();
+  report.transform = transform;
+  report.seed = options.common.seed;
+  report.device = options.common.device;
+  report.counters = f.counters;
+  report.board = f.board;
+  report.cpu_seconds = f.cpu_seconds;
+  report.errors = f.errors;
+  return to_json_text(report);
+}
+
+}  // namespace
 
 int run_error(const ErrorOptions& options) {
   const DeviceAddress address = DeviceAddress::parse(options.common.device);
   const double share = parse_share(options.common.excluded_share);
-  std::optional<Tolerance> tolerance;
-  if (!options.max_error.empty()) tolerance = parse_tolerance(options.max_error);
-  if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
+  Findings f;
+  if (!options.max_error.empty()) f.tolerance = parse_tolerance(options.max_error);
+  check_outputs(options);
   const TriangleMesh mesh = read_mesh(options.mesh);
   const Scan scan = read_scan(options.common.cloud, options.common.skip_invalid);
-  // Without a tolerance the farthest points are excluded whatever their distance.
-  const double epsilon = tolerance ? tolerance->in_units(scan.width) : 0;
+  std::optional<Reference> reference;
+  if (options.two_sided) reference = read_reference(options, scan);
+  f.errors.width = scan.width;
+  std::optional<double>& limit = f.errors.limit;
+  if (f.tolerance) limit = f.tolerance->in_units(scan.width);
 
   const auto start = std::chrono::steady_clock::now();
-  const ErrorConstraint constraint(scan.cloud.points, epsilon, share, options.common.brute_force);
-  const auto evaluator = make_evaluator(address);
-  SearchOptions search;
-  search.interrupted = was_interrupted;
-  MeasuredError measured = constraint.measure(mesh.view(), *evaluator, search);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  const DeviceCounters counters = evaluator->counters();
-  std::optional<CpuTwin> cpu;
-  if (address.board) cpu.emplace(constraint).measure(mesh.view(), measured);
-  const CertifiedError certified =
-      in_file_indices(certify(scan.cloud.points, mesh.view(), measured.excluded), scan.cloud);
-  measured.kept.worst_point = scan.cloud.index_in_file(measured.kept.worst_point);
-  const MeshValidity validity = check_mesh(mesh.view());
-  const bool feasible = tolerance && certified.within(epsilon);
-
-  fmt::print("cloud          {}: {} points, width {:.6g}\n", scan.path.string(),
-             grouped(scan.cloud.points.size()), scan.width);
-  fmt::print("mesh           {}: {} triangles; {}\n", options.mesh, grouped(mesh.triangles.size()),
-             describe(validity));
-  fmt::print("e_max          {:.9g} certified ({:.4g}% of the width)\n", certified.e_max_upper,
-             100 * certified.e_max_upper / scan.width);
-  print_excluded(certified, constraint.excludable());
-  if (tolerance) {
-    fmt::print("tolerance      {}: {}\n", to_text(*tolerance, scan.width),
-               feasible ? "kept" : "exceeded");
+  // Without a tolerance the farthest points are excluded whatever their distance.
+  ErrorConstraint constraint(scan.cloud.points, limit.value_or(0), share,
+                             options.common.brute_force);
+  const PreparedCloud& prepared = constraint.cloud();
+  const auto device = make_evaluator(address);
+  f.measured = device ? constraint.measure(mesh.view(), *device, {.interrupted = was_interrupted})
+                      : constraint.measure(mesh.view(), was_interrupted);
+  f.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (device) f.counters = device->counters();
+  f.board = address.board;
+  if (f.board) {
+    CpuTwin cpu(constraint);
+    cpu.measure(mesh.view(), f.measured);
+    f.cpu_seconds = cpu.seconds();
   }
-  fmt::print("worst point    {}\n", measured.kept.worst_point);
-  fmt::print("kernel         e_max^2 bits 0x{:08x}\n", measured.kept.squared_bits);
-  fmt::print("device {:<7} {} in {:.3f} s\n", options.common.device, describe_counters(counters),
-             took.count());
-  if (address.board) print_prediction(*address.board, counters, cpu->seconds());
+  f.certified =
+      in_file_indices(certify(scan.cloud.points, mesh.view(), f.measured.excluded), scan.cloud);
+  f.measured.kept.worst_point = scan.cloud.index_in_file(f.measured.kept.worst_point);
+  f.validity = check_mesh(mesh.view());
 
-  if (!options.common.json.empty()) {
-    ResultReport report;
-    if (tolerance) {
-      report.feasible = feasible;
-      report.epsilon = epsilon;
+  const std::vector<double> quantiles =
+      options.quantiles.empty()
+          ? std::vector<double>(kUsualQuantiles.begin(), kUsualQuantiles.end())
+          : options.quantiles;
+  CloudMeasurement cloud(prepared, scan, mesh);
+  if (limit) cloud.settle(*limit, point_distance_margin(prepared, mesh.view(), *limit));
+  f.errors.cloud = cloud.errors(quantiles, options.worst, limit);
+  if (reference) {
+    f.errors.surface = measure_surface(mesh, *reference, scan.width, quantiles, limit);
+  }
+
+  const std::string& json = options.common.json;
+  const bool text = json != kStandardOutput;
+  if (text) print(f, options, scan, mesh, constraint.excludable());
+  if (!options.color.empty()) {
+    write_colors(options.color, scan.cloud.points, cloud.distances(), {}, limit, text);
+  }
+  if (!options.color_mesh.empty()) {
+    const auto distances =
+        point_distances(PreparedCloud(mesh.vertices), reference->mesh.view(), was_interrupted);
+    write_colors(options.color_mesh, mesh.vertices, distances, mesh.triangles, limit, text);
+  }
+  if (!json.empty()) {
+    const std::string bytes = json_text(f, options, mesh, scan, prepared.normalization());
+    if (text) {
+      write_atomically(json, bytes);
+    } else {
+      fmt::print("{}", bytes);
     }
-    report.validity = validity;
-    report.triangles = mesh.triangles.size();
-    report.certified = certified;
-    report.kernel = measured.kept;
-    report.points = scan.cloud.points.size();
-    report.transform = constraint.cloud().normalization();
-    report.seed = options.common.seed;
-    report.device = options.common.device;
-    report.counters = counters;
-    report.board = address.board;
-    if (cpu) report.cpu_seconds = cpu->seconds();
-    write_atomically(options.common.json, to_json_text(report));
   }
-  return tolerance && !feasible ? kExitNo : kExitOk;
+  return f.tolerance && !f.feasible() ? kExitNo : kExitOk;
 }
 
 }  // namespace emax

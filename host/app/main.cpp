@@ -89,7 +89,32 @@ int run(int argc, char** argv) {
   add_common(error_command, error.common);
   error_command.add_option("MESH", error.mesh, "mesh: .ply .obj .stl .off")->required();
   error_command.add_option("--max-error", error.max_error,
-                           "tolerance: exit code 2 when it is not kept");
+                           "tolerance, N or N%: how many points exceed it; exit code 2 when it is "
+                           "not kept");
+  error_command.get_option("--json")->description(
+      "also write the result to this file, or - to print it in place of the text");
+  error_command.add_flag("--two-sided", error.two_sided,
+                         "also bound the distance of the whole mesh from the reference");
+  error_command
+      .add_option("--reference", error.reference,
+                  "mesh or cloud that --two-sided measures against (default: the cloud itself)")
+      ->needs("--two-sided");
+  error_command
+      .add_option("--quantile", error.quantiles,
+                  "percent of the points whose greatest distance is printed; may be repeated "
+                  "(default: 50 90 95 99 99.9)")
+      ->expected(1)
+      ->take_all()
+      ->check(CLI::Range(0.0, 100.0));
+  error_command.add_option("--worst", error.worst, "how many of the farthest points are printed")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
+      ->capture_default_str();
+  error_command.add_option("--color", error.color,
+                           "write the cloud coloured by its distances: .ply");
+  error_command
+      .add_option("--color-mesh", error.color_mesh,
+                  "write the mesh coloured by its vertices' distances to the reference: .ply")
+      ->needs("--two-sided");
   error_command.callback([&] { chosen = [&error] { return run_error(error); }; });
 
   VerifyOptions verify;

@@ -67,7 +67,7 @@ class OptimizeCommand {
       : options_(options),
         settings_(make_settings(options)),
         address_(DeviceAddress::parse(options.common.device)),
-        evaluator_(make_evaluator(address_)) {
+        device_(make_evaluator(address_)) {
     const double share = parse_share(options.common.excluded_share);
     const Tolerance tolerance = parse_tolerance(options.max_error);
     check_output(options.output, mesh_endings());
@@ -94,11 +94,11 @@ class OptimizeCommand {
     }
     {
       Progress progress(*constraint_, settings_.time);
-      state_ = optimize(scan_.cloud.points, *constraint_, *evaluator_, settings_,
+      state_ = optimize(scan_.cloud.points, *constraint_, device_.get(), settings_,
                         [&progress](const OptimizeState& state) { progress.show(state); });
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    counters_ = evaluator_->counters();
+    if (device_) counters_ = device_->counters();
     if (!state_.best && !state_.least_error) {
       if (state_.interrupted) throw Interrupted{};
       if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
@@ -178,7 +178,7 @@ class OptimizeCommand {
                : state_.out_of_time ? "; out of time"
                                     : "");
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
-    if (address_.board) print_prediction(*address_.board, counters_, cpu_->seconds());
+    if (address_.board) print_prediction(*address_.board, *counters_, cpu_->seconds());
   }
 
   void write_json(const BestMesh& shown) const {
@@ -206,12 +206,12 @@ class OptimizeCommand {
   const OptimizeOptions& options_;
   OptimizeSettings settings_;
   DeviceAddress address_;
-  std::unique_ptr<Evaluator> evaluator_;
+  std::unique_ptr<Evaluator> device_;
   Scan scan_;
   double epsilon_ = 0;
   std::optional<ErrorConstraint> constraint_;
   OptimizeState state_;
-  DeviceCounters counters_;
+  std::optional<DeviceCounters> counters_;
   std::optional<CpuTwin> cpu_;  // with a board to compare with
   MeshValidity validity_;
   CertifiedError certified_;

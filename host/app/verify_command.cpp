@@ -4,8 +4,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
-#include "host/emax_search/emax_search.h"
-#include "host/emax_search/simd_evaluator.h"
+#include "host/emax_search/error_engine.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/sha256.h"
 #include "host/report/certificate_file.h"
@@ -96,11 +95,9 @@ class Verification {
   void check_kernel(const TriangleMesh& mesh, const Scan& scan,
                     std::span<const std::uint32_t> excluded) {
     const PreparedCloud cloud(scan.cloud.points);
-    const TriangleTree tree(mesh.view(), cloud.normalization());
-    SimdEvaluator cpu;
-    SearchOptions options;
-    options.interrupted = was_interrupted;
-    std::vector<std::uint32_t> bits = search_nearest(cloud, tree, cpu, options);
+    const PreparedMesh prepared(mesh.view(), cloud.normalization());
+    ErrorEngine engine(cloud, {.interrupted = was_interrupted});
+    std::vector<std::uint32_t> bits = engine.squared_distances(prepared);
     for (const std::uint32_t i : excluded) bits[i] = 0;
     const EmaxResult worst = worst_of(bits);
     require(worst.squared_bits == certificate_.kernel.squared_bits &&

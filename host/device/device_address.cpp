@@ -7,7 +7,6 @@
 #include "host/device/link_device.h"
 #include "host/device/queued_device.h"
 #include "host/device/xrt_device.h"
-#include "host/emax_search/simd_evaluator.h"
 #include "sw_model/cpp_device.h"
 #include "sw_model/error.h"
 #include "testbench/core/rtl_device.h"
@@ -111,7 +110,7 @@ std::string device_help() {
 }
 
 std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address) {
-  if (address.kind == "cpu") return std::make_unique<SimdEvaluator>();
+  if (address.kind == "cpu") return nullptr;
   if (address.kind == "xrt") {
     return std::make_unique<DeviceEvaluator>(
         std::make_unique<XrtDevice>(open_xrt_card(address.place)));

@@ -27,7 +27,8 @@ struct DeviceAddress {
 // Every form with what it means, for people.
 std::string device_help();
 
-// Throws Error where the device cannot be reached or is not compatible.
+// Nothing for the CPU, whose engine needs no blocks. Throws Error where the device cannot be
+// reached or is not compatible.
 std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address);
 
 }  // namespace emax

@@ -12,40 +12,72 @@ Point widened(const Vector3<float>& p) { return {p.x, p.y, p.z}; }
 }  // namespace
 
 PreparedCloud::PreparedCloud(std::span<const Point> cloud)
-    : normalization_(normalization_of(cloud)),
-      points_(normalized_points(cloud, normalization_)),
-      order_(points_.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  split(0, order_.size());
+    : normalization_(normalization_of(cloud)), points_(normalized_points(cloud, normalization_)) {
+  const std::size_t packets = (points_.size() + kPacketPoints - 1) / kPacketPoints;
+  packets_.reserve(packets);
+  boxes_.reserve(packets);
+  groups_.reserve(packets);
+  std::vector<std::uint32_t> order(points_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  split(order);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (i % kSupergroupPackets == 0) supergroups_.push_back(boxes_[i]);
+    FloatBox& box = supergroups_.back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = std::min(box.lo[axis], boxes_[i].lo[axis]);
+      box.hi[axis] = std::max(box.hi[axis], boxes_[i].hi[axis]);
+    }
+  }
 }
 
-Eigen::AlignedBox3d PreparedCloud::box_of(std::size_t first, std::size_t last) const {
+Eigen::AlignedBox3d PreparedCloud::box_of(std::span<const std::uint32_t> order) const {
   Eigen::AlignedBox3d box;
-  for (std::size_t i = first; i < last; ++i) box.extend(widened(points_[order_[i]]));
+  for (const std::uint32_t i : order) box.extend(widened(points_[i]));
   return box;
 }
 
-// A kd-split at the median of the longest side. Equal coordinates are ordered by index, so the
-// groups are the same with every standard library.
-void PreparedCloud::split(std::size_t first, std::size_t last) {
-  const Eigen::AlignedBox3d box = box_of(first, last);
-  if (last - first <= kGroupPoints) {
-    std::sort(order_.begin() + static_cast<std::ptrdiff_t>(first),
-              order_.begin() + static_cast<std::ptrdiff_t>(last));
-    groups_.push_back({std::span(order_).subspan(first, last - first), box});
+// A kd-split at the median of the longest side, at whole supergroups, then at whole packets. Equal
+// coordinates are ordered by index, so the packets are the same with every standard library.
+void PreparedCloud::split(std::span<std::uint32_t> order) {
+  const Eigen::AlignedBox3d box = box_of(order);
+  if (order.size() <= kPacketPoints) {
+    std::sort(order.begin(), order.end());
+    add_packet(order, box);
     return;
   }
   Eigen::Index axis = 0;
   box.sizes().maxCoeff(&axis);
-  const std::size_t groups = (last - first + kGroupPoints - 1) / kGroupPoints;
-  const std::size_t middle = first + groups / 2 * kGroupPoints;
+  constexpr std::size_t kSupergroupPoints = kSupergroupPackets * kPacketPoints;
+  const std::size_t unit = order.size() > kSupergroupPoints ? kSupergroupPoints : kPacketPoints;
+  const std::size_t middle = (order.size() + unit - 1) / unit / 2 * unit;
   const auto key = [&](std::uint32_t i) { return std::pair(widened(points_[i])[axis], i); };
-  std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(first),
-                   order_.begin() + static_cast<std::ptrdiff_t>(middle),
-                   order_.begin() + static_cast<std::ptrdiff_t>(last),
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  split(first, middle);
-  split(middle, last);
+  split(order.first(middle));
+  split(order.subspan(middle));
+}
+
+void PreparedCloud::add_packet(std::span<std::uint32_t> order, const Eigen::AlignedBox3d& box) {
+  Packet& packet = packets_.emplace_back();
+  for (std::size_t i = 0; i < kPacketPoints; ++i) {
+    packet.index[i] = order[std::min(i, order.size() - 1)];
+    const Vector3<float>& p = points_[packet.index[i]];
+    packet.x[i] = p.x;
+    packet.y[i] = p.y;
+    packet.z[i] = p.z;
+  }
+  groups_.push_back({std::span(packet.index).first(order.size()), box});
+  FloatBox& bounds = boxes_.emplace_back();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {  // exact: the corners are binary32
+    bounds.lo[static_cast<std::size_t>(axis)] = static_cast<float>(box.min()[axis]);
+    bounds.hi[static_cast<std::size_t>(axis)] = static_cast<float>(box.max()[axis]);
+  }
+}
+
+std::size_t PreparedCloud::memory_bytes() const {
+  return std::span(points_).size_bytes() + std::span(packets_).size_bytes() +
+         std::span(boxes_).size_bytes() + std::span(supergroups_).size_bytes() +
+         std::span(groups_).size_bytes();
 }
 
 }  // namespace emax

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/emax_search/packets.h"
 #include "sw_model/normalization.h"
 
 namespace emax {
@@ -15,11 +16,11 @@ struct PointGroup {
   Eigen::AlignedBox3d box;                // of the points as the kernel reads them
 };
 
-// What the search needs of a cloud, made once: normalised points and groups of at most
-// kGroupPoints neighbours. O(n log^2 n) time, 24 bytes a point.
+// What the search needs of a cloud, made once: normalised points, and packets of kPacketPoints
+// neighbours, each a group. O(n log^2 n) time, 34 bytes a point.
 class PreparedCloud {
  public:
-  static constexpr std::size_t kGroupPoints = 16;
+  static constexpr std::size_t kGroupPoints = kPacketPoints;
 
   // Throws std::invalid_argument as normalization_of does.
   explicit PreparedCloud(std::span<const Point> cloud);
@@ -27,14 +28,18 @@ class PreparedCloud {
   const Normalization& normalization() const { return normalization_; }
   std::span<const Vector3<float>> points() const { return points_; }
   std::span<const PointGroup> groups() const { return groups_; }
+  PacketView packets() const { return {packets_, boxes_, supergroups_}; }
+  std::size_t memory_bytes() const;
 
  private:
-  void split(std::size_t first, std::size_t last);
-  Eigen::AlignedBox3d box_of(std::size_t first, std::size_t last) const;
+  void split(std::span<std::uint32_t> order);
+  void add_packet(std::span<std::uint32_t> order, const Eigen::AlignedBox3d& box);
+  Eigen::AlignedBox3d box_of(std::span<const std::uint32_t> order) const;
 
   Normalization normalization_;
   std::vector<Vector3<float>> points_;
-  std::vector<std::uint32_t> order_;
+  std::vector<Packet> packets_;
+  std::vector<FloatBox> boxes_, supergroups_;
   std::vector<PointGroup> groups_;
 };
 

@@ -102,6 +102,12 @@ Point stored_in_stl(const Point& vertex) {
   return stored;
 }
 
+FileContent read_content(const InputFile& input, const std::filesystem::path& path) {
+  const std::size_t format = static_cast<std::size_t>(mesh_format(path));
+  check_ending_fits(input, kEndings[format]);
+  return kReaders[format](input);
+}
+
 }  // namespace
 
 std::span<const std::string_view> mesh_endings() { return kEndings; }
@@ -118,9 +124,7 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
   const InputFile input = read_input(path);
-  const MeshFormat format = mesh_format(path);
-  check_ending_fits(input, kEndings[static_cast<std::size_t>(format)]);
-  FileContent content = kReaders[static_cast<std::size_t>(format)](input);
+  FileContent content = read_content(input, path);
   if (!content.first_invalid.empty()) {
     input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
                "mend the mesh, its vertices must be finite");
@@ -129,6 +133,10 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
     input.fail("holds no triangles", "give a mesh, a cloud cannot stand in its place");
   }
   return {std::move(content.vertices), std::move(content.triangles)};
+}
+
+bool holds_triangles(const std::filesystem::path& path) {
+  return !read_content(read_input(path), path).triangles.empty();
 }
 
 std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format) {

@@ -20,6 +20,10 @@ MeshFormat mesh_format(const std::filesystem::path& path);
 // into fans. STL repeats its vertices: those of exactly equal coordinates are merged. Throws Error.
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
+// Whether the file, of one of the endings of meshes, holds any triangles: .ply, .obj and .off may
+// be clouds. Throws Error for a damaged one.
+bool holds_triangles(const std::filesystem::path& path);
+
 // The bytes of the file: PLY as binary little endian with 64-bit coordinates, OBJ and OFF as text
 // with the shortest digits that read back exactly, STL as binary in 32 bit.
 std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/emax_search/simd_evaluator.h"
 #include "sw_model/emax_model.h"
 #include "sw_model/error_bound.h"
 
@@ -11,6 +12,7 @@ namespace emax {
 ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
                                  double excluded_share, bool brute_force)
     : cloud_(cloud),
+      engine_(cloud_),
       epsilon_(epsilon),
       excludable_(
           static_cast<std::size_t>(std::floor(excluded_share * static_cast<double>(cloud.size())))),
@@ -35,17 +37,37 @@ std::optional<std::uint32_t> ErrorConstraint::threshold(MeshView mesh) const {
   return largest_feasible_bits(epsilon, reach);
 }
 
-MeasuredError ErrorConstraint::measure(MeshView mesh, Evaluator& evaluator,
+MeasuredError ErrorConstraint::measure(MeshView mesh, const std::function<bool()>& interrupted) {
+  if (brute_force_) {
+    SimdEvaluator every_pair;
+    return measure(mesh, every_pair, {.interrupted = interrupted});
+  }
+  engine_.interrupt_with(interrupted);
+  const PreparedMesh prepared(mesh, cloud_.normalization());
+  return judge(
+      mesh, [&] { return engine_.e_max(prepared); },
+      [&] { return engine_.squared_distances(prepared); });
+}
+
+MeasuredError ErrorConstraint::measure(MeshView mesh, Evaluator& device,
                                        const SearchOptions& options) const {
   const TriangleTree tree(mesh, cloud_.normalization());
+  const auto emax = brute_force_ ? brute_force_emax : search_emax;
+  const auto nearest = brute_force_ ? brute_force_nearest : search_nearest;
+  return judge(
+      mesh, [&] { return emax(cloud_, tree, device, options); },
+      [&] { return nearest(cloud_, tree, device, options); });
+}
+
+MeasuredError ErrorConstraint::judge(
+    MeshView mesh, const std::function<EmaxResult()>& worst,
+    const std::function<std::vector<std::uint32_t>()>& nearest) const {
   const std::optional<std::uint32_t> allowed = threshold(mesh);
   MeasuredError measured;
   if (excludable_ == 0) {
-    const auto emax = brute_force_ ? brute_force_emax : search_emax;
-    measured.all = measured.kept = emax(cloud_, tree, evaluator, options);
+    measured.all = measured.kept = worst();
   } else {
-    const auto nearest = brute_force_ ? brute_force_nearest : search_nearest;
-    exclude(nearest(cloud_, tree, evaluator, options), allowed.value_or(0), measured);
+    exclude(nearest(), allowed.value_or(0), measured);
   }
   measured.feasible = allowed && measured.kept.squared_bits <= *allowed;
   const double epsilon = cloud_.normalization().length(epsilon_);

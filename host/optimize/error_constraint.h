@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/emax_search/emax_search.h"
+#include "host/emax_search/error_engine.h"
 
 namespace emax {
 
@@ -17,6 +18,7 @@ struct MeasuredError {
   bool feasible;
   double violation;  // kernel distance over the greatest that proves e_max <= epsilon, minus 1;
                      // at most 0 when feasible
+  bool operator==(const MeasuredError&) const = default;
 };
 
 // The nonlinear constraint e_max^2 <= epsilon^2 (paper, section 3) on the kernel, for one cloud.
@@ -29,8 +31,13 @@ class ErrorConstraint {
   ErrorConstraint(std::span<const Point> cloud, double epsilon, double excluded_share,
                   bool brute_force = false);
 
-  MeasuredError measure(MeshView mesh, Evaluator& evaluator,
-                        const SearchOptions& options = {}) const;
+  ErrorConstraint(const ErrorConstraint&) = delete;  // the engine refers to the cloud
+  ErrorConstraint& operator=(const ErrorConstraint&) = delete;
+
+  // On this processor.
+  MeasuredError measure(MeshView mesh, const std::function<bool()>& interrupted = nullptr);
+  // In blocks on a device.
+  MeasuredError measure(MeshView mesh, Evaluator& device, const SearchOptions& options = {}) const;
 
   const PreparedCloud& cloud() const { return cloud_; }
   double epsilon() const { return epsilon_; }
@@ -44,10 +51,14 @@ class ErrorConstraint {
   // is below the kernel's own error.
   std::optional<std::uint32_t> threshold(MeshView mesh) const;
 
+  // `nearest` gives every d^2, `worst` the greatest; one of them is asked.
+  MeasuredError judge(MeshView mesh, const std::function<EmaxResult()>& worst,
+                      const std::function<std::vector<std::uint32_t>()>& nearest) const;
   void exclude(std::span<const std::uint32_t> squared_bits, std::uint32_t allowed,
                MeasuredError& measured) const;
 
   PreparedCloud cloud_;
+  ErrorEngine engine_;
   double epsilon_;
   std::size_t excludable_;
   bool brute_force_;

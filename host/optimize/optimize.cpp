@@ -15,9 +15,9 @@ constexpr std::chrono::milliseconds kHeartbeat{100};
 
 class Run {
  public:
-  Run(const ErrorConstraint& constraint, Evaluator& evaluator, const OptimizeSettings& settings,
+  Run(ErrorConstraint& constraint, Evaluator* device, const OptimizeSettings& settings,
       OptimizeState& state)
-      : constraint_(constraint), evaluator_(evaluator), settings_(settings), state_(state) {
+      : constraint_(constraint), device_(device), settings_(settings), state_(state) {
     search_.interrupted = settings.interrupted;
   }
 
@@ -31,7 +31,9 @@ class Run {
     require_storable(result.mesh, format, constraint_.epsilon(), settings_.output);
     try {
       TriangleMesh mesh = as_stored(result.mesh, format);
-      MeasuredError error = constraint_.measure(mesh.view(), evaluator_, search_);
+      MeasuredError error = device_ != nullptr
+                                ? constraint_.measure(mesh.view(), *device_, search_)
+                                : constraint_.measure(mesh.view(), settings_.interrupted);
       settings_.measured(mesh.view(), error);
       const Evaluation evaluation = {true, static_cast<double>(mesh.triangles.size()),
                                      error.violation};
@@ -63,8 +65,8 @@ class Run {
     if (!place || key(mesh) < key(*place)) place = std::move(mesh);
   }
 
-  const ErrorConstraint& constraint_;
-  Evaluator& evaluator_;
+  ErrorConstraint& constraint_;
+  Evaluator* device_;
   const OptimizeSettings& settings_;
   OptimizeState& state_;
   SearchOptions search_;
@@ -93,9 +95,8 @@ ParameterValues values_of(const Problem& problem, const Genes& genes) {
 
 }  // namespace
 
-OptimizeState optimize(std::span<const Point> cloud, const ErrorConstraint& constraint,
-                       Evaluator& evaluator, const OptimizeSettings& settings,
-                       const OptimizeObserver& observe) {
+OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
+                       const OptimizeSettings& settings, const OptimizeObserver& observe) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const Problem problem = make_problem(settings.config, monotone_gene(settings.decimator));
@@ -109,7 +110,7 @@ OptimizeState optimize(std::span<const Point> cloud, const ErrorConstraint& cons
 
   OptimizeState state;
   state.budget = search.budget;
-  Run run(constraint, evaluator, settings, state);
+  Run run(constraint, device, settings, state);
   std::map<std::uint64_t, ParameterValues> in_work;
   while (!scheduler.finished()) {
     state.interrupted = settings.interrupted();

@@ -55,11 +55,11 @@ struct OptimizeState {
 // Called after every evaluation and at least every tenth of a second.
 using OptimizeObserver = std::function<void(const OptimizeState&)>;
 
-// Evaluations run in worker processes; e_max is measured here, on the evaluator. A run that ends by
-// its budget gives the same state for any number of jobs and any device.
-// Throws Error when workers cannot run, and where `output` would round more than epsilon allows.
-OptimizeState optimize(std::span<const Point> cloud, const ErrorConstraint& constraint,
-                       Evaluator& evaluator, const OptimizeSettings& settings,
-                       const OptimizeObserver& observe);
+// Evaluations run in worker processes; e_max is measured here, on the device or, without one, on
+// this processor. A run that ends by its budget gives the same state for any number of jobs and any
+// device. Throws Error when workers cannot run, and where `output` would round more than epsilon
+// allows.
+OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
+                       const OptimizeSettings& settings, const OptimizeObserver& observe);
 
 }  // namespace emax

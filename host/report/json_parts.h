@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/geometry/mesh_validity.h"
+#include "host/report/error_report.h"
 #include "sw_model/certificate.h"
 #include "sw_model/device.h"
 #include "sw_model/normalization.h"
@@ -13,6 +14,7 @@ namespace emax {
 using Json = nlohmann::ordered_json;
 
 inline constexpr const char* kBound = "one-sided";  // every cloud point within epsilon of the mesh
+inline constexpr const char* kTwoSidedBound = "two-sided";  // also the mesh, of the reference
 
 std::string bits_text(std::uint32_t bits);  // "0x%08x"
 Json to_json(const Normalization& transform);
@@ -21,5 +23,6 @@ MeshValidity validity_from_json(const Json& json);
 Json to_json(const DeviceCounters& counters);
 // The points left out, each with its index in the file and its distance.
 Json excluded_to_json(const CertifiedError& error);
+Json to_json(const ErrorReport& report);
 
 }  // namespace emax

@@ -16,7 +16,7 @@ Json or_null(const std::optional<T>& value) {
 std::string to_json_text(const ResultReport& r) {
   Json json = {{"schema", "emax-result-1"},
                {"kernel_version", kKernelVersion},
-               {"bound", kBound},
+               {"bound", r.errors && r.errors->surface ? kTwoSidedBound : kBound},
                {"feasible", or_null(r.feasible)},
                {"valid", r.validity ? Json(r.validity->valid()) : Json()},
                {"triangles", or_null(r.triangles)},
@@ -31,13 +31,14 @@ std::string to_json_text(const ResultReport& r) {
                {"evaluations", or_null(r.evaluations)},
                {"seed", or_null(r.seed)},
                {"device", r.device},
-               {"device_counters", to_json(r.counters)},
+               {"device_counters", r.counters ? to_json(*r.counters) : Json()},
                {"validity", r.validity ? to_json(*r.validity) : Json()},
                {"reconstruction_triangles", or_null(r.reconstruction_triangles)},
                {"unmeshed_points", or_null(r.unmeshed_points)},
-               {"predicted", Json()}};
-  if (r.board && r.counters.cycles) {
-    const DeviceCounters& c = r.counters;
+               {"predicted", Json()},
+               {"errors", r.errors ? to_json(*r.errors) : Json()}};
+  if (r.board && r.counters && r.counters->cycles) {
+    const DeviceCounters& c = *r.counters;
     json["predicted"] = {
         {"board", r.board->name},
         {"clock_hz", r.board->clock_hz},

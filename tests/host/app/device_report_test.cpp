@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/emax_search/simd_evaluator.h"
 #include "sw_model/error.h"
 #include "tests/support/stimuli.h"
 
@@ -31,11 +32,13 @@ TEST(DescribeCounters, LeavesOutWhatIsNotMeasured) {
   EXPECT_EQ(describe_counters(counters),
             "12 blocks, 3,456,789 pairs, 1,000 words in, 36 out, 8,000 cycles (87.5% busy, 1.2% "
             "stalled, 11.2% idle), 0 resends");
+  EXPECT_EQ(describe_counters(std::nullopt),
+            std::string(engine_targets().front().name) + " instructions");
 }
 
 TEST(CpuTwin, FindsTheSameErrorOrSaysSo) {
   const test::Stimulus s = test::bumpy_sphere(12, 16, 2500, 81);
-  const ErrorConstraint constraint(s.cloud, 1, 0);
+  ErrorConstraint constraint(s.cloud, 1, 0);
   SimdEvaluator device;
   MeasuredError measured = constraint.measure(s.mesh(), device);
   CpuTwin cpu(constraint);

@@ -132,8 +132,9 @@ TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
                                               predicted.at("link_seconds").get<double>()));
   EXPECT_EQ(predicted.at("basis"), "estimated");
   EXPECT_EQ(predicted.at("cpu_basis"), "measured");
-  EXPECT_EQ(results[3].at("device_counters").at("pairs"),
-            results[4].at("device_counters").at("pairs"));
+  EXPECT_TRUE(results[0].at("device_counters").is_null());  // the CPU counts nothing
+  EXPECT_GT(results[4].at("device_counters").at("pairs"),
+            results[1].at("device_counters").at("pairs"));
 }
 
 TEST_F(EndToEnd, ABoardsPredictionStandsBesideTheMeasuredCpu) {

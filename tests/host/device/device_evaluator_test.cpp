@@ -4,8 +4,10 @@
 
 #include <cstdio>
 
+#include "evaluator_of.h"
 #include "host/device/device_address.h"
 #include "host/emax_search/emax_search.h"
+#include "host/emax_search/error_engine.h"
 #include "sw_model/cpp_device.h"
 #include "sw_model/error.h"
 #include "sw_model/float_bits.h"
@@ -21,7 +23,7 @@ EmaxResult model(const PreparedCloud& cloud, const TriangleTree& mesh) {
 }
 template <auto search>
 EmaxResult on(const char* address, const PreparedCloud& cloud, const TriangleTree& mesh) {
-  return search(cloud, mesh, *make_evaluator(DeviceAddress::parse(address)), SearchOptions{});
+  return search(cloud, mesh, *test::evaluator_of(address), SearchOptions{});
 }
 
 const std::vector<std::pair<const char*, Engine>> kEngines = {
@@ -45,6 +47,8 @@ TEST(Engines, AgreePairwiseBitForBit) {
       const TriangleTree mesh(s.mesh(), cloud.normalization());
       std::vector<EmaxResult> results;
       for (const auto& [name, engine] : kEngines) results.push_back(engine(cloud, mesh));
+      EXPECT_EQ(ErrorEngine(cloud).e_max(PreparedMesh(s.mesh(), cloud.normalization())),
+                results[0]);
       for (std::size_t i = 0; i < results.size(); ++i) {
         for (std::size_t j = 0; j < results.size(); ++j) {
           differing[i][j] += !(results[i] == results[j]);
@@ -68,7 +72,7 @@ TEST(DeviceEvaluator, ListsThePointsOfABlock) {
   const test::Stimulus s = test::bumpy_sphere(12, 16, 2500, 74);
   const PreparedCloud cloud(s.cloud);
   const TriangleTree mesh(s.mesh(), cloud.normalization());
-  const auto sim = make_evaluator(DeviceAddress::parse("sim"));
+  const auto sim = test::evaluator_of("sim");
   EXPECT_EQ(search_nearest(cloud, mesh, *sim),
             nearest_squared_bits(cloud.points(), mesh.records()));
 }
@@ -77,7 +81,7 @@ TEST(DeviceEvaluator, CountsWhatItSends) {
   const test::Stimulus s = test::bumpy_sphere(12, 16, 2500, 75);
   const PreparedCloud cloud(s.cloud);
   const TriangleTree mesh(s.mesh(), cloud.normalization());
-  const auto sim = make_evaluator(DeviceAddress::parse("sim:board=u50"));
+  const auto sim = test::evaluator_of("sim:board=u50");
   brute_force_emax(cloud, mesh, *sim);
   const DeviceCounters counters = sim->counters();
   const std::uint64_t triangles = s.triangles.size();
@@ -93,7 +97,7 @@ TEST(DeviceEvaluator, StartsAfreshAfterAnInterruptedSearch) {
   const test::Stimulus s = test::bumpy_sphere(12, 16, 20000, 76);
   const PreparedCloud cloud(s.cloud);
   const TriangleTree mesh(s.mesh(), cloud.normalization());
-  const auto sim = make_evaluator(DeviceAddress::parse("sim"));
+  const auto sim = test::evaluator_of("sim");
   int asked = 0;
   SearchOptions options;
   options.interrupted = [&asked] { return ++asked > 2; };

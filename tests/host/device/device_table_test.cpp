@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "evaluator_of.h"
 #include "host/device/device_address.h"
 #include "host/emax_search/emax_search.h"
 #include "host/geometry/cloud_file.h"
@@ -44,7 +45,7 @@ struct Row {
 Row run(const char* cloud_name, const std::string& device, const PreparedCloud& cloud,
         const TriangleTree& tree, bool all_pairs) {
   const auto start = std::chrono::steady_clock::now();
-  const auto evaluator = make_evaluator(DeviceAddress::parse(device));
+  const auto evaluator = test::evaluator_of(device);
   Row row;
   row.result =
       all_pairs ? brute_force_emax(cloud, tree, *evaluator) : search_emax(cloud, tree, *evaluator);
@@ -122,7 +123,7 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
   const auto expected = nearest_squared_bits(cloud.points(), tree.records());
   for (const std::string& device :
        {std::string("cpu"), std::string("sim"), std::string("rtl:pes=2"), "tty:" + board}) {
-    const auto evaluator = make_evaluator(DeviceAddress::parse(device));
+    const auto evaluator = test::evaluator_of(device);
     EXPECT_EQ(search_nearest(cloud, tree, *evaluator), expected) << device;
   }
 }

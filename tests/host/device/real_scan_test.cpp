@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "evaluator_of.h"
 #include "host/device/device_address.h"
 #include "host/emax_search/emax_search.h"
 #include "host/geometry/bounds.h"
@@ -34,7 +35,7 @@ TEST_F(RealScan, AllEnginesAgreeOnASample) {
   const TriangleTree tree(mesh_.view(), cloud.normalization());
   const EmaxResult expected = emax_model(cloud.points(), tree.records());
   for (const char* device : {"cpu", "sim"}) {
-    const auto evaluator = make_evaluator(DeviceAddress::parse(device));
+    const auto evaluator = test::evaluator_of(device);
     EXPECT_EQ(search_emax(cloud, tree, *evaluator), expected) << device;
     EXPECT_EQ(brute_force_emax(cloud, tree, *evaluator), expected) << device;
   }
@@ -43,7 +44,7 @@ TEST_F(RealScan, AllEnginesAgreeOnASample) {
 TEST_F(RealScan, SearchEqualsBruteForceOnEveryFourthPoint) {
   const PreparedCloud cloud(every(4));
   const TriangleTree tree(mesh_.view(), cloud.normalization());
-  const auto cpu = make_evaluator(DeviceAddress::parse("cpu"));
+  const auto cpu = test::evaluator_of("cpu");
   const std::vector<std::uint32_t> all_pairs = brute_force_nearest(cloud, tree, *cpu);
   EXPECT_EQ(search_nearest(cloud, tree, *cpu), all_pairs);
   EXPECT_EQ(search_emax(cloud, tree, *cpu), worst_of(all_pairs));
@@ -52,8 +53,8 @@ TEST_F(RealScan, SearchEqualsBruteForceOnEveryFourthPoint) {
 TEST_F(RealScan, DeviceEqualsCpuOnTheWhole) {
   const PreparedCloud cloud(scan_);
   const TriangleTree tree(mesh_.view(), cloud.normalization());
-  const auto cpu = make_evaluator(DeviceAddress::parse("cpu"));
-  const auto sim = make_evaluator(DeviceAddress::parse("sim"));
+  const auto cpu = test::evaluator_of("cpu");
+  const auto sim = test::evaluator_of("sim");
   EXPECT_EQ(search_emax(cloud, tree, *sim), search_emax(cloud, tree, *cpu));
 }
 

@@ -13,8 +13,11 @@ namespace {
 
 MeasuredError measure(const test::Stimulus& s, double epsilon, double share,
                       bool brute_force = false) {
-  SimdEvaluator cpu;
-  return ErrorConstraint(s.cloud, epsilon, share, brute_force).measure(s.mesh(), cpu);
+  ErrorConstraint constraint(s.cloud, epsilon, share, brute_force);
+  const MeasuredError measured = constraint.measure(s.mesh());
+  SimdEvaluator blocks;
+  EXPECT_EQ(constraint.measure(s.mesh(), blocks), measured);
+  return measured;
 }
 
 TEST(ErrorConstraint, FeasibleMeansThatTheCertificateAgrees) {

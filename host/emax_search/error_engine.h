@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host/emax_search/prepared_cloud.h"
+#include "host/emax_search/prepared_mesh.h"
+
+namespace emax {
+
+struct EngineOptions {
+  std::size_t threads = 1;
+  Strategy strategy = Strategy::kAutomatic;
+  const EngineTarget* target = nullptr;  // the best of engine_targets() unless one is named
+  // Asked now and then, by one thread; true ends a question with Interrupted.
+  std::function<bool()> interrupted = nullptr;
+};
+
+struct Quantile {
+  std::uint32_t squared_bits;         // the share of points within this d^2: nearest rank
+  std::vector<std::uint32_t> beyond;  // points of a greater d^2, ascending
+};
+
+// Every question about the distance of a cloud's points to a mesh, answered with brute force's bits
+// (docs/numerics.md): the kernel's d^2, whatever is culled, hinted at or remembered, with any
+// number of threads. A mesh is prepared with the cloud's normalization. An engine serves one
+// caller at a time. O(n log m) in practice for n points and m triangles.
+class ErrorEngine {
+ public:
+  // The cloud must outlive the engine.
+  explicit ErrorEngine(const PreparedCloud& cloud, EngineOptions options = {});
+
+  // The greatest d^2 and its point. The search begins where the last meshes were worst.
+  EmaxResult e_max(const PreparedMesh& mesh);
+  // Whether every d^2 is within `limit_bits`: nothing, or a point that is not, with its d^2.
+  std::optional<EmaxResult> violation(const PreparedMesh& mesh, std::uint32_t limit_bits);
+  // d^2 of every point, in cloud order.
+  std::vector<std::uint32_t> squared_distances(const PreparedMesh& mesh);
+  // 0 < share <= 1, else std::invalid_argument.
+  Quantile quantile(const PreparedMesh& mesh, double share);
+
+  void interrupt_with(std::function<bool()> interrupted) {
+    options_.interrupted = std::move(interrupted);
+  }
+  // Drops what was remembered of earlier meshes; only times depend on it.
+  void forget() { remembered_.clear(); }
+
+ private:
+  SearchJob job(const PreparedMesh& mesh, RunningMaximum& worst, std::uint32_t enough,
+                std::vector<std::uint32_t>& raised) const;
+  // work(thread, first, last) with flushing on.
+  void in_supergroups(const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const;
+  void remember(std::uint32_t point, std::span<const std::vector<std::uint32_t>> raised);
+
+  const PreparedCloud& cloud_;
+  EngineOptions options_;
+  const EngineTarget& target_;
+  std::vector<std::uint32_t> remembered_;  // packets that were worst, the latest last
+};
+
+}  // namespace emax

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "hls/kernel/triangle_record.h"
+
+namespace emax {
+
+// How cloud and mesh lie in memory for the engine's SIMD code.
+
+constexpr std::size_t kPacketPoints = 16;
+constexpr std::size_t kSupergroupPackets = 8;
+constexpr std::size_t kTreeWidth = 16;
+
+// Neighbouring points, their indices ascending; a packet that is not full repeats its last point.
+struct alignas(64) Packet {
+  std::array<float, kPacketPoints> x, y, z;
+  std::array<std::uint32_t, kPacketPoints> index;
+};
+
+struct FloatBox {
+  std::array<float, 3> lo, hi;
+};
+
+// The boxes of a tree node's children, empty (and infinitely far) behind the last one. Each is
+// larger than what it holds by the part of the kernel's error that does not depend on the point
+// (docs/numerics.md, "Lower bounds in binary32").
+struct alignas(64) BoxBlock {
+  std::array<std::array<float, kTreeWidth>, 3> lo, hi;
+};
+
+struct PacketView {
+  std::span<const Packet> packets;
+  std::span<const FloatBox> boxes;        // of packets
+  std::span<const FloatBox> supergroups;  // of kSupergroupPackets packets each
+};
+
+// Records in the order of the leaves. Child c of block b of a level is block b * kTreeWidth + c of
+// the level below, and a record for level 0; the last level is one block.
+struct TreeView {
+  std::span<const TriangleRecord<float>> records;
+  float reach;  // at least the greatest |V1| + longest edge of a triangle
+  std::span<const std::span<const BoxBlock>> levels;
+};
+
+}  // namespace emax

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host/emax_search/prepared_cloud.h"
+#include "sw_model/mesh_view.h"
+
+namespace emax {
+
+// The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the
+// square roots of what brute force gives, to the bit. Throws as PreparedMesh does; Interrupted when
+// `interrupted` says so.
+std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
+                                    const std::function<bool()>& interrupted = nullptr);
+
+// The greatest difference between such a distance of at most `distance` and the true one, in the
+// cloud's unit (docs/numerics.md). O(vertices).
+double point_distance_margin(const PreparedCloud& cloud, MeshView mesh, double distance);
+
+}  // namespace emax

@@ -1,0 +1,82 @@
+#include "host/report/error_ply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "host/geometry/atomic_file.h"
+
+namespace emax {
+namespace {
+
+constexpr std::array<Colour, 9> kViridis = {{{68, 1, 84},
+                                             {71, 44, 122},
+                                             {59, 81, 139},
+                                             {44, 113, 142},
+                                             {33, 144, 141},
+                                             {39, 173, 129},
+                                             {92, 200, 99},
+                                             {170, 220, 50},
+                                             {253, 231, 37}}};
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes written at once
+
+template <class Value>
+void append(std::string& bytes, const Value& value) {
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+Colour viridis(double position) {
+  const double at = std::clamp(position, 0.0, 1.0) * (kViridis.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
+  const double part = at - static_cast<double>(i);
+  Colour colour;
+  for (std::size_t k = 0; k < colour.size(); ++k) {
+    colour[k] = static_cast<std::uint8_t>(
+        std::lround((1 - part) * kViridis[i][k] + part * kViridis[i + 1][k]));
+  }
+  return colour;
+}
+
+void write_error_ply(const std::filesystem::path& path, std::span<const Point> points,
+                     std::span<const double> distances, double greatest,
+                     std::span<const Triangle> triangles) {
+  write_atomically(path, [&](AtomicFile& file) {
+    std::string bytes = fmt::format(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\n"
+        "property double y\nproperty double z\nproperty double distance\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+        points.size());
+    if (!triangles.empty()) {
+      bytes += fmt::format("element face {}\nproperty list uchar int vertex_indices\n",
+                           triangles.size());
+    }
+    bytes += "end_header\n";
+    const auto flush = [&](std::size_t above) {
+      if (bytes.size() <= above) return;
+      file.write(bytes);
+      bytes.clear();
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (int k = 0; k < 3; ++k) append(bytes, points[i][k]);
+      append(bytes, distances[i]);
+      for (const std::uint8_t channel : viridis(greatest > 0 ? distances[i] / greatest : 0)) {
+        append(bytes, channel);
+      }
+      flush(kPiece);
+    }
+    for (const Triangle& triangle : triangles) {
+      append(bytes, std::uint8_t{3});
+      for (const std::uint32_t corner : triangle) append(bytes, corner);
+      flush(kPiece);
+    }
+    flush(0);
+  });
+}
+
+}  // namespace emax

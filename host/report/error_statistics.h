@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace emax {
+
+inline constexpr std::array<double, 5> kUsualQuantiles = {50, 90, 95, 99, 99.9};  // percent
+inline constexpr std::size_t kHistogramBins = 16;
+inline constexpr double kHistogramReach =
+    99.9;  // percent, so that outliers do not flatten the rest
+
+// What a person asks of many distances.
+struct ErrorStatistics {
+  struct Quantile {
+    double percent, value;
+  };
+  struct Bin {
+    double up_to;  // inclusive
+    std::size_t count;
+  };
+
+  std::size_t count = 0;
+  double maximum = 0, mean = 0, rms = 0;
+  std::vector<Quantile> quantiles;  // in the order they were asked for
+  std::vector<Bin> histogram;  // equal ones from 0 to the quantile kHistogramReach, and one beyond
+  std::optional<std::size_t> exceeding;  // above the limit
+};
+
+// The least of the values that at least `percent` % of them do not exceed (nearest rank).
+// `sorted` is ascending and not empty; percent in [0, 100].
+double nearest_rank(std::span<const double> sorted, double percent);
+
+// Of finite distances >= 0, at least one. Sums are taken in the order given, so equal input gives
+// equal output. O(n log n).
+ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
+                              std::optional<double> limit = std::nullopt);
+
+}  // namespace emax
