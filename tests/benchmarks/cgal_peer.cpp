@@ -25,10 +25,13 @@ struct CgalPeer::Data {
   std::vector<Kernel::Point_3> cloud;
   Triangles triangles;
   std::unique_ptr<Tree> tree;
+  Mode mode = Mode::kKdTree;
 };
 
-CgalPeer::CgalPeer(std::span<const Point> cloud, MeshView mesh) : data_(std::make_unique<Data>()) {
-  for (const Point& p : cloud) data_->cloud.push_back(cgal_point(p));
+CgalPeer::CgalPeer(std::span<const Point> cloud, std::span<const std::uint32_t> order,
+                   MeshView mesh)
+    : data_(std::make_unique<Data>()) {
+  for (const std::uint32_t i : order) data_->cloud.push_back(cgal_point(cloud[i]));
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto [a, b, c] = mesh.corners(i);
     data_->triangles.emplace_back(cgal_point(a), cgal_point(b), cgal_point(c));
@@ -37,16 +40,21 @@ CgalPeer::CgalPeer(std::span<const Point> cloud, MeshView mesh) : data_(std::mak
 
 CgalPeer::~CgalPeer() = default;
 
-void CgalPeer::build() {
+void CgalPeer::build(Mode mode) {
+  data_->mode = mode;
   data_->tree = std::make_unique<Tree>(data_->triangles.cbegin(), data_->triangles.cend());
+  data_->tree->do_not_accelerate_distance_queries();
   data_->tree->build();
-  data_->tree->accelerate_distance_queries();
+  if (mode == Mode::kKdTree) data_->tree->accelerate_distance_queries();
 }
 
 double CgalPeer::greatest_squared_distance() const {
   double greatest = 0;
+  const Tree& tree = *data_->tree;
+  Kernel::Point_3 nearest = data_->triangles.front()[0];
   for (const Kernel::Point_3& p : data_->cloud) {
-    greatest = std::max(greatest, data_->tree->squared_distance(p));
+    nearest = data_->mode == Mode::kKdTree ? tree.closest_point(p) : tree.closest_point(p, nearest);
+    greatest = std::max(greatest, CGAL::squared_distance(p, nearest));
   }
   return greatest;
 }

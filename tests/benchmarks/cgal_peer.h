@@ -7,15 +7,21 @@
 
 namespace emax::benchmarks {
 
-// CGAL's AABB-tree over a mesh in double, with its kd-tree of hints ("accelerated" queries).
+// CGAL's AABB-tree over a mesh in double.
 class CgalPeer {
  public:
-  // Converts points and triangles to CGAL's; no tree yet.
-  CgalPeer(std::span<const Point> cloud, MeshView mesh);
+  enum class Mode {
+    kKdTree,  // its kd-tree of hints ("accelerated distance queries")
+    kHints    // the last point's nearest point as the hint instead
+  };
+
+  // Converts points and triangles to CGAL's; no tree yet. `order` names every point once,
+  // neighbours after each other, as the queries take them.
+  CgalPeer(std::span<const Point> cloud, std::span<const std::uint32_t> order, MeshView mesh);
   ~CgalPeer();
 
-  void build();
-  // The greatest of all points' squared distances; after build().
+  void build(Mode mode);
+  // The greatest of all points' squared distances; after build() in either mode.
   double greatest_squared_distance() const;
 
   static std::string version();

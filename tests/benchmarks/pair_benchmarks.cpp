@@ -9,7 +9,7 @@
 #include "sw_model/emax_simd.h"
 #include "sw_model/matrix_free.h"
 #include "sw_model/triangle_frame.h"
-#include "tests/benchmarks/measurement.h"
+#include "tests/benchmarks/groups.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::benchmarks {
