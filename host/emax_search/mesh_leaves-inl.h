@@ -6,6 +6,9 @@
 #define EMAX_HOST_MESH_LEAVES_INL_H
 #endif
 
+#include <cmath>
+#include <cstring>
+
 #include "host/emax_search/engine_target.h"
 #include "sw_model/simd_lanes-inl.h"
 
@@ -21,68 +24,67 @@ constexpr std::size_t kTriangles = Doubles::kCount;
 // which leaves room for the roundings of the box itself. The rest is in kBoundSlack.
 constexpr double kBoxMargin = 0x1p-18, kBoxFloor = 0x1p-60;
 
-HWY_INLINE void store_rounded(Doubles value, float* to) {
-  const HalfFloats d;
-  hn::Store(hn::DemoteTo(d, value.vec), d, to);
+using HalfVector = hn::Vec<HalfFloats>;
+
+HWY_INLINE HalfVector rounded(Doubles value) { return hn::DemoteTo(HalfFloats(), value.vec); }
+
+// Four words of each lane's record, side by side.
+HWY_INLINE void store_words(Doubles a, Doubles b, Doubles c, Doubles d, float* to) {
+  hn::StoreInterleaved4(rounded(a), rounded(b), rounded(c), rounded(d), HalfFloats(), to);
 }
 
+constexpr std::size_t kWordsAtOnce = 4;
+
 struct LeafLanes {
-  alignas(64) std::array<std::array<double, kTriangles>, 9> corners;
-  alignas(64) std::array<std::array<float, kTriangles>, kRecordWords - 1> words;
+  // Of each corner, where its coordinates begin.
+  alignas(64) std::array<std::array<std::int64_t, kTriangles>, 3> corners;
+  alignas(64)
+      std::array<std::array<float, kTriangles * kWordsAtOnce>, kRecordWords / kWordsAtOnce> words;
+  alignas(64) std::array<double, kTriangles> segment;  // not 0 for one
 };
 
+HWY_INLINE bool in_range(const std::array<kernel::Vector3<Doubles>, 3>& corners) {
+  const hn::CappedTag<double, 8> d;
+  const Doubles most(kMaxNormalizedCoordinate);
+  auto all = hn::Eq(most.vec, most.vec);
+  for (const auto& c : corners) {
+    for (const Doubles v : {c.x, c.y, c.z}) all = hn::And(all, hn::Le(hn::Abs(v.vec), most.vec));
+  }
+  return hn::AllTrue(d, all);
+}
+
 // The triangles' reach; infinite where a vertex is out of range.
-HWY_INLINE double make_some_leaves(LeafLanes& lanes, Doubles ox, Doubles oy, Doubles oz,
-                                   Doubles scale, BoxBlock& block, std::size_t child,
-                                   std::array<bool, kTriangles>& segment) {
+HWY_INLINE double make_some_leaves(const double* coordinates, Doubles ox, Doubles oy, Doubles oz,
+                                   Doubles scale, LeafLanes& lanes, BoxBlock& block,
+                                   std::size_t child) {
+  const hn::CappedTag<double, 8> d;
   std::array<kernel::Vector3<Doubles>, 3> c;
-  Doubles farthest(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    c[i] = {(Doubles::load(lanes.corners[3 * i].data()) - ox) * scale,
-            (Doubles::load(lanes.corners[3 * i + 1].data()) - oy) * scale,
-            (Doubles::load(lanes.corners[3 * i + 2].data()) - oz) * scale};
-    // A NaN anywhere makes the sum one, and it is then not less.
-    farthest = farthest + magnitude(c[i].x) + magnitude(c[i].y) + magnitude(c[i].z);
+    const auto at = hn::Load(hn::RebindToSigned<decltype(d)>(), lanes.corners[i].data());
+    c[i] = {(Doubles(hn::GatherIndex(d, coordinates, at)) - ox) * scale,
+            (Doubles(hn::GatherIndex(d, coordinates + 1, at)) - oy) * scale,
+            (Doubles(hn::GatherIndex(d, coordinates + 2, at)) - oz) * scale};
   }
-  const auto out_of_range = [&] {
-    bool out = false;
-    alignas(64) std::array<double, kTriangles> value;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const Doubles v : {c[i].x, c[i].y, c[i].z}) {
-        magnitude(v).store(value.data());
-        for (const double x : value) out |= !(x <= kMaxNormalizedCoordinate);
-      }
-    }
-    return out;
-  };
-  if (!hn::AllTrue(hn::CappedTag<double, 8>(),
-                   (farthest < Doubles(kMaxNormalizedCoordinate)).mask) &&
-      out_of_range()) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (!in_range(c)) return std::numeric_limits<double>::infinity();
 
   const auto f = kernel::frame_of(c);
-  const Doubles fields[] = {f.v1.x,          f.v1.y,          f.v1.z,          f.normal.x,
-                            f.normal.y,      f.normal.z,      f.in_plane.x,    f.in_plane.y,
-                            f.in_plane.z,    f.along.x,       f.along.y,       f.along.z,
-                            f.length12,      f.direction13.y, f.direction13.z, f.length13,
-                            f.direction23.y, f.direction23.z, f.length23};
-  for (std::size_t i = 0; i < kRecordWords - 1; ++i)
-    store_rounded(fields[i], lanes.words[i].data());
+  store_words(f.v1.x, f.v1.y, f.v1.z, f.normal.x, lanes.words[0].data());
+  store_words(f.normal.y, f.normal.z, f.in_plane.x, f.in_plane.y, lanes.words[1].data());
+  store_words(f.in_plane.z, f.along.x, f.along.y, f.along.z, lanes.words[2].data());
+  store_words(f.length12, f.direction13.y, f.direction13.z, f.length13, lanes.words[3].data());
+  store_words(f.direction23.y, f.direction23.z, f.length23, Doubles(0.0), lanes.words[4].data());
+  select(f.segment, Doubles(1.0), Doubles(0.0)).store(lanes.segment.data());
 
   const Doubles reach = magnitude(f.v1.x) + magnitude(f.v1.y) + magnitude(f.v1.z) + f.length12;
   const Doubles margin = reach * Doubles(kBoxMargin) + Doubles(kBoxFloor);
-  const auto bounds = [&](Doubles a, Doubles b, Doubles d, std::size_t axis) HWY_ATTR {
-    store_rounded(minimum(minimum(a, b), d) - margin, block.lo[axis].data() + child);
-    store_rounded(maximum(maximum(a, b), d) + margin, block.hi[axis].data() + child);
+  const auto bounds = [&](Doubles p, Doubles q, Doubles r, std::size_t axis) HWY_ATTR {
+    hn::Store(rounded(minimum(minimum(p, q), r) - margin), HalfFloats(), &block.lo[axis][child]);
+    hn::Store(rounded(maximum(maximum(p, q), r) + margin), HalfFloats(), &block.hi[axis][child]);
   };
   bounds(c[0].x, c[1].x, c[2].x, 0);
   bounds(c[0].y, c[1].y, c[2].y, 1);
   bounds(c[0].z, c[1].z, c[2].z, 2);
-  alignas(64) std::array<double, kTriangles> flags;
-  select(f.segment, Doubles(1.0), Doubles(0.0)).store(flags.data());
-  for (std::size_t k = 0; k < kTriangles; ++k) segment[k] = flags[k] != 0;
-  return hn::GetLane(hn::MaxOfLanes(hn::CappedTag<double, 8>(), reach.vec));
+  return hn::GetLane(hn::MaxOfLanes(d, reach.vec));
 }
 
 HWY_INLINE void empty_children(BoxBlock& block, std::size_t first) {
@@ -101,30 +103,27 @@ HWY_INLINE void empty_children(BoxBlock& block, std::size_t first) {
                                           std::span<BoxBlock> blocks) {
   const Doubles ox(normalization.origin.x()), oy(normalization.origin.y()),
       oz(normalization.origin.z()), scale(normalization.scale);
+  static_assert(sizeof(Point) == 3 * sizeof(double));
   LeafLanes lanes;
-  std::array<bool, kTriangles> segment{};
   double reach = 0;
   for (std::size_t first = 0; first < order.size(); first += kTriangles) {
     const std::size_t count = HWY_MIN(kTriangles, order.size() - first);
     for (std::size_t k = 0; k < kTriangles; ++k) {
       const Triangle& t = mesh.triangles[order[first + HWY_MIN(k, count - 1)]];
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Point& p = mesh.vertices[t[c]];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          lanes.corners[3 * c + axis][k] = p[static_cast<Eigen::Index>(axis)];
-        }
-      }
+      lanes.corners[0][k] = std::int64_t{3} * t[0];
+      lanes.corners[1][k] = std::int64_t{3} * t[1];
+      lanes.corners[2][k] = std::int64_t{3} * t[2];
     }
-    reach = HWY_MAX(reach, make_some_leaves(lanes, ox, oy, oz, scale, blocks[first / kTreeWidth],
-                                            first % kTreeWidth, segment));
+    reach = HWY_MAX(reach, make_some_leaves(mesh.vertices.data()->data(), ox, oy, oz, scale, lanes,
+                                            blocks[first / kTreeWidth], first % kTreeWidth));
     if (std::isinf(reach)) break;
     for (std::size_t k = 0; k < count; ++k) {
-      std::array<std::uint32_t, kRecordWords> words;
-      for (std::size_t w = 0; w < kRecordWords - 1; ++w) {
-        words[w] = std::bit_cast<std::uint32_t>(lanes.words[w][k]);
+      auto* record = reinterpret_cast<char*>(&records[first + k]);
+      for (const auto& words : lanes.words) {
+        std::memcpy(record, &words[k * kWordsAtOnce], kWordsAtOnce * sizeof(float));
+        record += kWordsAtOnce * sizeof(float);
       }
-      words[kRecordWords - 1] = order[first + k] | (segment[k] ? kSegmentFlag : 0);
-      records[first + k] = std::bit_cast<TriangleRecord<float>>(words);
+      records[first + k].tag = order[first + k] | (lanes.segment[k] != 0 ? kSegmentFlag : 0);
     }
   }
   if (order.size() % kTreeWidth != 0) empty_children(blocks.back(), order.size() % kTreeWidth);
