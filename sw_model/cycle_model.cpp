@@ -19,6 +19,7 @@ constexpr std::uint64_t kRecordHandover = 2;
 constexpr std::uint64_t kPassAfterRecord = 2;
 constexpr std::uint64_t kPassAfterReduce = 3;
 constexpr std::uint64_t kAnswerAfterPair = kLatency + 20;
+constexpr std::uint64_t kWorstAfterPair = kAnswerAfterPair + 1;
 constexpr std::uint64_t kOutputRoom = 255;  // words in an element's output
 constexpr std::uint64_t kGather = 2;        // per element
 constexpr std::uint64_t kAnswerOverhead = 4;
@@ -88,7 +89,7 @@ void CycleModel::reduce(bool list_points) {
     const std::uint64_t first = std::max(begin + kAnswerAfterPair, answer_end_);
     const std::uint64_t room = elements_ * kOutputRoom;
     if (listed > room) pass_end_ = std::max(pass_end_, first + listed - room);
-    ready = std::max(first + listed, pass_end_ + kAnswerAfterPair) +
+    ready = std::max(first + listed, pass_end_ + kWorstAfterPair) +
             kGather * std::min(elements_, points_);
     record_waits_ = false;
   } else {

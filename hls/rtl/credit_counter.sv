@@ -1,7 +1,8 @@
 // Room in a FIFO that is filled by a pipeline which cannot stop: a credit is taken when a beat that
 // will end in the FIFO enters the pipeline and given back when its word leaves the FIFO. `room` is a
-// register that says whether a beat may take a credit in this cycle; it is low when one credit is
-// left, so that it need not look at `take`. One take and one give a cycle.
+// register that says whether a beat may take a credit in this cycle. One take and one give a cycle;
+// each counts a cycle later, for they come from far apart, and `room` is low when two credits are
+// left, so that it need not know of the last two takes.
 `include "mutation.svh"
 
 module credit_counter #(
@@ -17,19 +18,23 @@ module credit_counter #(
 
   logic [CREDIT_BITS:0] credits;
 
-  assign room_next = credits > 1;
+  logic taken, given;
+
+  assign room_next = credits > 2;
 
   always_ff @(posedge clk) begin
+    taken <= !reset && take;
+    given <= !reset && give;
     if (reset) credits <= ALL;
-    else if (take && !give) credits <= `MUTATED(CREDIT_NOT_TAKEN, credits - 1, credits);
-    else if (give && !take) credits <= `MUTATED(CREDIT_NOT_GIVEN, credits + 1, credits);
+    else if (taken && !given) credits <= `MUTATED(CREDIT_NOT_TAKEN, credits - 1, credits);
+    else if (given && !taken) credits <= `MUTATED(CREDIT_NOT_GIVEN, credits + 1, credits);
   end
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
     if (!reset) begin
-      assert (!(take && credits == 0)) else $error("a credit was taken where there was none");
-      assert (!(give && credits == ALL)) else $error("a credit came back that nobody had taken");
+      assert (!(taken && credits == 0)) else $error("a credit was taken where there was none");
+      assert (!(given && credits == ALL)) else $error("a credit came back that nobody had taken");
     end
   end
 `endif

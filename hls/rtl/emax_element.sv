@@ -24,7 +24,7 @@
 // `first` (running_minimum.sv); an assertion watches this.
 //
 // Schedule, from the cycle in which a pair is accepted: its distance at LATENCY
-// (emax_distance_schedule.svh), its minimum two later, the block's worst point three later; out of the
+// (emax_distance_schedule.svh), its minimum two later, the block's worst point four later; out of the
 // FIFOs five cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
 // nothing that was accepted before a reset comes out after it.
 `include "mutation.svh"
@@ -55,8 +55,8 @@ module emax_element #(
   localparam int LATENCY = `EMAX_DISTANCE_LATENCY;
   localparam int LAST_READ = `EMAX_DISTANCE_LAST_READ;
   // Depth of the output FIFOs, each a block RAM: a credit is away from its pair's acceptance until
-  // its word has left the FIFO, unhindered LATENCY + 9 cycles, and one is never lent.
-  localparam int OUTPUT_BITS = $clog2(LATENCY + 11);
+  // its word has left the FIFO, unhindered LATENCY + 12 cycles, and two are never lent.
+  localparam int OUTPUT_BITS = $clog2(LATENCY + 15);
 
   // Streams see aresetn at once, what lies behind them a cycle later, from a register that nothing
   // else drives: it reaches every part.

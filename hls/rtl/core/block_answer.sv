@@ -170,7 +170,7 @@ module block_answer #(
       end
       DISCARD: begin
         done <= done | (nearest_tvalid & nearest_tlast);
-        if (&(done | (nearest_tvalid & nearest_tlast))) begin
+        if (&done) begin
           done <= ~has_points;
           state <= GATHER;
         end

@@ -46,8 +46,8 @@ module emax_board #(
   logic [STRETCH_BITS-1:0] clocks;
   logic tick;
   logic [3:0] now, since_tick;
-  assign now = {under_way, connected, sent_valid, received_valid};
   always_ff @(posedge clk) begin
+    now <= {under_way, connected, sent_valid, received_valid};
     clocks <= reset ? '0 : clocks + 1;
     tick <= clocks == '1;
     since_tick <= reset ? '0 : now | (tick ? 4'b0 : since_tick);
