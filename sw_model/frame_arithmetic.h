@@ -1,7 +1,7 @@
 // The arithmetic of a triangle's frame (triangle_frame.h), once for a double and for a vector of
 // them: the same operations in the same order on every lane, so records are the same bits whoever
-// makes them. A lane type declares select, either, negated, square_root and the operators beside
-// itself, as kernel scalars do (hls/kernel/scalar.h).
+// makes them. A lane type declares select, either, negated, any, square_root and the operators
+// beside itself, as kernel scalars do (hls/kernel/scalar.h).
 #ifndef EMAX_SW_MODEL_FRAME_ARITHMETIC_H
 #define EMAX_SW_MODEL_FRAME_ARITHMETIC_H
 
@@ -13,6 +13,7 @@
 namespace emax {
 
 inline double square_root(double value) { return std::sqrt(value); }
+inline bool any(bool condition) { return condition; }
 
 // A triangle whose height over its longest edge is below this part of it is a segment.
 constexpr double kSliverRatio = 1e-6;
@@ -100,8 +101,8 @@ auto frame_of(const std::array<Vector3<Real>, 3>& corners) {
   const Vector3<Real> off_axis = to3 - scaled(frame.along, dot(frame.along, to3));
   const Real height = square_root(dot(off_axis, off_axis));
   frame.segment = either(height < Real(kSliverRatio) * frame.length12, is_point);
-  const Vector3<Real> upwards = select(frame.segment, across(frame.along),
-                                       scaled(off_axis, one / select(frame.segment, one, height)));
+  Vector3<Real> upwards = scaled(off_axis, one / select(frame.segment, one, height));
+  if (any(frame.segment)) upwards = select(frame.segment, across(frame.along), upwards);
   // Orthogonalised twice: once leaves a cancellation error of the size of the sliver ratio.
   const Vector3<Real> in_plane = upwards - scaled(frame.along, dot(frame.along, upwards));
   frame.in_plane = scaled(in_plane, one / square_root(dot(in_plane, in_plane)));

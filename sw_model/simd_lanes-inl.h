@@ -85,6 +85,10 @@ HWY_INLINE LaneMask<D> either(LaneMask<D> a, LaneMask<D> b) {
   return {hn::Or(a.mask, b.mask)};
 }
 template <class D>
+HWY_INLINE bool any(LaneMask<D> a) {
+  return !hn::AllFalse(D(), a.mask);
+}
+template <class D>
 HWY_INLINE LaneMask<D> negated(LaneMask<D> a) {
   return {hn::Not(a.mask)};
 }

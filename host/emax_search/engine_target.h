@@ -42,6 +42,15 @@ enum class Strategy {
   kBestFirst,  // from the tree's root for each packet, the last one's triangle as hint
 };
 
+// What is known of a cloud's packets from the meshes before.
+struct Certified {
+  std::span<Certificate> certificates;  // of all packets
+  std::span<std::uint32_t> meshes;      // the number of the mesh each speaks of
+  std::span<const std::uint32_t>
+      carried;                        // leaf of mesh `before` to the same triangle's, or kNoLeaf
+  std::uint32_t now = 0, before = 0;  // numbers of meshes
+};
+
 struct SearchJob {
   PacketView cloud;
   TreeView mesh;
@@ -49,17 +58,17 @@ struct SearchJob {
   RunningMaximum& worst;
   std::uint32_t enough;                // d^2 bits: a greater maximum ends the search
   std::vector<std::uint32_t>& raised;  // packets that raised the maximum are added
+  Certified certified;
 };
 
 // The engine's inner loops for one kind of SIMD instructions. The same bits from every target.
 struct EngineTarget {
   std::string_view name;
 
-  // Records of the triangles `order` names and the blocks of their boxes; returns their reach, and
-  // infinity where a vertex is not finite or too far: then nothing is of use. O(n), about 100
-  // operations on doubles each.
-  float (*make_leaves)(MeshView mesh, const Normalization& normalization,
-                       std::span<const std::uint32_t> order,
+  // Records of the triangles and the blocks of their boxes; returns their reach. The vertices are
+  // normalised and in range. O(n), about 100 operations on doubles each.
+  float (*make_leaves)(std::span<const NormalizedVertex> vertices,
+                       std::span<const Triangle> corners, std::span<const LeafKey> keys,
                        std::span<TriangleRecord<float>> records, std::span<BoxBlock> blocks);
   void (*make_level)(std::span<const BoxBlock> below, std::span<BoxBlock> level);
 

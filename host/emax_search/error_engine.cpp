@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "host/emax_search/emax_search.h"
+#include "host/emax_search/nearest_rank.h"
 #include "host/emax_search/parallel.h"
 #include "sw_model/flush_mode.h"
 
@@ -22,11 +23,37 @@ constexpr std::uint32_t kNeverEnough = std::numeric_limits<std::uint32_t>::max()
 ErrorEngine::ErrorEngine(const PreparedCloud& cloud, EngineOptions options)
     : cloud_(cloud),
       options_(std::move(options)),
-      target_(options_.target != nullptr ? *options_.target : engine_targets().front()) {}
+      target_(options_.target != nullptr ? *options_.target : engine_targets().front()) {
+  if (options_.threads == 0) throw std::invalid_argument("an engine has at least one thread");
+  forget();
+}
+
+void ErrorEngine::forget() {
+  remembered_.clear();
+  certificates_.assign(cloud_.packets().packets.size(), {});
+  certified_meshes_.assign(certificates_.size(), 0);
+  last_mesh_ = nullptr;
+  carried_.clear();
+  mesh_number_ = 0;
+}
+
+void ErrorEngine::begin(const PreparedMesh& mesh) {
+  if (last_mesh_ == mesh.leaves()) return;
+  carried_.clear();
+  if (last_mesh_ != nullptr) carried_ = last_mesh_->carried_to(*mesh.leaves());
+  last_mesh_ = mesh.leaves();
+  ++mesh_number_;
+}
 
 SearchJob ErrorEngine::job(const PreparedMesh& mesh, RunningMaximum& worst, std::uint32_t enough,
-                           std::vector<std::uint32_t>& raised) const {
-  return {cloud_.packets(), mesh.tree(), options_.strategy, worst, enough, raised};
+                           std::vector<std::uint32_t>& raised) {
+  return {cloud_.packets(),
+          mesh.tree(),
+          options_.strategy,
+          worst,
+          enough,
+          raised,
+          {certificates_, certified_meshes_, carried_, mesh_number_, mesh_number_ - 1}};
 }
 
 void ErrorEngine::in_supergroups(
@@ -56,6 +83,7 @@ void ErrorEngine::remember(std::uint32_t point,
 }
 
 EmaxResult ErrorEngine::e_max(const PreparedMesh& mesh) {
+  begin(mesh);
   RunningMaximum worst;
   std::vector<std::vector<std::uint32_t>> raised(options_.threads);
   std::vector<std::uint32_t> seeds = remembered_;
@@ -80,6 +108,7 @@ EmaxResult ErrorEngine::e_max(const PreparedMesh& mesh) {
 // does not depend on the number of threads.
 std::optional<EmaxResult> ErrorEngine::violation(const PreparedMesh& mesh,
                                                  std::uint32_t limit_bits) {
+  begin(mesh);
   std::vector<std::uint32_t> raised;
   const auto violation_of = [&](const RunningMaximum& worst) {
     const EmaxResult r = worst.get();
@@ -127,8 +156,8 @@ Quantile ErrorEngine::quantile(const PreparedMesh& mesh, double share) {
   }
   const std::vector<std::uint32_t> all = squared_distances(mesh);
   std::vector<std::uint32_t> ranked = all;
-  const double rank = std::ceil(share * static_cast<double>(all.size()));
-  const auto at = ranked.begin() + (static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1);
+  const auto at =
+      ranked.begin() + (static_cast<std::ptrdiff_t>(nearest_rank(share, all.size())) - 1);
   std::nth_element(ranked.begin(), at, ranked.end());
   Quantile quantile = {*at, {}};
   for (std::uint32_t i = 0; i < all.size(); ++i) {

@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/emax_search/nearest_rank.h"
+
 namespace emax {
 namespace {
 
+double quantile_of(std::span<const double> sorted, double percent) {
+  return sorted[nearest_rank(percent / 100, sorted.size()) - 1];
+}
+
 std::vector<ErrorStatistics::Bin> histogram_of(std::span<const double> sorted) {
   constexpr std::size_t kEqual = kHistogramBins - 1;
-  const double reach = nearest_rank(sorted, kHistogramReach);
+  const double reach = quantile_of(sorted, kHistogramReach);
   std::vector<ErrorStatistics::Bin> bins;
   std::size_t below = 0;
   const auto add = [&](double up_to) {
@@ -27,12 +33,6 @@ std::vector<ErrorStatistics::Bin> histogram_of(std::span<const double> sorted) {
 
 }  // namespace
 
-double nearest_rank(std::span<const double> sorted, double percent) {
-  // Two roundings must not carry a whole rank over to the next.
-  const double rank = std::ceil(percent * static_cast<double>(sorted.size()) / 100 * (1 - 0x1p-50));
-  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
-
 ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
                               std::optional<double> limit) {
   ErrorStatistics s;
@@ -49,7 +49,7 @@ ErrorStatistics statistics_of(std::span<const double> distances, std::span<const
   s.mean = std::min(sum / count, s.maximum);
   s.rms = std::min(std::sqrt(squares / count), s.maximum);
   for (const double percent : percents) {
-    s.quantiles.push_back({percent, nearest_rank(sorted, percent)});
+    s.quantiles.push_back({percent, quantile_of(sorted, percent)});
   }
   s.histogram = histogram_of(sorted);
   if (limit) {

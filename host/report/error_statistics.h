@@ -30,12 +30,8 @@ struct ErrorStatistics {
   std::optional<std::size_t> exceeding;  // above the limit
 };
 
-// The least of the values that at least `percent` % of them do not exceed (nearest rank).
-// `sorted` is ascending and not empty; percent in [0, 100].
-double nearest_rank(std::span<const double> sorted, double percent);
-
-// Of finite distances >= 0, at least one. Sums are taken in the order given, so equal input gives
-// equal output. O(n log n).
+// Of finite distances >= 0, at least one; quantiles by nearest rank (nearest_rank.h). Sums are
+// taken in the order given, so equal input gives equal output. O(n log n).
 ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
                               std::optional<double> limit = std::nullopt);
 

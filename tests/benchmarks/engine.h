@@ -9,8 +9,9 @@ using EngineMesh = PreparedMesh;
 using Engine = ErrorEngine;
 
 inline EngineMesh engine_mesh(MeshView mesh, const PreparedCloud& cloud,
-                              const EngineTarget& target = engine_targets().front()) {
-  return {mesh, cloud.normalization(), target};
+                              const EngineTarget& target = engine_targets().front(),
+                              std::size_t threads = 1) {
+  return {mesh, cloud.normalization(), target, threads};
 }
 
 inline std::size_t memory_bytes(const EngineMesh& mesh) { return mesh.memory_bytes(); }

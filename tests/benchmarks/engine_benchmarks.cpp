@@ -93,6 +93,15 @@ void add_sequence_groups(Groups& groups, const CaseFolders& folders, bool quick)
                 for (const auto& mesh : s.meshes) bits ^= s.engine.e_max(*mesh).squared_bits;
                 return bits;
               }));
+    group.add("of which: the mesh before's triangles found in this one", amount, repeat([&s] {
+                std::size_t found = 0;
+                const EngineMesh* before = s.meshes.back().get();
+                for (const auto& mesh : s.meshes) {
+                  found += before->leaves()->carried_to(*mesh->leaves()).size();
+                  before = mesh.get();
+                }
+                return found;
+              }));
     group.add("mesh prepared", amount, repeat([&s] {
                 std::size_t records = 0;
                 for (const TriangleMesh& mesh : s.given.meshes) {
@@ -122,8 +131,10 @@ void add_thread_groups(Groups& groups, const CaseFolders& folders) {
   add("e_max, query", [](Engine& engine) { return engine.e_max(mesh); });
   add("every point's distance, query",
       [](Engine& engine) { return engine.squared_distances(mesh).size(); });
-  add("e_max, mesh prepared and queried",
-      [](Engine& engine) { return engine.e_max(engine_mesh(dragon.mesh.view(), cloud)); });
+  add("e_max, mesh prepared and queried", [](Engine& engine) {
+    return engine.e_max(
+        engine_mesh(dragon.mesh.view(), cloud, engine_targets().front(), &engine == &one ? 1 : 2));
+  });
 }
 
 std::vector<Curve> add_scaling_groups(Groups& groups, const CaseFolders& folders) {

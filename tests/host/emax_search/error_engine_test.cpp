@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "host/emax_search/emax_search.h"
 #include "host/emax_search/simd_evaluator.h"
@@ -19,6 +19,10 @@
 
 namespace emax {
 namespace {
+
+std::size_t pick(test::Random& random, std::size_t count) {
+  return random.below(static_cast<std::uint32_t>(count));
+}
 
 using Bits = std::vector<std::uint32_t>;
 
@@ -49,6 +53,16 @@ struct BruteForce {
   EmaxResult worst;
 };
 
+struct Certificates {
+  explicit Certificates(const PacketView& packets)
+      : certificates(packets.packets.size()), meshes(packets.packets.size()) {}
+  Certified certified(std::span<const std::uint32_t> carried, std::uint32_t now) {
+    return {certificates, meshes, carried, now, now - 1};
+  }
+  std::vector<Certificate> certificates;
+  std::vector<std::uint32_t> meshes;
+};
+
 // How many of the engine's answers differ from brute force, of how many.
 struct Tally {
   int wrong = 0, asked = 0;
@@ -74,15 +88,15 @@ void ask_everything(ErrorEngine& engine, const PreparedMesh& mesh, const BruteFo
         (!violation || (violation->squared_bits > limit &&
                         violation->squared_bits == expected.nearest[violation->worst_point])));
   }
-  for (const double share : {1e-9, 0.5, 0.99, 1.0}) {
+  for (const std::size_t percent : {0u, 7u, 50u, 99u, 100u}) {
+    const double share = percent == 0 ? 1e-9 : static_cast<double>(percent) / 100;
     const Quantile quantile = engine.quantile(mesh, share);
-    const double rank = std::max(1.0, std::ceil(share * static_cast<double>(ranked.size())));
+    const std::size_t rank = std::max<std::size_t>((percent * ranked.size() + 99) / 100, 1);
     Bits beyond;
     for (std::uint32_t i = 0; i < expected.nearest.size(); ++i) {
       if (expected.nearest[i] > quantile.squared_bits) beyond.push_back(i);
     }
-    tally.count(quantile.squared_bits == ranked[static_cast<std::size_t>(rank) - 1] &&
-                quantile.beyond == beyond);
+    tally.count(quantile.squared_bits == ranked[rank - 1] && quantile.beyond == beyond);
   }
 }
 
@@ -151,6 +165,81 @@ TEST(ErrorEngine, RemembersWithoutError) {
   }
 }
 
+// A mesh and what becomes of it in the hands of a decimator: vertices moved, triangles dropped, the
+// order of those that stay another.
+test::Stimulus edited(test::Stimulus s, test::Random& random) {
+  for (int i = 0; i < 6; ++i) {
+    Point& moved = s.vertices[pick(random, s.vertices.size())];
+    moved += random.point(-0.3, 0.3);
+  }
+  for (int i = 0; i < 20; ++i) {
+    s.triangles.erase(s.triangles.begin() +
+                      static_cast<std::ptrdiff_t>(pick(random, s.triangles.size())));
+  }
+  for (std::size_t i = s.triangles.size(); i > 1; --i) {
+    std::swap(s.triangles[i - 1], s.triangles[pick(random, i)]);
+  }
+  return s;
+}
+
+TEST(ErrorEngine, KeepsWhatStillHolds) {
+  for (const EngineTarget& target : engine_targets()) {
+    test::Random random(78);
+    test::Stimulus s = test::bumpy_sphere(40, 60, 20000, 78);
+    const PreparedCloud cloud(s.cloud);
+    EngineOptions options;
+    options.target = &target;
+    ErrorEngine warm(cloud, options);
+    options.threads = 3;
+    ErrorEngine in_threads(cloud, options);
+    for (int step = 0; step < 12; ++step, s = edited(s, random)) {
+      SCOPED_TRACE(std::string(target.name) + ", step " + std::to_string(step));
+      const PreparedMesh mesh(s.mesh(), cloud.normalization());
+      const auto nearest = ErrorEngine(cloud).squared_distances(mesh);
+      const EmaxResult worst = worst_of(nearest);
+      // Questions that end early leave packets with what was known before.
+      const std::uint32_t limit = nearest[pick(random, nearest.size())];
+      if (step % 3 == 1) {
+        const auto violation = warm.violation(mesh, limit);
+        ASSERT_EQ(violation.has_value(), worst.squared_bits > limit);
+        if (violation) {
+          EXPECT_EQ(violation->squared_bits, nearest[violation->worst_point]);
+        }
+      }
+      if (step % 4 == 2) continue;
+      EXPECT_EQ(warm.e_max(mesh), worst);
+      EXPECT_EQ(in_threads.e_max(mesh), worst);
+      EXPECT_EQ(warm.violation(mesh, worst.squared_bits), std::nullopt);
+    }
+  }
+}
+
+// Certificates of a mesh for another that lacks its triangles: what the test above would see.
+TEST(ErrorEngine, FalselyCarriedTrianglesAreCaught) {
+  test::Stimulus s = test::bumpy_sphere(40, 60, 20000, 79);
+  const PreparedCloud cloud(s.cloud);
+  const PacketView packets = cloud.packets();
+  Certificates certificates(packets);
+  std::vector<std::uint32_t> raised, carried(s.triangles.size());
+  std::iota(carried.begin(), carried.end(), 0u);
+  const auto search = [&](const PreparedMesh& mesh, std::uint32_t number) {
+    RunningMaximum worst;
+    worst.raise({float_bits(1.0f), 0});
+    const ScopedFlushMode flush;
+    engine_targets().front().search_supergroups(
+        {packets, mesh.tree(), Strategy::kPackets, worst, std::numeric_limits<std::uint32_t>::max(),
+         raised, certificates.certified(carried, number)},
+        0, packets.supergroups.size());
+    return worst.get();
+  };
+  const PreparedMesh near(s.mesh(), cloud.normalization());
+  EXPECT_EQ(search(near, 1).squared_bits, float_bits(1.0f));
+  for (Point& vertex : s.vertices) vertex += Point(1000, 0, 0);
+  const PreparedMesh far(s.mesh(), cloud.normalization());
+  EXPECT_EQ(search(far, 2).squared_bits, float_bits(1.0f));
+  EXPECT_GT(search(far, 4).squared_bits, float_bits(1.0f));  // those of mesh 2 are not of mesh 3
+}
+
 // Boxes that are too small hide triangles: what the tests above would see.
 TEST(ErrorEngine, TooSmallBoxesAreCaught) {
   int wrong = 0;
@@ -179,8 +268,8 @@ TEST(ErrorEngine, TooSmallBoxesAreCaught) {
     const PacketView packets = expected.cloud.packets();
     const ScopedFlushMode flush;
     engine_targets().front().nearest(
-        {packets, {right.records, right.reach, spans}, Strategy::kBestFirst, unused, 0, raised}, 0,
-        packets.supergroups.size(), nearest);
+        {packets, {right.records, right.reach, spans}, Strategy::kBestFirst, unused, 0, raised, {}},
+        0, packets.supergroups.size(), nearest);
     wrong += nearest != expected.nearest;
   }
   EXPECT_GT(wrong, 0);
@@ -196,8 +285,14 @@ TEST(ErrorEngine, TooWidePrismsAreCaught) {
     const PacketView packets = expected.cloud.packets();
     RunningMaximum worst;
     std::vector<std::uint32_t> raised;
-    const SearchJob job = {packets, {right.records, -1e4f, right.levels},      Strategy::kPackets,
-                           worst,   std::numeric_limits<std::uint32_t>::max(), raised};
+    Certificates none(packets);
+    const SearchJob job = {packets,
+                           {right.records, -1e4f, right.levels},
+                           Strategy::kPackets,
+                           worst,
+                           std::numeric_limits<std::uint32_t>::max(),
+                           raised,
+                           none.certified({}, 1)};
     const std::uint32_t seed = 0;
     const ScopedFlushMode flush;
     engine_targets().front().search_packets(job, {&seed, 1});
@@ -274,6 +369,7 @@ TEST(ErrorEngine, RefusesWhatCannotBeMeasured) {
     }
   }
   const PreparedMesh mesh(s.mesh(), cloud.normalization());
+  EXPECT_THROW(ErrorEngine(cloud, {.threads = 0}), std::invalid_argument);
   ErrorEngine engine(cloud);
   EXPECT_THROW(engine.quantile(mesh, 0), std::invalid_argument);
   EXPECT_THROW(engine.quantile(mesh, 1.01), std::invalid_argument);
@@ -288,25 +384,6 @@ TEST(ErrorEngine, StopsWhenInterrupted) {
   ErrorEngine engine(cloud, options);
   EXPECT_THROW(engine.e_max(mesh), Interrupted);
   EXPECT_THROW(engine.squared_distances(mesh), Interrupted);
-}
-
-TEST(PreparedMesh, HasTheModelsRecordsAlongACurve) {
-  for (const test::Stimulus& s : stimuli()) {
-    SCOPED_TRACE(s.name);
-    const Normalization normalization = normalization_of(s.cloud);
-    const auto expected = make_records(s.mesh(), normalization);
-    for (const EngineTarget& target : engine_targets()) {
-      const PreparedMesh mesh(s.mesh(), normalization, target);
-      std::vector<int> seen(expected.size(), 0);
-      for (const TriangleRecord<float>& record : mesh.records()) {
-        const std::uint32_t triangle = record.tag & ~kSegmentFlag;
-        ++seen.at(triangle);
-        EXPECT_EQ(std::memcmp(&record, &expected[triangle], sizeof record), 0)
-            << target.name << ", triangle " << triangle;
-      }
-      EXPECT_TRUE(std::ranges::all_of(seen, [](int n) { return n == 1; }));
-    }
-  }
 }
 
 }  // namespace

@@ -39,19 +39,6 @@ TEST(ErrorStatistics, HistogramHoldsOutliersInItsLastBin) {
   EXPECT_EQ(bins.back().count, 1u);
 }
 
-// Counted in whole numbers of thousandths, free of rounding.
-TEST(ErrorStatistics, NearestRankEqualsCounting) {
-  for (std::size_t n = 1; n < 2200; n += n < 40 ? 1 : 137) {
-    std::vector<double> sorted(n);
-    std::iota(sorted.begin(), sorted.end(), 1.0);
-    for (std::size_t thousandths = 0; thousandths <= 100000; thousandths += 50) {
-      const std::size_t rank = std::max<std::size_t>((thousandths * n + 99999) / 100000, 1);
-      ASSERT_EQ(nearest_rank(sorted, static_cast<double>(thousandths) / 1000), double(rank))
-          << thousandths << "/1000 % of " << n;
-    }
-  }
-}
-
 TEST(ErrorStatistics, KeepsItsOrderWithManyAndWithEqualNumbers) {
   test::Random random(301);
   std::vector<double> distances(5000);

@@ -1,0 +1,100 @@
+#include "host/emax_search/prepared_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "sw_model/triangle_frame.h"
+#include "tests/support/stimuli.h"
+
+namespace emax {
+namespace {
+
+std::size_t pick(test::Random& random, std::size_t count) {
+  return random.below(static_cast<std::uint32_t>(count));
+}
+
+TEST(PreparedMesh, HasTheModelsRecordsAlongACurve) {
+  for (const test::Stimulus& s : test::all_stimuli(70)) {
+    SCOPED_TRACE(s.name + ", seed 70");
+    const Normalization normalization = normalization_of(s.cloud);
+    const auto expected = make_records(s.mesh(), normalization);
+    for (const EngineTarget& target : engine_targets()) {
+      const PreparedMesh mesh(s.mesh(), normalization, target);
+      std::vector<int> seen(expected.size(), 0);
+      for (const TriangleRecord<float>& record : mesh.records()) {
+        const std::uint32_t triangle = record.tag & ~kSegmentFlag;
+        ++seen.at(triangle);
+        EXPECT_EQ(std::memcmp(&record, &expected[triangle], sizeof record), 0)
+            << target.name << ", triangle " << triangle;
+      }
+      EXPECT_TRUE(std::ranges::all_of(seen, [](int n) { return n == 1; }));
+    }
+  }
+}
+
+TEST(PreparedMesh, IsTheSameFromAnyNumberOfThreads) {
+  const test::Stimulus s = test::bumpy_sphere(90, 121, 1000, 80);
+  const Normalization normalization = normalization_of(s.cloud);
+  const EngineTarget& target = engine_targets().front();
+  const PreparedMesh one(s.mesh(), normalization, target, 1);
+  const TreeView expected = one.tree();
+  for (const std::size_t threads : {2u, 3u, 8u}) {
+    const PreparedMesh mesh(s.mesh(), normalization, target, threads);
+    const TreeView tree = mesh.tree();
+    EXPECT_EQ(tree.reach, expected.reach);
+    EXPECT_EQ(std::memcmp(tree.records.data(), expected.records.data(), tree.records.size_bytes()),
+              0);
+    ASSERT_EQ(tree.levels.size(), expected.levels.size());
+    for (std::size_t level = 0; level < tree.levels.size(); ++level) {
+      EXPECT_EQ(std::memcmp(tree.levels[level].data(), expected.levels[level].data(),
+                            expected.levels[level].size_bytes()),
+                0);
+    }
+  }
+}
+
+using Corners = std::array<Point, 3>;
+
+Corners corners_of(const MeshLeaves& leaves, std::size_t leaf, const MeshView& mesh) {
+  return mesh.corners(leaves.keys()[leaf].triangle);
+}
+
+// Against every pair.
+TEST(MeshLeaves, CarriesWhatHasTheSameCorners) {
+  test::Random random(81);
+  const test::Stimulus before = test::bumpy_sphere(15, 20, 100, 81);
+  test::Stimulus now = before;
+  for (int i = 0; i < 30; ++i) {
+    now.vertices[pick(random, now.vertices.size())] += Point(0, 0, 1e-12);
+  }
+  std::ranges::reverse(now.triangles);
+  for (std::size_t i = 0; i < now.triangles.size(); i += 7) {
+    std::swap(now.triangles[i][0], now.triangles[i][1]);  // turned over: another triangle
+  }
+  const Normalization normalization = normalization_of(before.cloud);
+  const MeshLeaves old_leaves(before.mesh(), normalization, 1);
+  const MeshLeaves new_leaves(now.mesh(), normalization, 1);
+  const auto carried = old_leaves.carried_to(new_leaves);
+  ASSERT_EQ(carried.size(), before.triangles.size());
+  std::size_t stayed = 0;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    const Corners corners = corners_of(old_leaves, i, before.mesh());
+    std::vector<std::uint32_t> same;
+    for (std::uint32_t j = 0; j < now.triangles.size(); ++j) {
+      if (corners_of(new_leaves, j, now.mesh()) == corners) same.push_back(j);
+    }
+    if (same.empty()) {
+      EXPECT_EQ(carried[i], kNoLeaf) << i;
+    } else {
+      EXPECT_NE(std::ranges::find(same, carried[i]), same.end()) << i;
+      ++stayed;
+    }
+  }
+  EXPECT_GT(stayed, before.triangles.size() / 4);
+  EXPECT_LT(stayed, before.triangles.size());
+}
+
+}  // namespace
+}  // namespace emax
