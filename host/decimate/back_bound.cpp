@@ -1,0 +1,208 @@
+#include "host/decimate/back_bound.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace emax {
+namespace {
+
+constexpr int kMostSteps = 64;    // of the walk to the first corner
+constexpr int kMostPieces = 160;  // that one triangle may be halved into
+
+}  // namespace
+
+// The plane of a triangle, its corners in it and the sides as lines that are positive inside.
+struct BackBound::Plane {
+  explicit Plane(const std::array<Point, 3>& c) : origin(c[0]) {
+    along = (c[1] - c[0]).normalized();
+    normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+    across = normal.cross(along);
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = project(c[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner& from = corners[i];
+      const Corner& to = corners[(i + 1) % 3];
+      // Across, to the left of the side.
+      const double length = std::hypot(to.y - from.y, to.z - from.z);
+      line[i] = {-(to.z - from.z) / length, (to.y - from.y) / length, 0};
+      line[i][2] = -(line[i][0] * from.y + line[i][1] * from.z);
+    }
+  }
+  // y along the first side, z across it.
+  Corner project(const Point& p) const {
+    const Point q = p - origin;
+    return {along.dot(q), across.dot(q), normal.dot(q)};
+  }
+  Point lift(const Corner& c) const { return origin + c.y * along + c.z * across; }
+  double inside(std::size_t side, const Corner& c) const {
+    return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
+  }
+
+  Point origin, along, across, normal;
+  std::array<Corner, 3> corners;
+  std::array<std::array<double, 3>, 3> line;
+};
+
+BackBound::BackBound(const TriangleMesh& reference, double limit)
+    : reference_(reference),
+      tree_(reference_),
+      limit_(limit),
+      squared_limit_(limit * limit),
+      neighbours_(reference.triangles.size(), {kNoIndex, kNoIndex, kNoIndex}),
+      seen_(reference.triangles.size(), 0) {
+  for (std::uint32_t t = 0; t < reference.triangles.size(); ++t) {
+    const Triangle& triangle = reference.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [first, second] = reference_.slots_at_edge(triangle[i], triangle[(i + 1) % 3]);
+      neighbours_[t][i] = first == t ? second : first;
+    }
+  }
+}
+
+std::uint32_t BackBound::nearest(const Point& p) const {
+  return tree_.nearest(reference_, p, squared_limit_).slot;
+}
+
+bool BackBound::holds(const std::array<Point, 3>& corners, std::uint32_t near) const {
+  budget_ = kMostPieces;
+  if (near == kNoIndex) return false;
+  const Sheet sheet = follow_sheet(Plane(corners), near);
+  if (sheet == Sheet::kNoSheet) return halve(corners);
+  return sheet == Sheet::kWithin;
+}
+
+// A walk through the projection, over the side beyond which the first corner lies.
+std::uint32_t BackBound::under_first_corner(const Plane& plane, std::uint32_t from) const {
+  for (int step = 0; step < kMostSteps && from != kNoIndex; ++step) {
+    std::array<Corner, 3> r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      r[i] = plane.project(reference_.position(reference_.triangle(from)[i]));
+    }
+    double least = 0;
+    std::size_t side = 3;
+    double area = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner& a = r[i];
+      const Corner& b = r[(i + 1) % 3];
+      const double turn = a.y * b.z - a.z * b.y;  // of the first corner, which is the origin
+      area += turn;
+      if (turn < least) {
+        least = turn;
+        side = i;
+      }
+    }
+    if (!(area > 0)) return kNoIndex;
+    if (side == 3) return from;
+    from = neighbours_[from][side];
+  }
+  return kNoIndex;
+}
+
+BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near) const {
+  const std::uint32_t start = under_first_corner(plane, near);
+  if (start == kNoIndex) return Sheet::kNoSheet;
+  ++search_;
+  front_.assign(1, start);
+  seen_[start] = search_;
+  bool within = true;
+  while (!front_.empty()) {
+    const std::uint32_t t = front_.back();
+    front_.pop_back();
+    const Triangle& triangle = reference_.triangle(t);
+    std::array<Corner, 3> r;
+    std::array<unsigned, 3> beyond{};  // the sides of T that each corner is beyond
+    for (std::size_t i = 0; i < 3; ++i) {
+      r[i] = plane.project(reference_.position(triangle[i]));
+      for (unsigned side = 0; side < 3; ++side) {
+        if (plane.inside(side, r[i]) < 0) beyond[i] |= 1u << side;
+      }
+    }
+    if ((beyond[0] & beyond[1] & beyond[2]) != 0) continue;
+    part_.assign(r.begin(), r.end());
+    const unsigned cutting = beyond[0] | beyond[1] | beyond[2];
+    for (unsigned side = 0; side < 3 && !part_.empty(); ++side) {
+      if ((cutting >> side & 1) == 0) continue;
+      clipped_.clear();
+      for (std::size_t i = 0; i < part_.size(); ++i) {
+        const Corner& a = part_[i];
+        const Corner& b = part_[(i + 1) % part_.size()];
+        const double at_a = plane.inside(side, a), at_b = plane.inside(side, b);
+        if (at_a >= 0) clipped_.push_back(a);
+        if ((at_a < 0) == (at_b < 0)) continue;
+        const double s = at_a / (at_a - at_b);
+        clipped_.push_back({a.y + s * (b.y - a.y), a.z + s * (b.z - a.z),
+                            a.height + s * (b.height - a.height)});
+      }
+      part_.swap(clipped_);
+    }
+    if (part_.empty()) continue;
+    const double u = r[1].y - r[0].y, v = r[1].z - r[0].z;
+    const double x = r[2].y - r[0].y, y = r[2].z - r[0].z;
+    const double area = u * y - v * x;
+    if (!(area > 1e-12 * (u * u + v * v + x * x + y * y))) return Sheet::kNoSheet;
+    if (within && !part_holds(plane, part_, t)) within = false;
+    if (!within) return Sheet::kBeyond;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if ((beyond[i] & beyond[(i + 1) % 3]) != 0) continue;
+      const std::uint32_t next = neighbours_[t][i];
+      if (next == kNoIndex) return Sheet::kNoSheet;
+      if (seen_[next] == search_) continue;
+      seen_[next] = search_;
+      front_.push_back(next);
+    }
+  }
+  return Sheet::kWithin;
+}
+
+bool BackBound::part_holds(const Plane& plane, const std::vector<Corner>& part,
+                           std::uint32_t triangle) const {
+  bool within = true;
+  for (const Corner& c : part) {
+    if (std::abs(c.height) <= limit_) continue;
+    if (squared_distance(plane.lift(c), reference_.corners(triangle)) <= squared_limit_) continue;
+    within = false;
+    break;
+  }
+  if (within) return true;
+  for (std::size_t i = 2; i < part.size(); ++i) {
+    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])})) return false;
+  }
+  return true;
+}
+
+bool BackBound::halve(const std::array<Point, 3>& corners) const {
+  pieces_.assign(1, corners);
+  while (!pieces_.empty()) {
+    if (--budget_ < 0) return false;
+    const std::array<Point, 3> piece = pieces_.back();
+    pieces_.pop_back();
+    const std::uint32_t candidate = nearest((piece[0] + piece[1] + piece[2]) / 3);
+    if (candidate == kNoIndex) return false;
+    const std::array<Point, 3> of = reference_.corners(candidate);
+    bool within = true;
+    for (const Point& corner : piece) {
+      if (squared_distance(corner, of) <= squared_limit_) continue;
+      within = false;
+      if (nearest(corner) == kNoIndex) return false;
+    }
+    if (within) continue;
+    std::size_t longest = 0;
+    double length = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double squared = (piece[(i + 1) % 3] - piece[i]).squaredNorm();
+      if (squared > length) {
+        length = squared;
+        longest = i;
+      }
+    }
+    const Point& a = piece[longest];
+    const Point& b = piece[(longest + 1) % 3];
+    const Point& c = piece[(longest + 2) % 3];
+    const Point middle = 0.5 * (a + b);
+    pieces_.push_back({a, middle, c});
+    pieces_.push_back({middle, b, c});
+  }
+  return true;
+}
+
+}  // namespace emax

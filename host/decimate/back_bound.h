@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host/decimate/slot_tree.h"
+
+namespace emax {
+
+// Whether triangles lie within a distance of a reference surface, the inside of them included.
+// "Yes" is proven but for roundings of a few units in the last place of the coordinates, which the
+// caller takes off the limit; "no" may be the budget's.
+//
+// The reference near a triangle T is mostly one sheet over it. From a triangle of the reference
+// under a corner of T the sheet is followed through its edges as far as it overlaps T in T's
+// projection. If all that overlap face the same way and none ends at a border of the reference
+// inside T, the projection of the sheet covers T: it is open and closed in T. The distance to one
+// triangle of the reference is convex, so the part of T that is covered by it is within the limit
+// when the corners of that part are. Parts where this fails, and all of T where there is no such
+// sheet, are halved until each part is within the limit of one triangle of the reference.
+//
+// O(triangles of the reference over T). Not for concurrent use.
+class BackBound {
+ public:
+  // `reference` is manifold, consistently oriented and without degenerate triangles.
+  BackBound(const TriangleMesh& reference, double limit);
+
+  double limit() const { return limit_; }
+  const EditableMesh& reference() const { return reference_; }
+
+  // The triangle of the reference nearest to a point, kNoIndex when it is beyond the limit.
+  std::uint32_t nearest(const Point& p) const;
+
+  // `near`: the reference triangle nearest to corners[0].
+  bool holds(const std::array<Point, 3>& corners, std::uint32_t near) const;
+
+ private:
+  struct Corner {
+    double y, z, height;  // in the plane of T, and over it
+  };
+  struct Plane;
+  enum class Sheet { kWithin, kBeyond, kNoSheet };
+
+  Sheet follow_sheet(const Plane& plane, std::uint32_t near) const;
+  std::uint32_t under_first_corner(const Plane& plane, std::uint32_t from) const;
+  bool part_holds(const Plane& plane, const std::vector<Corner>& part, std::uint32_t triangle) const;
+  bool halve(const std::array<Point, 3>& corners) const;
+
+  EditableMesh reference_;
+  SlotTree tree_;
+  double limit_, squared_limit_;
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;  // through the side that begins at a place
+
+  mutable std::vector<std::uint32_t> seen_;  // the search that last saw each triangle
+  mutable std::uint32_t search_ = 0;
+  mutable std::vector<std::uint32_t> front_;
+  mutable std::vector<Corner> part_, clipped_;
+  mutable std::vector<std::array<Point, 3>> pieces_;
+  mutable int budget_ = 0;
+};
+
+}  // namespace emax

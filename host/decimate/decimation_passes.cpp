@@ -1,0 +1,268 @@
+#include "host/decimate/decimation_passes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace emax {
+namespace {
+
+constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
+
+}  // namespace
+
+DecimationPasses::DecimationPasses(DecimationState& state, std::function<bool()> interrupted)
+    : state_(state), interrupted_(std::move(interrupted)), search_(state) {}
+
+bool DecimationPasses::poll() {
+  if (!stopped_ && interrupted_ && ++polls_ % 64 == 0) stopped_ = interrupted_();
+  return stopped_;
+}
+
+std::vector<std::array<std::uint32_t, 2>> DecimationPasses::edges() const {
+  const EditableMesh& mesh = state_.mesh();
+  std::vector<std::array<std::uint32_t, 2>> result;
+  for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
+    if (!mesh.alive(slot)) continue;
+    const Triangle& t = mesh.triangle(slot);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      const auto sides = mesh.slots_at_edge(a, b);
+      // Once, from the triangle of the lower slot.
+      if (sides[1] != kNoIndex && std::min(sides[0], sides[1]) != slot) continue;
+      result.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candidate) {
+  if (!search_.prepare_collapse(a, b)) return false;
+  const Point& pa = state_.mesh().position(a);
+  const Point& pb = state_.mesh().position(b);
+  LocalSearch::Options options;
+  Fit fit;
+  bool any = search_.fit(search_.quadric_optimum(), options, fit);
+  if (!any || fit.worst > 1) {
+    for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
+      Fit other;
+      if (!search_.fit(start, options, other)) continue;
+      if (!any || other.worst < fit.worst) fit = other;
+      any = true;
+      if (fit.worst <= 1) break;
+    }
+  }
+  if (!any || fit.worst > 9) return false;
+  if (fit.worst > 1) {
+    options.power = 8;
+    options.steps = 8;
+    Fit finer;
+    if (fit.worst < 4 && search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
+      search_.evaluate(finer.position, 4, fit);
+    }
+    if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
+  }
+  candidate.cost = fit.energy - search_.energy_before(4);
+  candidate.a = a;
+  candidate.b = b;
+  candidate.fit = fit;
+  candidate.stamp = edits_;
+  return true;
+}
+
+void DecimationPasses::push(std::uint32_t a, std::uint32_t b) {
+  if (a > b) std::swap(a, b);
+  Candidate candidate;
+  if (judge(a, b, candidate)) queue_.push(candidate);
+}
+
+bool DecimationPasses::apply_collapse(const Candidate& candidate) {
+  if (!search_.prepare_collapse(candidate.a, candidate.b)) return false;
+  if (!search_.finish(candidate.fit, true, edit_)) return false;
+  if (!state_.permits(edit_)) return false;
+  state_.apply(edit_);
+  return true;
+}
+
+std::size_t DecimationPasses::collapse() {
+  const EditableMesh& mesh = state_.mesh();
+  queue_ = {};
+  touched_.assign(mesh.vertex_slots(), 0);
+  centre_.assign(mesh.vertex_slots(), 0);
+  edits_ = 0;
+  for (const auto& [a, b] : edges()) {
+    if (poll()) return 0;
+    push(a, b);
+  }
+  std::size_t collapses = 0;
+  while (!queue_.empty() && !poll()) {
+    const Candidate candidate = queue_.top();
+    queue_.pop();
+    const std::uint32_t a = candidate.a, b = candidate.b;
+    if (!mesh.used(a) || !mesh.used(b)) continue;
+    // Edges of a centre were all judged anew.
+    if (candidate.stamp < centre_[a] || candidate.stamp < centre_[b]) continue;
+    if (candidate.stamp < touched_[a] || candidate.stamp < touched_[b]) {
+      push(a, b);
+      continue;
+    }
+    if (!apply_collapse(candidate)) continue;
+    ++collapses;
+    ++edits_;
+    mesh.neighbours(a, around_);
+    touched_[a] = centre_[a] = edits_;
+    for (const std::uint32_t v : around_) touched_[v] = edits_;
+    const std::vector<std::uint32_t> around = around_;
+    for (const std::uint32_t v : around) push(a, v);
+  }
+  return collapses;
+}
+
+bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limit) {
+  if (!search_.prepare_relocation(vertex)) return false;
+  const double before = search_.energy_before(power);
+  Fit fit;
+  LocalSearch::Options options;
+  options.power = power;
+  if (!search_.fit(state_.mesh().position(vertex), options, fit)) return false;
+  if (!(fit.energy < before * (1 - kLeastGain))) return false;
+  if (!search_.finish(fit, limit, edit_)) return false;
+  return state_.permits(edit_);
+}
+
+bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit) {
+  if (!search_.prepare_flip(a, b)) return false;
+  const double before = search_.energy_before(power);
+  Fit fit;
+  if (!search_.evaluate(Point::Zero(), power, fit)) return false;
+  if (!(fit.energy < before * (1 - kLeastGain))) return false;
+  if (!search_.finish(fit, limit, edit_)) return false;
+  return state_.permits(edit_);
+}
+
+std::size_t DecimationPasses::relocate(int power) {
+  std::size_t moved = 0;
+  for (std::uint32_t v = 0; v < state_.mesh().vertex_slots() && !poll(); ++v) {
+    if (!state_.mesh().used(v) || !try_relocation(v, power, true)) continue;
+    state_.apply(edit_);
+    ++moved;
+  }
+  return moved;
+}
+
+std::size_t DecimationPasses::flip(int power) {
+  std::size_t flips = 0;
+  for (const auto& [a, b] : edges()) {
+    if (poll()) break;
+    if (!try_flip(a, b, power, true)) continue;
+    state_.apply(edit_);
+    ++flips;
+  }
+  return flips;
+}
+
+bool DecimationPasses::all_within(const std::vector<std::uint32_t>& points) const {
+  return std::all_of(points.begin(), points.end(), [&](std::uint32_t p) {
+    return state_.assigned().squared_distance(p) <= state_.squared_limit();
+  });
+}
+
+void DecimationPasses::apply(bool keep_undo) {
+  if (!keep_undo) {
+    state_.apply(edit_);
+    return;
+  }
+  undo_.emplace_back();
+  state_.apply(edit_, &undo_.back());
+  for (const MeshEdit::Answer& a : edit_.answers) {
+    if (a.squared_distance > state_.squared_limit()) unsettled_.push_back(a.point);
+  }
+}
+
+bool DecimationPasses::mend(std::uint32_t vertex) {
+  constexpr int kRounds = 4;
+  const EditableMesh& mesh = state_.mesh();
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t before = undo_.size();
+    mesh.neighbours(vertex, around_);
+    std::vector<std::uint32_t> ring = around_;
+    std::vector<std::array<std::uint32_t, 2>> turns;
+    for (const std::uint32_t v : ring) {
+      turns.push_back({vertex, v});
+      mesh.for_each_slot_at(v, [&](std::uint32_t slot) {
+        const Triangle& t = mesh.triangle(slot);
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+          turns.push_back({low, high});
+        }
+      });
+    }
+    std::sort(turns.begin(), turns.end());
+    turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
+    ring.insert(ring.begin(), vertex);
+    for (const auto& [a, b] : turns) {
+      if (mesh.used(a) && mesh.used(b) && try_flip(a, b, 8, false)) apply(true);
+    }
+    if (all_within(unsettled_)) return true;
+    for (const std::uint32_t v : ring) {
+      if (try_relocation(v, 8, false)) apply(true);
+    }
+    if (all_within(unsettled_)) return true;
+    if (undo_.size() == before) break;
+  }
+  return false;
+}
+
+std::size_t DecimationPasses::collapse_and_mend(double worst) {
+  const EditableMesh& mesh = state_.mesh();
+  struct Trial {
+    double worst;
+    std::uint32_t a, b;
+    Fit fit;
+  };
+  const auto judge_trial = [&](std::uint32_t a, std::uint32_t b, Trial& trial) {
+    if (!search_.prepare_collapse(a, b)) return false;
+    LocalSearch::Options options;
+    options.power = 8;
+    options.steps = 8;
+    bool any = false;
+    const Point pa = mesh.position(a), pb = mesh.position(b);
+    for (const Point& start : {search_.quadric_optimum(), Point(0.5 * (pa + pb))}) {
+      Fit fit;
+      if (!search_.fit(start, options, fit)) continue;
+      if (!any || fit.worst < trial.fit.worst) trial.fit = fit;
+      any = true;
+    }
+    trial.a = a;
+    trial.b = b;
+    trial.worst = any ? trial.fit.worst : 0;
+    return any && trial.worst <= worst;
+  };
+  std::vector<Trial> trials;
+  for (const auto& [a, b] : edges()) {
+    if (poll()) return 0;
+    Trial trial;
+    if (judge_trial(a, b, trial)) trials.push_back(trial);
+  }
+  std::sort(trials.begin(), trials.end(), [](const Trial& s, const Trial& t) {
+    return s.worst != t.worst ? s.worst < t.worst : s.a != t.a ? s.a < t.a : s.b < t.b;
+  });
+  std::size_t collapses = 0;
+  for (Trial trial : trials) {
+    if (poll()) break;
+    if (!mesh.used(trial.a) || !mesh.used(trial.b)) continue;
+    if (!judge_trial(trial.a, trial.b, trial)) continue;
+    if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_)) continue;
+    undo_.clear();
+    unsettled_.clear();
+    apply(true);
+    if (all_within(unsettled_) || mend(trial.a)) {
+      ++collapses;
+      continue;
+    }
+    for (; !undo_.empty(); undo_.pop_back()) state_.undo(undo_.back());
+  }
+  return collapses;
+}
+
+}  // namespace emax

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <vector>
+
+#include "host/decimate/local_search.h"
+
+namespace emax {
+
+// The passes of bounded decimation over a state. Each keeps every point that was within the limit
+// within it, and each is a pure function of the state; ties go to the lower vertex numbers.
+class DecimationPasses {
+ public:
+  // `interrupted` ends a pass after the edit at hand.
+  DecimationPasses(DecimationState& state, std::function<bool()> interrupted);
+
+  // Edge collapses, the one that adds least to the energy first, until none is left that the limit
+  // and the guards permit. Returns how many.
+  std::size_t collapse();
+  // Moves each vertex where the energy of its points is least. Returns how many moved.
+  std::size_t relocate(int power);
+  // Turns each edge for which that lowers the energy. Returns how many.
+  std::size_t flip(int power);
+  // Collapses that break the limit at first, where moving and turning what is around mends it; the
+  // others are undone. Returns how many stayed.
+  std::size_t collapse_and_mend(double worst);
+
+  bool stopped() const { return stopped_; }
+
+ private:
+  struct Candidate {
+    double cost;
+    std::uint32_t a, b;
+    std::uint64_t stamp;
+    Fit fit;
+    // For a queue that gives the least first.
+    bool operator<(const Candidate& other) const {
+      if (cost != other.cost) return cost > other.cost;
+      return a != other.a ? a > other.a : b > other.b;
+    }
+  };
+
+  bool poll();
+  bool judge(std::uint32_t a, std::uint32_t b, Candidate& candidate);
+  void push(std::uint32_t a, std::uint32_t b);
+  bool apply_collapse(const Candidate& candidate);
+  bool try_relocation(std::uint32_t vertex, int power, bool limit);
+  bool try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
+  void apply(bool keep_undo);
+  bool mend(std::uint32_t vertex);
+  bool all_within(const std::vector<std::uint32_t>& points) const;
+  std::vector<std::array<std::uint32_t, 2>> edges() const;
+
+  DecimationState& state_;
+  std::function<bool()> interrupted_;
+  LocalSearch search_;
+  MeshEdit edit_;
+  std::priority_queue<Candidate> queue_;
+  std::vector<std::uint64_t> touched_;  // the edit that last changed the triangles of each vertex
+  std::vector<std::uint64_t> centre_;   // the collapse that last went into each vertex
+  std::uint64_t edits_ = 0;
+  std::uint64_t polls_ = 0;
+  bool stopped_ = false;
+  std::vector<std::uint32_t> around_;   // scratch
+  std::vector<EditUndo> undo_;
+  std::vector<std::uint32_t> unsettled_;  // points beyond the limit
+};
+
+}  // namespace emax

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/decimate/assigned_points.h"
+#include "host/decimate/back_bound.h"
+#include "host/decimate/editable_mesh.h"
+#include "host/decimate/slot_tree.h"
+
+namespace emax {
+
+// One edit: the triangles of `removed` give way to `added`, in which one vertex may have moved, and
+// the points that they answered for are answered for anew.
+struct MeshEdit {
+  struct Answer {
+    std::uint32_t point;
+    std::uint32_t added;  // index in `added`, or
+    std::uint32_t slot;   // where `added` is kNoIndex, a triangle that stays
+    double squared_distance;
+  };
+
+  std::uint32_t vertex = kNoIndex;  // which moves
+  Point position = Point::Zero();
+  std::vector<std::uint32_t> removed;
+  std::vector<Triangle> added;
+  std::vector<Answer> answers;
+
+  void clear() {
+    vertex = kNoIndex;
+    removed.clear();
+    added.clear();
+    answers.clear();
+  }
+};
+
+// What undoes an edit.
+struct EditUndo {
+  struct Slot {
+    std::uint32_t slot;
+    Triangle before;  // kNoIndex for a free slot
+  };
+  std::uint32_t vertex = kNoIndex;
+  Point position = Point::Zero();
+  std::uint32_t near = kNoIndex;
+  std::vector<Slot> slots;
+  std::vector<MeshEdit::Answer> answers;  // `slot` counts
+};
+
+// The mesh, the points each triangle answers for, and the trees by which edits are judged; all of
+// it stays in step through apply() and undo().
+class DecimationState {
+ public:
+  struct Guards {
+    double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
+    double flatness = 1e-3;      // least height of a triangle over its longest side
+    // Faults that the tests must catch.
+    bool skip_intersections = false, skip_back_bound = false, skip_points = false;
+  };
+
+  // `mesh` is manifold and consistently oriented, without degenerate triangles; `back` may be null
+  // and outlives the state. Points farther than `squared_limit` from the mesh belong to no triangle.
+  DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud, const BackBound* back,
+                  double squared_limit, const Guards& guards);
+
+  const EditableMesh& mesh() const { return mesh_; }
+  const AssignedPoints& assigned() const { return assigned_; }
+  const SlotTree& tree() const { return tree_; }
+  const Point& point(std::uint32_t i) const { return cloud_[i]; }
+  std::span<const Point> cloud() const { return cloud_; }
+  std::uint32_t near(std::uint32_t vertex) const { return near_[vertex]; }
+  double squared_limit() const { return squared_limit_; }
+  const Guards& guards() const { return guards_; }
+
+  // Shape alone: no added triangle is a sliver.
+  bool well_shaped(const std::array<Point, 3>& corners) const;
+
+  // Whether the added triangles keep the back bound and meet no other triangle nor each other.
+  // Points are not looked at.
+  bool permits(const MeshEdit& edit);
+
+  void apply(const MeshEdit& edit, EditUndo* undo = nullptr);
+  void undo(const EditUndo& undo);
+
+  // Gives every point to the triangle that is nearest of all.
+  void reassign();
+
+  std::uint32_t add_vertex(const Point& at);
+
+ private:
+  bool meets_another(const MeshEdit& edit) const;
+  bool meets_itself(const MeshEdit& edit) const;
+  void rebuild_when_coarser();
+
+  EditableMesh mesh_;
+  std::span<const Point> cloud_;
+  const BackBound* back_;
+  double squared_limit_;
+  Guards guards_;
+  AssignedPoints assigned_;
+  SlotTree tree_;
+  std::vector<std::uint32_t> near_;  // the reference triangle near each vertex
+  std::uint32_t near_position_ = kNoIndex;  // and near the position of the edit last permitted
+  std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
+};
+
+}  // namespace emax

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sw_model/mesh_view.h"
+
+namespace emax {
+
+// A triangle as the local test sees it: in binary64, an orthonormal frame at its first corner and
+// the edges in its plane. Not degenerate.
+struct LocalFrame {
+  Point origin, normal, in_plane, along;  // along: to the second corner; normal: right-handed
+  double length;                          // of the first edge
+  double y13, z13, length13;              // unit direction in the plane and length, of edge 1-3
+  double y23, z23, length23;              // and of edge 2-3
+};
+
+LocalFrame local_frame(const std::array<Point, 3>& corners);
+
+// Points in arrays of coordinates, each with the nearest triangle of a few.
+struct LocalPoints {
+  std::vector<double> x, y, z;
+  std::vector<double> squared;  // distance to the nearest
+  std::vector<double> nearest;  // its index; a double so that it selects with the distance
+
+  std::size_t size() const { return count; }
+  Point at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void clear() { count = 0; }
+  void push_back(const Point& p);
+
+  std::size_t count = 0;  // the arrays are longer, by a vector at least
+};
+
+// Sets `squared` and `nearest` for all points; of equally near triangles the first counts. Rounding:
+// a few units in the last place of the points' and the triangles' extent around their frames. The
+// bits are the same on every SIMD target.
+void measure(LocalPoints& points, std::span<const LocalFrame> triangles);
+
+// The nearest point of a triangle in terms of its first corner.
+struct Foot {
+  Point residual;     // from the foot to the point
+  Point direction;    // in which the distance grows, of length 1
+  double weight;      // of the first corner in the foot
+};
+Foot foot_on(const LocalFrame& frame, const Point& p);
+
+}  // namespace emax

@@ -1,0 +1,256 @@
+#include "host/decimate/local_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace emax {
+namespace {
+
+double power_of(double squared, int power) {
+  double result = squared;
+  for (int i = 2; i < power; i += 2) result *= squared;
+  return result;
+}
+
+Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
+  if (t[1] == vertex) return {t[1], t[2], t[0]};
+  if (t[2] == vertex) return {t[2], t[0], t[1]};
+  return t;
+}
+
+}  // namespace
+
+void LocalSearch::take_triangles(const std::vector<std::uint32_t>& slots) {
+  ids_.clear();
+  points_.clear();
+  for (const std::uint32_t slot : slots) {
+    state_.assigned().for_each(slot, [&](std::uint32_t p) {
+      ids_.push_back(p);
+      points_.push_back(state_.point(p));
+    });
+  }
+}
+
+bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
+  const EditableMesh& mesh = state_.mesh();
+  if (!mesh.collapsible(a, b)) return false;
+  vertex_ = a;
+  other_ = b;
+  removed_.clear();
+  added_.clear();
+  normals_.clear();
+  const auto gone = mesh.slots_at_edge(a, b);
+  const auto take = [&](std::uint32_t slot, std::uint32_t from) {
+    if (slot == gone[0] || slot == gone[1]) return;
+    Triangle t = rotated_to(mesh.triangle(slot), from);
+    t[0] = a;
+    const auto [p, q, r] = mesh.corners(slot);
+    removed_.push_back(slot);
+    added_.push_back(t);
+    normals_.push_back((q - p).cross(r - p).normalized());
+  };
+  mesh.for_each_slot_at(a, [&](std::uint32_t slot) { take(slot, a); });
+  mesh.for_each_slot_at(b, [&](std::uint32_t slot) { take(slot, b); });
+  for (const std::uint32_t slot : gone) {
+    if (slot != kNoIndex) removed_.push_back(slot);
+  }
+  take_triangles(removed_);
+  return true;
+}
+
+bool LocalSearch::prepare_relocation(std::uint32_t vertex) {
+  const EditableMesh& mesh = state_.mesh();
+  vertex_ = vertex;
+  other_ = kNoIndex;
+  removed_.clear();
+  added_.clear();
+  normals_.clear();
+  mesh.for_each_slot_at(vertex, [&](std::uint32_t slot) {
+    const auto [p, q, r] = mesh.corners(slot);
+    removed_.push_back(slot);
+    added_.push_back(rotated_to(mesh.triangle(slot), vertex));
+    normals_.push_back((q - p).cross(r - p).normalized());
+  });
+  take_triangles(removed_);
+  return !removed_.empty();
+}
+
+bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
+  const EditableMesh& mesh = state_.mesh();
+  const auto [first, second] = mesh.slots_at_edge(a, b);
+  if (second == kNoIndex) return false;
+  const Triangle s = rotated_to(mesh.triangle(first), a);
+  const Triangle t = rotated_to(mesh.triangle(second), a);
+  // One of them runs from a to b.
+  const Triangle& from = s[1] == b ? s : t;
+  const std::uint32_t c = opposite(from, a, b);
+  const std::uint32_t d = opposite(s[1] == b ? t : s, a, b);
+  if (c == d || mesh.slots_at_edge(c, d)[0] != kNoIndex) return false;
+  vertex_ = other_ = kNoIndex;
+  removed_.assign({first, second});
+  added_.assign({{a, d, c}, {d, b, c}});
+  normals_.clear();
+  for (const std::uint32_t slot : removed_) {
+    const auto [p, q, r] = mesh.corners(slot);
+    normals_.push_back((q - p).cross(r - p).normalized());
+  }
+  // Either new triangle replaces a part of both: judged by the mean.
+  const Point mean = (normals_[0] + normals_[1]).normalized();
+  normals_.assign(2, mean);
+  take_triangles(removed_);
+  return true;
+}
+
+double LocalSearch::energy_before(int power) const {
+  double energy = 0;
+  for (const std::uint32_t p : ids_) {
+    energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
+  }
+  return energy;
+}
+
+Point LocalSearch::quadric_optimum() const {
+  const EditableMesh& mesh = state_.mesh();
+  const Point& a = mesh.position(vertex_);
+  const Point start = other_ == kNoIndex ? a : Point(0.5 * (a + mesh.position(other_)));
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Point right = Point::Zero();
+  const auto plane = [&](const Point& normal, const Point& at, double weight) {
+    matrix += weight * normal * normal.transpose();
+    right += weight * normal.dot(at - start) * normal;
+  };
+  for (const std::uint32_t slot : removed_) {
+    const auto [p, q, r] = mesh.corners(slot);
+    const Point normal = (q - p).cross(r - p);
+    plane(normal, p, 1);
+    const Triangle& t = mesh.triangle(slot);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = t[i], to = t[(i + 1) % 3];
+      const bool at_vertex = from == vertex_ || to == vertex_ || from == other_ || to == other_;
+      if (!at_vertex || mesh.slots_at_edge(from, to)[1] != kNoIndex) continue;
+      const Point side = mesh.position(to) - mesh.position(from);
+      plane(side.cross(normal).normalized() * side.norm() * side.norm(), mesh.position(from), 1);
+    }
+  }
+  const double trace = matrix.trace();
+  if (!(trace > 0)) return start;
+  matrix.diagonal().array() += 1e-3 * trace;
+  return start + matrix.ldlt().solve(right);
+}
+
+bool LocalSearch::shape(const Point& position) {
+  const EditableMesh& mesh = state_.mesh();
+  frames_.clear();
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    const Triangle& t = added_[i];
+    const std::array<Point, 3> corners = {vertex_ == kNoIndex ? mesh.position(t[0]) : position,
+                                          mesh.position(t[1]), mesh.position(t[2])};
+    if (!state_.well_shaped(corners)) return false;
+    frames_.push_back(local_frame(corners));
+    if (frames_.back().normal.dot(normals_[i]) < state_.guards().normal_cosine) return false;
+  }
+  return true;
+}
+
+Fit LocalSearch::measured(const Point& position, int power) {
+  measure(points_, frames_);
+  Fit fit;
+  fit.position = position;
+  const double scale = 1 / state_.squared_limit();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double squared = points_.squared[i] * scale;
+    fit.energy += power_of(squared, power);
+    fit.worst = std::max(fit.worst, squared);
+  }
+  return fit;
+}
+
+bool LocalSearch::evaluate(const Point& position, int power, Fit& result) {
+  if (!shape(position)) return false;
+  result = measured(position, power);
+  return true;
+}
+
+// One step of Gauss and Newton on the distances as they change with the vertex, weighted so that
+// the sum of squares stands for the sum of powers.
+bool LocalSearch::step(const Options& options, Fit& at) const {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Point right = Point::Zero();
+  const double scale = 1 / state_.squared_limit();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double squared = points_.squared[i] * scale;
+    const double importance = 1e-4 + (options.power > 2 ? power_of(squared, options.power - 2) : 1);
+    const Foot foot = foot_on(frames_[static_cast<std::size_t>(points_.nearest[i])], points_.at(i));
+    if (foot.weight == 0) continue;
+    const double weighted = importance * foot.weight;
+    matrix += weighted * foot.weight * foot.direction * foot.direction.transpose();
+    right += weighted * foot.direction.dot(foot.residual) * foot.direction;
+  }
+  const double trace = matrix.trace();
+  if (!(trace > 0)) return false;
+  matrix.diagonal().array() += 1e-3 * trace;
+  at.position += matrix.ldlt().solve(right);
+  return true;
+}
+
+bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
+  if (!evaluate(start, options.power, best)) return false;
+  Fit at = best;
+  for (int i = 0; i < options.steps; ++i) {
+    if (!step(options, at)) break;
+    Fit next;
+    bool better = false;
+    // A step too far is halved once.
+    for (int halving = 0; halving < 2 && !better; ++halving) {
+      if (halving > 0) at.position = 0.5 * (at.position + best.position);
+      better = evaluate(at.position, options.power, next) && next.energy < best.energy;
+    }
+    if (!better) break;
+    const bool enough = next.energy > (1 - options.gain) * best.energy;
+    best = at = next;
+    if (enough) break;
+  }
+  return true;
+}
+
+bool LocalSearch::serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer) const {
+  const EditableMesh& mesh = state_.mesh();
+  for (const Triangle& t : added_) {
+    for (const std::uint32_t v : t) {
+      if (v == vertex_) continue;
+      mesh.for_each_slot_at(v, [&](std::uint32_t slot) {
+        if (std::find(removed_.begin(), removed_.end(), slot) != removed_.end()) return;
+        const double squared = squared_distance(state_.point(point), mesh.corners(slot));
+        if (squared >= answer.squared_distance) return;
+        answer.added = kNoIndex;
+        answer.slot = slot;
+        answer.squared_distance = squared;
+      });
+    }
+  }
+  return answer.squared_distance <= state_.squared_limit();
+}
+
+bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
+  edit.clear();
+  if (!shape(fit.position)) return false;
+  measure(points_, frames_);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    MeshEdit::Answer answer{ids_[i], static_cast<std::uint32_t>(points_.nearest[i]), kNoIndex,
+                            points_.squared[i]};
+    if (answer.squared_distance > state_.squared_limit() && !serve_elsewhere(ids_[i], answer) &&
+        limit && !state_.guards().skip_points) {
+      return false;
+    }
+    edit.answers.push_back(answer);
+  }
+  edit.vertex = vertex_;
+  edit.position = fit.position;
+  edit.removed = removed_;
+  edit.added = added_;
+  return true;
+}
+
+}  // namespace emax
