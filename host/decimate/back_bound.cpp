@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/decimate/local_distance.h"
+
 namespace emax {
 namespace {
 
@@ -61,6 +63,13 @@ BackBound::BackBound(const TriangleMesh& reference, double limit)
 
 std::uint32_t BackBound::nearest(const Point& p) const {
   return tree_.nearest(reference_, p, squared_limit_).slot;
+}
+
+bool BackBound::toward(const Point& p, Point& to_reference) const {
+  const SlotTree::Nearest nearest = tree_.nearest(reference_, p, 4 * squared_limit_);
+  if (nearest.slot == kNoIndex) return false;
+  to_reference = -foot_on(local_frame(reference_.corners(nearest.slot)), p).residual;
+  return true;
 }
 
 bool BackBound::holds(const std::array<Point, 3>& corners, std::uint32_t near) const {

@@ -32,6 +32,9 @@ class BackBound {
   // The triangle of the reference nearest to a point, kNoIndex when it is beyond the limit.
   std::uint32_t nearest(const Point& p) const;
 
+  // From a point to the reference; false when it is farther than twice the limit.
+  bool toward(const Point& p, Point& to_reference) const;
+
   // `near`: the reference triangle nearest to corners[0].
   bool holds(const std::array<Point, 3>& corners, std::uint32_t near) const;
 

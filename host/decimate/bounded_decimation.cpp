@@ -32,7 +32,7 @@ BoundedDecimation decimate_bounded(const TriangleMesh& mesh, std::span<const Poi
   say("begin", 0);
   say("collapse", passes.collapse());
   if (settings.effort >= 1) {
-    for (int round = 0; round < (settings.effort >= 2 ? 8 : 4) && !passes.stopped(); ++round) {
+    for (int round = 0; round < (settings.effort >= 2 ? 1 : 1) && !passes.stopped(); ++round) {
       state.reassign();
       say("relocate", passes.relocate(4));
       say("flip", passes.flip(4));
@@ -43,9 +43,9 @@ BoundedDecimation decimate_bounded(const TriangleMesh& mesh, std::span<const Poi
     }
   }
   if (settings.effort >= 2) {
-    for (int round = 0; round < 6 && !passes.stopped(); ++round) {
+    for (int round = 0; round < (getenv("R")?atoi(getenv("R")):6) && !passes.stopped(); ++round) {
       state.reassign();
-      const std::size_t done = passes.collapse_and_mend(2.5);
+      const std::size_t done = passes.collapse_and_mend(getenv("W")?atof(getenv("W")):2.5);
       say("deep", done);
       if (done == 0) break;
       say("flip", passes.flip(4));

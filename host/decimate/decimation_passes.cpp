@@ -6,6 +6,7 @@
 namespace emax {
 namespace {
 
+constexpr double kHopeless = 4;      // squared distance / limit^2 from which finer steps do not help
 constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
 
 }  // namespace
@@ -41,23 +42,19 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   const Point& pa = state_.mesh().position(a);
   const Point& pb = state_.mesh().position(b);
   LocalSearch::Options options;
+  if (search_.points() < 3 * search_.triangles()) options.steps = 0;
   Fit fit;
   bool any = search_.fit(search_.quadric_optimum(), options, fit);
-  if (!any || fit.worst > 1) {
-    for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
-      Fit other;
-      if (!search_.fit(start, options, other)) continue;
-      if (!any || other.worst < fit.worst) fit = other;
-      any = true;
-      if (fit.worst <= 1) break;
-    }
+  for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
+    if (any) break;
+    any = search_.fit(start, options, fit);
   }
-  if (!any || fit.worst > 9) return false;
+  if (!any || fit.worst > kHopeless) return false;
   if (fit.worst > 1) {
     options.power = 8;
     options.steps = 8;
     Fit finer;
-    if (fit.worst < 4 && search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
+    if (search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
       search_.evaluate(finer.position, 4, fit);
     }
     if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;

@@ -43,13 +43,6 @@ std::uint32_t DecimationState::add_vertex(const Point& at) {
   return mesh_.add_vertex(at);
 }
 
-bool DecimationState::well_shaped(const std::array<Point, 3>& c) const {
-  const double longest = std::max({(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(),
-                                   (c[0] - c[2]).squaredNorm()});
-  const double twice_area = (c[1] - c[0]).cross(c[2] - c[0]).norm();
-  return twice_area > guards_.flatness * longest;
-}
-
 bool DecimationState::permits(const MeshEdit& edit) {
   const Point before = edit.vertex == kNoIndex ? Point::Zero() : mesh_.position(edit.vertex);
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);

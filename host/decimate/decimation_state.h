@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "host/decimate/assigned_points.h"
 #include "host/decimate/back_bound.h"
 #include "host/decimate/editable_mesh.h"
+#include "host/decimate/local_distance.h"
 #include "host/decimate/slot_tree.h"
 
 namespace emax {
@@ -68,12 +70,16 @@ class DecimationState {
   const SlotTree& tree() const { return tree_; }
   const Point& point(std::uint32_t i) const { return cloud_[i]; }
   std::span<const Point> cloud() const { return cloud_; }
+  const BackBound* back() const { return back_; }
   std::uint32_t near(std::uint32_t vertex) const { return near_[vertex]; }
   double squared_limit() const { return squared_limit_; }
   const Guards& guards() const { return guards_; }
 
-  // Shape alone: no added triangle is a sliver.
-  bool well_shaped(const std::array<Point, 3>& corners) const;
+  // No sliver; false for a frame that is not finite.
+  bool well_shaped(const LocalFrame& f) const {
+    const double longest = std::max({f.length, f.length13, f.length23});
+    return f.length * f.length13 * f.y13 > guards_.flatness * longest * longest;
+  }
 
   // Whether the added triangles keep the back bound and meet no other triangle nor each other.
   // Points are not looked at.

@@ -10,6 +10,10 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh)
       first_(mesh.vertices.size(), kNoIndex),
       next_(3 * mesh.triangles.size(), kNoIndex) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) set(t, mesh.triangles[t]);
+  closed_ = true;
+  for (std::uint32_t v = 0; v < mesh.vertices.size() && closed_; ++v) {
+    closed_ = !used(v) || !find_boundary(v);
+  }
 }
 
 std::uint32_t EditableMesh::add_vertex(const Point& at) {
@@ -68,7 +72,7 @@ std::array<std::uint32_t, 2> EditableMesh::slots_at_edge(std::uint32_t a, std::u
   return found;
 }
 
-bool EditableMesh::on_boundary(std::uint32_t vertex) const {
+bool EditableMesh::find_boundary(std::uint32_t vertex) const {
   // An inner vertex begins as many sides as it ends with the same other vertex: in a consistently
   // oriented fan every neighbour comes once after it and once before it.
   std::uint32_t after = 0, before = 0, count = 0;

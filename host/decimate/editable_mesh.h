@@ -22,6 +22,9 @@ class EditableMesh {
   std::size_t vertex_slots() const { return positions_.size(); }
   std::size_t triangles() const { return alive_; }
 
+  // Whether the mesh had no boundary at first; then it never has one, as edits keep the topology.
+  bool closed() const { return closed_; }
+
   bool alive(std::uint32_t slot) const { return triangles_[slot][0] != kNoIndex; }
   bool used(std::uint32_t vertex) const { return first_[vertex] != kNoIndex; }
   const Triangle& triangle(std::uint32_t slot) const { return triangles_[slot]; }
@@ -52,7 +55,7 @@ class EditableMesh {
   // The triangles with both vertices: at most two in a manifold; the rest kNoIndex.
   std::array<std::uint32_t, 2> slots_at_edge(std::uint32_t a, std::uint32_t b) const;
   // Whether the vertex lies on an edge of one triangle.
-  bool on_boundary(std::uint32_t vertex) const;
+  bool on_boundary(std::uint32_t vertex) const { return !closed_ && find_boundary(vertex); }
 
   // Whether b may be drawn into a without changing the topology: the link condition, with the
   // boundary as one more vertex joined to all of its own, and a component never vanishes.
@@ -62,11 +65,14 @@ class EditableMesh {
   TriangleMesh compact() const;
 
  private:
+  bool find_boundary(std::uint32_t vertex) const;
+
   std::vector<Point> positions_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> first_;  // of each vertex, 3 * slot + place
   std::vector<std::uint32_t> next_;   // of each corner
   std::size_t alive_ = 0;
+  bool closed_ = false;
 };
 
 // The vertex of the triangle that is neither a nor b.

@@ -8,6 +8,8 @@
 namespace emax {
 namespace {
 
+constexpr double kOutOfSight = 16;
+
 double power_of(double squared, int power) {
   double result = squared;
   for (int i = 2; i < power; i += 2) result *= squared;
@@ -103,10 +105,15 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
-double LocalSearch::energy_before(int power) const {
+double LocalSearch::energy_before(int power) {
   double energy = 0;
   for (const std::uint32_t p : ids_) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
+  }
+  if (state_.back() != nullptr) {
+    for (const std::uint32_t v : {vertex_, other_}) {
+      if (v != kNoIndex) energy += power_of(back_share(state_.mesh().position(v)), power);
+    }
   }
   return energy;
 }
@@ -129,7 +136,7 @@ Point LocalSearch::quadric_optimum() const {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t from = t[i], to = t[(i + 1) % 3];
       const bool at_vertex = from == vertex_ || to == vertex_ || from == other_ || to == other_;
-      if (!at_vertex || mesh.slots_at_edge(from, to)[1] != kNoIndex) continue;
+      if (mesh.closed() || !at_vertex || mesh.slots_at_edge(from, to)[1] != kNoIndex) continue;
       const Point side = mesh.position(to) - mesh.position(from);
       plane(side.cross(normal).normalized() * side.norm() * side.norm(), mesh.position(from), 1);
     }
@@ -147,9 +154,10 @@ bool LocalSearch::shape(const Point& position) {
     const Triangle& t = added_[i];
     const std::array<Point, 3> corners = {vertex_ == kNoIndex ? mesh.position(t[0]) : position,
                                           mesh.position(t[1]), mesh.position(t[2])};
-    if (!state_.well_shaped(corners)) return false;
     frames_.push_back(local_frame(corners));
-    if (frames_.back().normal.dot(normals_[i]) < state_.guards().normal_cosine) return false;
+    const LocalFrame& f = frames_.back();
+    if (!state_.well_shaped(f)) return false;
+    if (!(f.normal.dot(normals_[i]) >= state_.guards().normal_cosine)) return false;
   }
   return true;
 }
@@ -164,7 +172,21 @@ Fit LocalSearch::measured(const Point& position, int power) {
     fit.energy += power_of(squared, power);
     fit.worst = std::max(fit.worst, squared);
   }
+  // Between two surfaces of flat pieces the greatest distances are at vertices of either.
+  if (state_.back() != nullptr && vertex_ != kNoIndex) {
+    const double squared = back_share(position);
+    fit.energy += power_of(squared, power);
+    fit.worst = std::max(fit.worst, squared);
+  }
   return fit;
+}
+
+// The squared distance of the moving vertex from the reference in units of the limit.
+double LocalSearch::back_share(const Point& position) {
+  to_reference_.setZero();
+  if (!state_.back()->toward(position, to_reference_)) return kOutOfSight;
+  const double limit = state_.back()->limit();
+  return to_reference_.squaredNorm() / (limit * limit);
 }
 
 bool LocalSearch::evaluate(const Point& position, int power, Fit& result) {
@@ -187,6 +209,14 @@ bool LocalSearch::step(const Options& options, Fit& at) const {
     const double weighted = importance * foot.weight;
     matrix += weighted * foot.weight * foot.direction * foot.direction.transpose();
     right += weighted * foot.direction.dot(foot.residual) * foot.direction;
+  }
+  if (state_.back() != nullptr && to_reference_.squaredNorm() > 0) {
+    const double limit = state_.back()->limit();
+    const double squared = to_reference_.squaredNorm() / (limit * limit);
+    const double importance = power_of(squared, options.power - 2);
+    const Point direction = to_reference_.normalized();
+    matrix += importance * direction * direction.transpose();
+    right += importance * to_reference_;
   }
   const double trace = matrix.trace();
   if (!(trace > 0)) return false;
