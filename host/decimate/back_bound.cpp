@@ -61,15 +61,14 @@ BackBound::BackBound(const TriangleMesh& reference, double limit)
   }
 }
 
-std::uint32_t BackBound::nearest(const Point& p) const {
-  return tree_.nearest(reference_, p, squared_limit_).slot;
+BackBound::Sight BackBound::sight(const Point& p, std::uint32_t hint) const {
+  const SlotTree::Nearest nearest = tree_.nearest(reference_, p, 4 * squared_limit_, hint);
+  if (nearest.slot == kNoIndex) return {};
+  return {nearest.slot, nearest.squared_distance / squared_limit_};
 }
 
-bool BackBound::toward(const Point& p, Point& to_reference) const {
-  const SlotTree::Nearest nearest = tree_.nearest(reference_, p, 4 * squared_limit_);
-  if (nearest.slot == kNoIndex) return false;
-  to_reference = -foot_on(local_frame(reference_.corners(nearest.slot)), p).residual;
-  return true;
+Point BackBound::toward(const Point& p, std::uint32_t triangle) const {
+  return -foot_on(local_frame(reference_.corners(triangle)), p).residual;
 }
 
 bool BackBound::holds(const std::array<Point, 3>& corners, std::uint32_t near) const {
@@ -185,14 +184,16 @@ bool BackBound::halve(const std::array<Point, 3>& corners) const {
     if (--budget_ < 0) return false;
     const std::array<Point, 3> piece = pieces_.back();
     pieces_.pop_back();
-    const std::uint32_t candidate = nearest((piece[0] + piece[1] + piece[2]) / 3);
+    const SlotTree::Nearest nearest =
+        tree_.nearest(reference_, (piece[0] + piece[1] + piece[2]) / 3, squared_limit_);
+    const std::uint32_t candidate = nearest.slot;
     if (candidate == kNoIndex) return false;
     const std::array<Point, 3> of = reference_.corners(candidate);
     bool within = true;
     for (const Point& corner : piece) {
       if (squared_distance(corner, of) <= squared_limit_) continue;
       within = false;
-      if (nearest(corner) == kNoIndex) return false;
+      if (!(sight(corner, candidate).share <= 1)) return false;
     }
     if (within) continue;
     std::size_t longest = 0;

@@ -29,11 +29,14 @@ class BackBound {
   double limit() const { return limit_; }
   const EditableMesh& reference() const { return reference_; }
 
-  // The triangle of the reference nearest to a point, kNoIndex when it is beyond the limit.
-  std::uint32_t nearest(const Point& p) const;
-
-  // From a point to the reference; false when it is farther than twice the limit.
-  bool toward(const Point& p, Point& to_reference) const;
+  // Where a point is seen from the reference: its nearest triangle, kNoIndex beyond twice the limit.
+  struct Sight {
+    std::uint32_t triangle = kNoIndex;
+    double share = 16;  // squared distance / limit^2; 16 out of sight
+  };
+  Sight sight(const Point& p, std::uint32_t hint = kNoIndex) const;
+  // From a point to its nearest in a triangle of the reference.
+  Point toward(const Point& p, std::uint32_t triangle) const;
 
   // `near`: the reference triangle nearest to corners[0].
   bool holds(const std::array<Point, 3>& corners, std::uint32_t near) const;

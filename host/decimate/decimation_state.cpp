@@ -17,11 +17,11 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
       guards_(guards),
       assigned_(cloud.size(), mesh.triangles.size()),
       tree_(mesh_),
-      near_(mesh.vertices.size(), kNoIndex) {
+      sight_(mesh.vertices.size()) {
   reassign();
   if (back_ == nullptr) return;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    near_[v] = back_->nearest(mesh.vertices[v]);
+    sight_[v] = back_->sight(mesh.vertices[v]);
   }
 }
 
@@ -39,7 +39,7 @@ void DecimationState::reassign() {
 }
 
 std::uint32_t DecimationState::add_vertex(const Point& at) {
-  near_.push_back(back_ == nullptr ? kNoIndex : back_->nearest(at));
+  sight_.push_back(back_ == nullptr ? BackBound::Sight{} : back_->sight(at));
   return mesh_.add_vertex(at);
 }
 
@@ -48,9 +48,10 @@ bool DecimationState::permits(const MeshEdit& edit) {
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);
   const auto judge = [&] {
     if (back_ != nullptr && !guards_.skip_back_bound) {
+      BackBound::Sight moved;
       if (edit.vertex != kNoIndex) {
-        near_position_ = back_->nearest(edit.position);
-        if (near_position_ == kNoIndex) return false;
+        moved = back_->sight(edit.position, sight_[edit.vertex].triangle);
+        if (!(moved.share <= 1)) return false;
       }
       for (const Triangle& t : edit.added) {
         // Seen from the vertex that moved, or any.
@@ -58,7 +59,8 @@ bool DecimationState::permits(const MeshEdit& edit) {
         if (edit.vertex != kNoIndex) {
           while (i < 2 && t[i] != edit.vertex) ++i;
         }
-        const std::uint32_t near = t[i] == edit.vertex ? near_position_ : near_[t[i]];
+        const std::uint32_t near =
+            t[i] == edit.vertex ? moved.triangle : sight_[t[i]].triangle;
         const std::array<Point, 3> corners = {mesh_.position(t[i]), mesh_.position(t[(i + 1) % 3]),
                                               mesh_.position(t[(i + 2) % 3])};
         if (!back_->holds(corners, near)) return false;
@@ -111,13 +113,15 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
     }
     if (edit.vertex != kNoIndex) {
       undo->position = mesh_.position(edit.vertex);
-      undo->near = near_[edit.vertex];
+      undo->sight = sight_[edit.vertex];
     }
   }
   for (const std::uint32_t slot : edit.removed) mesh_.clear(slot);
   if (edit.vertex != kNoIndex) {
     mesh_.move(edit.vertex, edit.position);
-    if (back_ != nullptr) near_[edit.vertex] = back_->nearest(edit.position);
+    if (back_ != nullptr) {
+      sight_[edit.vertex] = back_->sight(edit.position, sight_[edit.vertex].triangle);
+    }
   }
   placed_.clear();
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
@@ -148,7 +152,7 @@ void DecimationState::undo(const EditUndo& undo) {
   }
   if (undo.vertex != kNoIndex) {
     mesh_.move(undo.vertex, undo.position);
-    near_[undo.vertex] = undo.near;
+    sight_[undo.vertex] = undo.sight;
   }
   for (const EditUndo::Slot& s : undo.slots) {
     if (s.before[0] != kNoIndex) mesh_.set(s.slot, s.before);

@@ -44,7 +44,7 @@ struct EditUndo {
   };
   std::uint32_t vertex = kNoIndex;
   Point position = Point::Zero();
-  std::uint32_t near = kNoIndex;
+  BackBound::Sight sight;
   std::vector<Slot> slots;
   std::vector<MeshEdit::Answer> answers;  // `slot` counts
 };
@@ -71,7 +71,7 @@ class DecimationState {
   const Point& point(std::uint32_t i) const { return cloud_[i]; }
   std::span<const Point> cloud() const { return cloud_; }
   const BackBound* back() const { return back_; }
-  std::uint32_t near(std::uint32_t vertex) const { return near_[vertex]; }
+  const BackBound::Sight& sight(std::uint32_t vertex) const { return sight_[vertex]; }
   double squared_limit() const { return squared_limit_; }
   const Guards& guards() const { return guards_; }
 
@@ -105,8 +105,7 @@ class DecimationState {
   Guards guards_;
   AssignedPoints assigned_;
   SlotTree tree_;
-  std::vector<std::uint32_t> near_;  // the reference triangle near each vertex
-  std::uint32_t near_position_ = kNoIndex;  // and near the position of the edit last permitted
+  std::vector<BackBound::Sight> sight_;  // of each vertex
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
 };
 

@@ -8,8 +8,6 @@
 namespace emax {
 namespace {
 
-constexpr double kOutOfSight = 16;
-
 double power_of(double squared, int power) {
   double result = squared;
   for (int i = 2; i < power; i += 2) result *= squared;
@@ -40,6 +38,7 @@ bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
   if (!mesh.collapsible(a, b)) return false;
   vertex_ = a;
   other_ = b;
+  sight_ = state_.sight(a);
   removed_.clear();
   added_.clear();
   normals_.clear();
@@ -66,6 +65,7 @@ bool LocalSearch::prepare_relocation(std::uint32_t vertex) {
   const EditableMesh& mesh = state_.mesh();
   vertex_ = vertex;
   other_ = kNoIndex;
+  sight_ = state_.sight(vertex);
   removed_.clear();
   added_.clear();
   normals_.clear();
@@ -105,14 +105,14 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
-double LocalSearch::energy_before(int power) {
+double LocalSearch::energy_before(int power) const {
   double energy = 0;
   for (const std::uint32_t p : ids_) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   }
   if (state_.back() != nullptr) {
     for (const std::uint32_t v : {vertex_, other_}) {
-      if (v != kNoIndex) energy += power_of(back_share(state_.mesh().position(v)), power);
+      if (v != kNoIndex) energy += power_of(state_.sight(v).share, power);
     }
   }
   return energy;
@@ -174,19 +174,11 @@ Fit LocalSearch::measured(const Point& position, int power) {
   }
   // Between two surfaces of flat pieces the greatest distances are at vertices of either.
   if (state_.back() != nullptr && vertex_ != kNoIndex) {
-    const double squared = back_share(position);
-    fit.energy += power_of(squared, power);
-    fit.worst = std::max(fit.worst, squared);
+    sight_ = state_.back()->sight(position, sight_.triangle);
+    fit.energy += power_of(sight_.share, power);
+    fit.worst = std::max(fit.worst, sight_.share);
   }
   return fit;
-}
-
-// The squared distance of the moving vertex from the reference in units of the limit.
-double LocalSearch::back_share(const Point& position) {
-  to_reference_.setZero();
-  if (!state_.back()->toward(position, to_reference_)) return kOutOfSight;
-  const double limit = state_.back()->limit();
-  return to_reference_.squaredNorm() / (limit * limit);
 }
 
 bool LocalSearch::evaluate(const Point& position, int power, Fit& result) {
@@ -210,13 +202,12 @@ bool LocalSearch::step(const Options& options, Fit& at) const {
     matrix += weighted * foot.weight * foot.direction * foot.direction.transpose();
     right += weighted * foot.direction.dot(foot.residual) * foot.direction;
   }
-  if (state_.back() != nullptr && to_reference_.squaredNorm() > 0) {
-    const double limit = state_.back()->limit();
-    const double squared = to_reference_.squaredNorm() / (limit * limit);
-    const double importance = power_of(squared, options.power - 2);
-    const Point direction = to_reference_.normalized();
+  if (state_.back() != nullptr && sight_.triangle != kNoIndex && sight_.share > 0) {
+    const double importance = power_of(sight_.share, options.power - 2);
+    const Point residual = state_.back()->toward(at.position, sight_.triangle);
+    const Point direction = residual.normalized();
     matrix += importance * direction * direction.transpose();
-    right += importance * to_reference_;
+    right += importance * residual;
   }
   const double trace = matrix.trace();
   if (!(trace > 0)) return false;

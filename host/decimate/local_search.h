@@ -35,7 +35,7 @@ class LocalSearch {
   bool prepare_flip(std::uint32_t a, std::uint32_t b);
 
   // The sum as it stands, over the points of the edit prepared.
-  double energy_before(int power);
+  double energy_before(int power) const;
 
   // Positions to start from.
   Point quadric_optimum() const;
@@ -55,7 +55,6 @@ class LocalSearch {
  private:
   void take_triangles(const std::vector<std::uint32_t>& slots);
   bool shape(const Point& position);
-  double back_share(const Point& position);
   Fit measured(const Point& position, int power);
   bool step(const Options& options, Fit& at) const;
   bool serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer) const;
@@ -68,7 +67,7 @@ class LocalSearch {
   std::vector<Point> normals_;            // of the triangles they replace
   std::vector<std::uint32_t> ids_;        // of the points
   LocalPoints points_;
-  Point to_reference_ = Point::Zero();    // from the moving vertex
+  BackBound::Sight sight_;                // of the moving vertex where it was last measured
   std::vector<LocalFrame> frames_;
 };
 

@@ -112,7 +112,7 @@ void SlotTree::update(const EditableMesh& mesh, std::uint32_t slot) {
 }
 
 SlotTree::Nearest SlotTree::nearest(const EditableMesh& mesh, const Point& p,
-                                    double squared_bound) const {
+                                    double squared_bound, std::uint32_t hint) const {
   Nearest best{kNoIndex, squared_bound};
   const auto try_slot = [&](std::uint32_t slot) {
     if (!mesh.alive(slot)) return;
@@ -122,6 +122,7 @@ SlotTree::Nearest SlotTree::nearest(const EditableMesh& mesh, const Point& p,
       best = {slot, squared};
     }
   };
+  if (hint != kNoIndex) try_slot(hint);
   for (const std::uint32_t slot : added_) try_slot(slot);
   if (nodes_.empty()) return best;
   struct Entry {

@@ -32,8 +32,10 @@ class SlotTree {
     std::uint32_t slot = kNoIndex;  // the lowest of equally near ones
     double squared_distance = 0;
   };
-  // Among the triangles closer than the bound; kNoIndex when there is none.
-  Nearest nearest(const EditableMesh& mesh, const Point& p, double squared_bound) const;
+  // Among the triangles closer than the bound; kNoIndex when there is none. With a `hint`, a
+  // triangle likely to be near, the search is shorter.
+  Nearest nearest(const EditableMesh& mesh, const Point& p, double squared_bound,
+                  std::uint32_t hint = kNoIndex) const;
 
  private:
   struct Node {
