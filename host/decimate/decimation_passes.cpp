@@ -42,7 +42,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   const Point& pa = state_.mesh().position(a);
   const Point& pb = state_.mesh().position(b);
   LocalSearch::Options options;
-  if (search_.points() < 3 * search_.triangles()) options.steps = 0;
+  if (search_.fine()) options.steps = 0;
   Fit fit;
   bool any = search_.fit(search_.quadric_optimum(), options, fit);
   for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
@@ -85,7 +85,6 @@ std::size_t DecimationPasses::collapse() {
   const EditableMesh& mesh = state_.mesh();
   queue_ = {};
   touched_.assign(mesh.vertex_slots(), 0);
-  centre_.assign(mesh.vertex_slots(), 0);
   edits_ = 0;
   for (const auto& [a, b] : edges()) {
     if (poll()) return 0;
@@ -97,20 +96,21 @@ std::size_t DecimationPasses::collapse() {
     queue_.pop();
     const std::uint32_t a = candidate.a, b = candidate.b;
     if (!mesh.used(a) || !mesh.used(b)) continue;
-    // Edges of a centre were all judged anew.
-    if (candidate.stamp < centre_[a] || candidate.stamp < centre_[b]) continue;
     if (candidate.stamp < touched_[a] || candidate.stamp < touched_[b]) {
       push(a, b);
       continue;
     }
+    mesh.neighbours(a, of_a_);
     if (!apply_collapse(candidate)) continue;
     ++collapses;
     ++edits_;
     mesh.neighbours(a, around_);
-    touched_[a] = centre_[a] = edits_;
+    touched_[a] = edits_;
     for (const std::uint32_t v : around_) touched_[v] = edits_;
-    const std::vector<std::uint32_t> around = around_;
-    for (const std::uint32_t v : around) push(a, v);
+    // The edges that were b's; the others wait in the queue until they come up.
+    for (const std::uint32_t v : around_) {
+      if (!std::binary_search(of_a_.begin(), of_a_.end(), v)) push(a, v);
+    }
   }
   return collapses;
 }

@@ -60,11 +60,10 @@ class DecimationPasses {
   MeshEdit edit_;
   std::priority_queue<Candidate> queue_;
   std::vector<std::uint64_t> touched_;  // the edit that last changed the triangles of each vertex
-  std::vector<std::uint64_t> centre_;   // the collapse that last went into each vertex
   std::uint64_t edits_ = 0;
   std::uint64_t polls_ = 0;
   bool stopped_ = false;
-  std::vector<std::uint32_t> around_;   // scratch
+  std::vector<std::uint32_t> around_, of_a_;  // scratch
   std::vector<EditUndo> undo_;
   std::vector<std::uint32_t> unsettled_;  // points beyond the limit
 };

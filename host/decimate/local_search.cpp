@@ -31,6 +31,7 @@ void LocalSearch::take_triangles(const std::vector<std::uint32_t>& slots) {
       points_.push_back(state_.point(p));
     });
   }
+  watch_back_ = state_.back() != nullptr && vertex_ != kNoIndex && !fine();
 }
 
 bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
@@ -110,7 +111,7 @@ double LocalSearch::energy_before(int power) const {
   for (const std::uint32_t p : ids_) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   }
-  if (state_.back() != nullptr) {
+  if (watch_back_) {
     for (const std::uint32_t v : {vertex_, other_}) {
       if (v != kNoIndex) energy += power_of(state_.sight(v).share, power);
     }
@@ -173,7 +174,7 @@ Fit LocalSearch::measured(const Point& position, int power) {
     fit.worst = std::max(fit.worst, squared);
   }
   // Between two surfaces of flat pieces the greatest distances are at vertices of either.
-  if (state_.back() != nullptr && vertex_ != kNoIndex) {
+  if (watch_back_) {
     sight_ = state_.back()->sight(position, sight_.triangle);
     fit.energy += power_of(sight_.share, power);
     fit.worst = std::max(fit.worst, sight_.share);
@@ -202,7 +203,7 @@ bool LocalSearch::step(const Options& options, Fit& at) const {
     matrix += weighted * foot.weight * foot.direction * foot.direction.transpose();
     right += weighted * foot.direction.dot(foot.residual) * foot.direction;
   }
-  if (state_.back() != nullptr && sight_.triangle != kNoIndex && sight_.share > 0) {
+  if (watch_back_ && sight_.triangle != kNoIndex && sight_.share > 0) {
     const double importance = power_of(sight_.share, options.power - 2);
     const Point residual = state_.back()->toward(at.position, sight_.triangle);
     const Point direction = residual.normalized();

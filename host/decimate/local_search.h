@@ -49,8 +49,9 @@ class LocalSearch {
   // come within the limit, and then false when one does not.
   bool finish(const Fit& fit, bool limit, MeshEdit& edit);
 
-  std::size_t points() const { return ids_.size(); }
-  std::size_t triangles() const { return added_.size(); }
+  // Whether the mesh is still about as fine as the cloud here: then errors are far from the limit,
+  // and one good position is enough.
+  bool fine() const { return ids_.size() < 3 * added_.size(); }
 
  private:
   void take_triangles(const std::vector<std::uint32_t>& slots);
@@ -66,6 +67,7 @@ class LocalSearch {
   std::vector<Triangle> added_;           // the moving vertex first
   std::vector<Point> normals_;            // of the triangles they replace
   std::vector<std::uint32_t> ids_;        // of the points
+  bool watch_back_ = false;               // whether the vertex counts as a point of the reference
   LocalPoints points_;
   BackBound::Sight sight_;                // of the moving vertex where it was last measured
   std::vector<LocalFrame> frames_;
