@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -9,22 +10,83 @@
 
 namespace emax {
 
-struct BoundedDecimationSettings {
-  double epsilon = 0;  // every point of the cloud stays within this of the mesh
-  bool two_sided = true;
-  double epsilon_back = 0;  // every point of the mesh within this of the reference; 0: epsilon
-  int effort = 1;           // 0: collapses alone; 1: with moves and turns; 2: deep
-  std::function<bool()> interrupted = nullptr;
-  bool verbose = false;
-};
-
-struct BoundedDecimation {
+// A surface that decimation may start from and be held to: manifold_part() of a mesh, with the far
+// points of the cloud inserted.
+struct ReferenceSurface {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> left_out;  // points farther than epsilon from the mesh given
+  std::size_t dropped = 0;              // triangles, by manifold_part()
+  std::size_t inserted = 0;             // points that were farther than `far`
+  std::vector<std::uint32_t> left_out;  // points that still are, and could not be inserted
 };
 
-BoundedDecimation decimate_bounded(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                   const BoundedDecimationSettings& settings,
-                                   const TriangleMesh* reference = nullptr);
+// `far`: epsilon / 2 leaves decimation room at once. Throws Error for a mesh without a usable
+// triangle, a cloud without points, or one that does not belong to the mesh: most of its points
+// are farther from it than a tenth of its width.
+ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
+                                   double far,
+                                   const std::function<bool()>& interrupted = nullptr);
+
+struct DecimationSettings {
+  double epsilon = 0;  // every point of the cloud stays within this of the mesh,
+  bool two_sided = true;
+  double epsilon_back = 0;  // and every point of the mesh within this of the reference; 0: epsilon
+
+  enum class Effort {
+    kCollapse,  // edge collapses alone
+    kRelax,     // and vertices moved, edges turned, collapses that these make possible
+    kDeep,      // the same until nothing is gained
+  } effort = Effort::kRelax;
+
+  double normal_cosine = 0.2;  // least, between a triangle and the one that it replaces
+  double flatness = 1e-3;      // least height of a new triangle over its longest side
+
+  // Polled now and then; true ends the work with the mesh at hand, which is valid and within the
+  // bounds.
+  std::function<bool()> interrupted = nullptr;
+  // Called after each pass with its name, how many edits it made and the triangles left.
+  std::function<void(const char*, std::size_t, std::size_t)> progress = nullptr;
+
+  // Faults that the tests must catch.
+  enum class Fault { kNone, kSkipsPoints, kSkipsBackBound, kSkipsIntersections };
+  Fault fault = Fault::kNone;
+};
+
+struct DecimatedMesh {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> left_out;  // points farther than epsilon from the mesh it started from
+  bool interrupted = false;
+};
+
+// Decimation under a certified bound: as few triangles as can be found such that every point of the
+// cloud, but for those that were too far at the start, lies within epsilon of the mesh and every
+// point of the mesh, the inside of its triangles included, within epsilon_back of the reference.
+// The result is manifold and consistently oriented, of the topology of the start, without
+// self-intersections or slivers. All of it holds after every edit.
+//
+// Each triangle answers for the points of the cloud nearest to it. An edge collapse puts its vertex
+// where the sum over the points around it of (distance / epsilon)^4 is least, by reweighted least
+// squares from the optimum of the planes' quadrics, and is made, least increase first, if all of
+// these points stay within epsilon of the new triangles, those within epsilon_back of the reference
+// (BackBound), and nothing intersects. Vertices are then moved and edges turned to lower the sum,
+// and collapses that break the bound are tried and undone unless moves and turns around mend it.
+//
+// Same input and settings, same bytes. About O(n log n) in the triangles of the start.
+class BoundedDecimator {
+ public:
+  // `reference` is as reference_surface() gives it; it and the cloud outlive the decimator.
+  BoundedDecimator(const TriangleMesh& reference, std::span<const Point> cloud)
+      : reference_(reference), cloud_(cloud) {}
+
+  // Throws Error for an epsilon that is not positive or within roundings of the coordinates.
+  DecimatedMesh run(const DecimationSettings& settings) const { return run(reference_, settings); }
+
+  // From another mesh, as manifold_part() gives it. Where that one breaks the back bound the result
+  // may too.
+  DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings) const;
+
+ private:
+  const TriangleMesh& reference_;
+  std::span<const Point> cloud_;
+};
 
 }  // namespace emax

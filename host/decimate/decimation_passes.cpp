@@ -7,6 +7,7 @@ namespace emax {
 namespace {
 
 constexpr double kHopeless = 4;      // squared distance / limit^2 from which finer steps do not help
+constexpr double kMendable = 2.5;    // squared distance / limit^2 up to which mending is tried
 constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
 
 }  // namespace
@@ -210,7 +211,7 @@ bool DecimationPasses::mend(std::uint32_t vertex) {
   return false;
 }
 
-std::size_t DecimationPasses::collapse_and_mend(double worst) {
+std::size_t DecimationPasses::collapse_and_mend() {
   const EditableMesh& mesh = state_.mesh();
   struct Trial {
     double worst;
@@ -233,7 +234,7 @@ std::size_t DecimationPasses::collapse_and_mend(double worst) {
     trial.a = a;
     trial.b = b;
     trial.worst = any ? trial.fit.worst : 0;
-    return any && trial.worst <= worst;
+    return any && trial.worst <= kMendable;
   };
   std::vector<Trial> trials;
   for (const auto& [a, b] : edges()) {

@@ -26,7 +26,7 @@ class DecimationPasses {
   std::size_t flip(int power);
   // Collapses that break the limit at first, where moving and turning what is around mends it; the
   // others are undone. Returns how many stayed.
-  std::size_t collapse_and_mend(double worst);
+  std::size_t collapse_and_mend();
 
   bool stopped() const { return stopped_; }
 

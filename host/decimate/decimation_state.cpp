@@ -47,12 +47,11 @@ bool DecimationState::permits(const MeshEdit& edit) {
   const Point before = edit.vertex == kNoIndex ? Point::Zero() : mesh_.position(edit.vertex);
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);
   const auto judge = [&] {
+    if (back_ != nullptr && edit.vertex != kNoIndex) {
+      moved_ = back_->sight(edit.position, sight_[edit.vertex].triangle);
+    }
     if (back_ != nullptr && !guards_.skip_back_bound) {
-      BackBound::Sight moved;
-      if (edit.vertex != kNoIndex) {
-        moved = back_->sight(edit.position, sight_[edit.vertex].triangle);
-        if (!(moved.share <= 1)) return false;
-      }
+      if (edit.vertex != kNoIndex && !(moved_.share <= 1)) return false;
       for (const Triangle& t : edit.added) {
         // Seen from the vertex that moved, or any.
         std::size_t i = 0;
@@ -60,7 +59,7 @@ bool DecimationState::permits(const MeshEdit& edit) {
           while (i < 2 && t[i] != edit.vertex) ++i;
         }
         const std::uint32_t near =
-            t[i] == edit.vertex ? moved.triangle : sight_[t[i]].triangle;
+            t[i] == edit.vertex ? moved_.triangle : sight_[t[i]].triangle;
         const std::array<Point, 3> corners = {mesh_.position(t[i]), mesh_.position(t[(i + 1) % 3]),
                                               mesh_.position(t[(i + 2) % 3])};
         if (!back_->holds(corners, near)) return false;
@@ -83,20 +82,26 @@ bool DecimationState::meets_itself(const MeshEdit& edit) const {
   return false;
 }
 
-bool DecimationState::meets_another(const MeshEdit& edit) const {
+bool DecimationState::meets_another(const MeshEdit& edit) {
+  boxes_.clear();
+  Bounds around;
   for (const Triangle& t : edit.added) {
     const std::array<Point, 3> corners = {mesh_.position(t[0]), mesh_.position(t[1]),
                                           mesh_.position(t[2])};
-    const bool clear = tree_.for_each_overlap(bounds_of(corners), [&](std::uint32_t slot) {
-      if (std::find(edit.removed.begin(), edit.removed.end(), slot) != edit.removed.end()) {
-        return true;
-      }
-      const std::array<Triangle, 2> pair = {t, mesh_.triangle(slot)};
-      return !intersect_beyond_shared({mesh_.positions(), pair}, 0, 1);
-    });
-    if (!clear) return true;
+    boxes_.push_back(bounds_of(corners));
+    around = boxes_.size() == 1 ? boxes_.front() : joined(around, boxes_.back());
   }
-  return false;
+  return !tree_.for_each_overlap(around, [&](std::uint32_t slot, const Bounds& box) {
+    if (std::find(edit.removed.begin(), edit.removed.end(), slot) != edit.removed.end()) {
+      return true;
+    }
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+      if (!overlap(boxes_[i], box)) continue;
+      const std::array<Triangle, 2> pair = {edit.added[i], mesh_.triangle(slot)};
+      if (intersect_beyond_shared({mesh_.positions(), pair}, 0, 1)) return false;
+    }
+    return true;
+  });
 }
 
 void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
@@ -119,9 +124,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   for (const std::uint32_t slot : edit.removed) mesh_.clear(slot);
   if (edit.vertex != kNoIndex) {
     mesh_.move(edit.vertex, edit.position);
-    if (back_ != nullptr) {
-      sight_[edit.vertex] = back_->sight(edit.position, sight_[edit.vertex].triangle);
-    }
+    if (back_ != nullptr) sight_[edit.vertex] = moved_;
   }
   placed_.clear();
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
@@ -163,9 +166,12 @@ void DecimationState::undo(const EditUndo& undo) {
   for (const EditUndo::Slot& s : undo.slots) tree_.update(mesh_, s.slot);
 }
 
-// Leaves of triangles that are gone make boxes of their neighbours' growth ever looser.
+// Boxes grow looser as triangles go, and what was added is searched one by one.
 void DecimationState::rebuild_when_coarser() {
-  if (2 * mesh_.triangles() < tree_.triangles_at_rebuild()) tree_.rebuild(mesh_);
+  constexpr std::size_t kMostAdded = 128;
+  if (2 * mesh_.triangles() < tree_.triangles_at_rebuild() || tree_.added() > kMostAdded) {
+    tree_.rebuild(mesh_);
+  }
 }
 
 }  // namespace emax

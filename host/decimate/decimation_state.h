@@ -85,6 +85,7 @@ class DecimationState {
   // Points are not looked at.
   bool permits(const MeshEdit& edit);
 
+  // The edit last permitted.
   void apply(const MeshEdit& edit, EditUndo* undo = nullptr);
   void undo(const EditUndo& undo);
 
@@ -94,7 +95,7 @@ class DecimationState {
   std::uint32_t add_vertex(const Point& at);
 
  private:
-  bool meets_another(const MeshEdit& edit) const;
+  bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
   void rebuild_when_coarser();
 
@@ -106,7 +107,9 @@ class DecimationState {
   AssignedPoints assigned_;
   SlotTree tree_;
   std::vector<BackBound::Sight> sight_;  // of each vertex
-  std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
+  BackBound::Sight moved_;             // of the position of the edit last permitted
+  std::vector<std::uint32_t> placed_;  // scratch: slots of the added triangles
+  std::vector<Bounds> boxes_;          // and their boxes
 };
 
 }  // namespace emax

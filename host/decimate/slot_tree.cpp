@@ -15,10 +15,6 @@ Bounds box_of(const EditableMesh& mesh, std::uint32_t slot) {
   return mesh.alive(slot) ? bounds_of(mesh.corners(slot)) : nothing();
 }
 
-Bounds joined(const Bounds& a, const Bounds& b) {
-  return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
-}
-
 double squared_distance(const Point& p, const Bounds& box) {
   return (p.cwiseMax(box.lower).cwiseMin(box.upper) - p).squaredNorm();
 }

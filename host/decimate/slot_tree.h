@@ -9,6 +9,10 @@
 
 namespace emax {
 
+inline Bounds joined(const Bounds& a, const Bounds& b) {
+  return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
+}
+
 // A binary tree of boxes over the triangles of a mesh that is edited. Its shape is that of the last
 // rebuild; a slot that changes keeps its leaf, and the boxes above it are refitted. A collapse
 // leaves its triangles where they were, so the boxes stay tight until many are gone.
@@ -18,12 +22,13 @@ class SlotTree {
 
   // O(n log n). Slots that are free have empty boxes.
   void rebuild(const EditableMesh& mesh);
+  std::size_t added() const { return added_.size(); }  // since then
   std::size_t triangles_at_rebuild() const { return triangles_at_rebuild_; }
 
   // The slot changed: O(depth) at most. Slots added since the last rebuild are searched one by one.
   void update(const EditableMesh& mesh, std::uint32_t slot);
 
-  // Calls visit(slot) for every triangle whose box overlaps the box (touching counts), in an order
+  // Calls visit(slot, its box) for every triangle whose box overlaps `box` (touching counts), in an order
   // that depends on the edits alone, until it returns false; returns whether it never did.
   template <class Visit>
   bool for_each_overlap(const Bounds& box, const Visit& visit) const;
@@ -56,7 +61,7 @@ class SlotTree {
 template <class Visit>
 bool SlotTree::for_each_overlap(const Bounds& box, const Visit& visit) const {
   for (const std::uint32_t slot : added_) {
-    if (overlap(boxes_[slot], box) && !visit(slot)) return false;
+    if (overlap(boxes_[slot], box) && !visit(slot, boxes_[slot])) return false;
   }
   if (nodes_.empty()) return true;
   std::uint32_t stack[128];
@@ -66,7 +71,7 @@ bool SlotTree::for_each_overlap(const Bounds& box, const Visit& visit) const {
     const Node& node = nodes_[stack[--depth]];
     if (!overlap(node.box, box)) continue;
     if (node.right == kNoIndex) {
-      if (!visit(node.left)) return false;
+      if (!visit(node.left, node.box)) return false;
       continue;
     }
     stack[depth++] = node.right;

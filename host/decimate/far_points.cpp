@@ -1,0 +1,151 @@
+#include "host/decimate/far_points.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "host/decimate/decimation_state.h"
+
+namespace emax {
+namespace {
+
+constexpr std::size_t kMostPlaces = 24;  // triangles around a point where it is tried
+
+class Insertion {
+ public:
+  Insertion(DecimationState& state, double squared_far) : state_(state), squared_far_(squared_far) {}
+
+  bool insert(std::uint32_t point) {
+    const Point& p = state_.point(point);
+    const std::uint32_t slot =
+        state_.tree().nearest(state_.mesh(), p, std::numeric_limits<double>::infinity()).slot;
+    if (slot == kNoIndex) return false;
+    point_ = point;
+    if (vertex_ == kNoIndex || state_.mesh().used(vertex_)) vertex_ = state_.add_vertex(p);
+    for (const std::uint32_t place : places(slot)) {
+      const Triangle t = state_.mesh().triangle(place);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (attach(place, t[i], t[(i + 1) % 3])) return true;
+      }
+      if (try_edit({place}, {{t[0], t[1], vertex_}, {t[1], t[2], vertex_}, {t[2], t[0], vertex_}})) {
+        return true;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (split(t[i], t[(i + 1) % 3])) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  // The triangle and those around it, the nearest to the point first.
+  std::vector<std::uint32_t> places(std::uint32_t slot) const {
+    std::vector<std::pair<double, std::uint32_t>> near;
+    for (const std::uint32_t v : state_.mesh().triangle(slot)) {
+      state_.mesh().for_each_slot_at(v, [&](std::uint32_t s) {
+        near.emplace_back(squared_distance(state_.point(point_), state_.mesh().corners(s)), s);
+      });
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    if (near.size() > kMostPlaces) near.resize(kMostPlaces);
+    std::vector<std::uint32_t> slots;
+    for (const auto& [distance, s] : near) slots.push_back(s);
+    return slots;
+  }
+
+  // A triangle on an edge of the boundary.
+  bool attach(std::uint32_t slot, std::uint32_t from, std::uint32_t to) {
+    if (state_.mesh().slots_at_edge(from, to)[1] != kNoIndex) return false;
+    // The point is beyond the edge, not over the triangle.
+    const Point& a = state_.mesh().position(from);
+    const Point& b = state_.mesh().position(to);
+    const Point& c = state_.mesh().position(opposite(state_.mesh().triangle(slot), from, to));
+    const Point inward = (c - a) - (b - a) * ((c - a).dot(b - a) / (b - a).squaredNorm());
+    if ((state_.point(point_) - a).dot(inward) >= 0) return false;
+    return try_edit({}, {{to, from, vertex_}});
+  }
+
+  bool split(std::uint32_t from, std::uint32_t to) {
+    std::vector<std::uint32_t> removed;
+    std::vector<Triangle> added;
+    for (const std::uint32_t slot : state_.mesh().slots_at_edge(from, to)) {
+      if (slot == kNoIndex) continue;
+      removed.push_back(slot);
+      for (const std::uint32_t end : {from, to}) {
+        Triangle t = state_.mesh().triangle(slot);
+        std::replace(t.begin(), t.end(), end, vertex_);
+        added.push_back(t);
+      }
+    }
+    return try_edit(removed, added);
+  }
+
+  bool try_edit(const std::vector<std::uint32_t>& removed, const std::vector<Triangle>& added) {
+    edit_.clear();
+    edit_.vertex = vertex_;
+    edit_.position = state_.point(point_);
+    edit_.removed = removed;
+    edit_.added = added;
+    std::vector<std::array<Point, 3>> shapes;
+    for (const Triangle& t : added) {
+      std::array<Point, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = t[i] == vertex_ ? edit_.position : state_.mesh().position(t[i]);
+      }
+      if (!state_.well_shaped(local_frame(corners))) return false;
+      shapes.push_back(corners);
+    }
+    edit_.answers.push_back({point_, 0, kNoIndex, squared_distance(edit_.position, shapes[0])});
+    bool kept = true;
+    for (const std::uint32_t slot : removed) {
+      state_.assigned().for_each(slot, [&](std::uint32_t p) {
+        if (p == point_) return;
+        MeshEdit::Answer answer{p, 0, kNoIndex, std::numeric_limits<double>::infinity()};
+        for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+          const double squared = squared_distance(state_.point(p), shapes[i]);
+          if (squared >= answer.squared_distance) continue;
+          answer.squared_distance = squared;
+          answer.added = i;
+        }
+        const double before = state_.assigned().squared_distance(p);
+        kept = kept && answer.squared_distance <= std::max(before, squared_far_);
+        edit_.answers.push_back(answer);
+      });
+    }
+    if (!kept || !state_.permits(edit_)) return false;
+    state_.apply(edit_);
+    return true;
+  }
+
+  DecimationState& state_;
+  double squared_far_;
+  std::uint32_t point_ = kNoIndex, vertex_ = kNoIndex;
+  MeshEdit edit_;
+};
+
+}  // namespace
+
+FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
+                            const std::function<bool()>& interrupted) {
+  DecimationState state(mesh, cloud, nullptr, far * far, {});
+  Insertion insertion(state, far * far);
+  FarPoints result;
+  const auto is_far = [&](std::uint32_t p) {
+    return state.assigned().owner(p) == kNoIndex &&
+           state.tree().nearest(state.mesh(), cloud[p], far * far).slot == kNoIndex;
+  };
+  bool stopped = false;
+  for (std::uint32_t p = 0; p < cloud.size() && !stopped; ++p) {
+    if (!is_far(p)) continue;
+    stopped = interrupted && interrupted();
+    if (!stopped && insertion.insert(p)) ++result.inserted;
+  }
+  // What came later may have brought the mesh within reach.
+  for (std::uint32_t p = 0; p < cloud.size(); ++p) {
+    if (is_far(p)) result.left_out.push_back(p);
+  }
+  result.mesh = state.mesh().compact();
+  return result;
+}
+
+}  // namespace emax

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/geometry/triangle_mesh.h"
+
+namespace emax {
+
+struct FarPoints {
+  TriangleMesh mesh;
+  std::size_t inserted = 0;
+  std::vector<std::uint32_t> left_out;  // in order: still farther than `far`
+};
+
+// Makes every point of the cloud that is farther than `far` from the mesh one of its vertices: an
+// edge of the boundary near it gets a triangle, or a triangle or edge is split there. The mesh stays
+// manifold and free of self-intersections and slivers, and no other point comes to be farther than
+// `far`; where that cannot be had the point is left out. `mesh` is as manifold_part() gives it.
+// O(log n) for a point and for an insertion.
+FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
+                            const std::function<bool()>& interrupted = nullptr);
+
+}  // namespace emax

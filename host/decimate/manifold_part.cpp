@@ -1,0 +1,227 @@
+#include "host/decimate/manifold_part.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "host/geometry/box_pairs.h"
+#include "host/geometry/exact_predicates.h"
+#include "host/geometry/merge_vertices.h"
+#include "host/geometry/triangle_pair.h"
+#include "host/reconstruct/mesh_orientation.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+constexpr double kGreatestCoordinate = 1e150;
+
+void require_usable(const TriangleMesh& mesh) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (mesh.vertices[v].allFinite() &&
+        mesh.vertices[v].cwiseAbs().maxCoeff() < kGreatestCoordinate) {
+      continue;
+    }
+    throw Error("vertex " + std::to_string(v) +
+                " of the mesh has a coordinate that is not finite or too large; remove it");
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (v < mesh.vertices.size()) continue;
+      throw Error("triangle " + std::to_string(t) + " of the mesh names vertex " +
+                  std::to_string(v) + ", which does not exist; write the mesh anew");
+    }
+  }
+}
+
+Point normal_of(const TriangleMesh& mesh, std::uint32_t t) {
+  const auto [a, b, c] = mesh.view().corners(t);
+  return (b - a).cross(c - a);
+}
+
+using Flags = std::vector<std::uint8_t>;
+
+std::size_t drop(TriangleMesh& mesh, const Flags& flags) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (flags[t] == 0) mesh.triangles[kept++] = mesh.triangles[t];
+  }
+  const std::size_t dropped = mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  return dropped;
+}
+
+std::size_t drop_degenerate(TriangleMesh& mesh) {
+  Flags flags(mesh.triangles.size(), 0);
+  std::set<Triangle> seen;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Triangle sorted = mesh.triangles[t];
+    std::sort(sorted.begin(), sorted.end());
+    const auto [a, b, c] = mesh.view().corners(t);
+    // A normal of length 0 is no use either, even where exact arithmetic sees an area.
+    const bool repeats = sorted[0] == sorted[1] || sorted[1] == sorted[2];
+    flags[t] = repeats || collinear(a, b, c) ||
+               !(normal_of(mesh, static_cast<std::uint32_t>(t)).squaredNorm() > 0) ||
+               !seen.insert(sorted).second;
+  }
+  return drop(mesh, flags);
+}
+
+struct Side {
+  std::uint32_t low, high, triangle;
+  bool rises;
+};
+
+std::vector<Side> sides_by_edge(const TriangleMesh& mesh) {
+  std::vector<Side> sides;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = mesh.triangles[t][i], to = mesh.triangles[t][(i + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), t, from < to});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::tie(s.low, s.high, s.triangle) < std::tie(t.low, t.high, t.triangle);
+  });
+  return sides;
+}
+
+// Calls visit(sides) for the sides of each edge.
+template <class Visit>
+void for_each_edge(std::span<const Side> sides, const Visit& visit) {
+  while (!sides.empty()) {
+    const Side& edge = sides.front();
+    std::size_t users = 1;
+    while (users < sides.size() && sides[users].low == edge.low && sides[users].high == edge.high) {
+      ++users;
+    }
+    visit(sides.first(users));
+    sides = sides.subspan(users);
+  }
+}
+
+std::size_t drop_at_edges(TriangleMesh& mesh) {
+  Flags flags(mesh.triangles.size(), 0);
+  for_each_edge(sides_by_edge(mesh), [&](std::span<const Side> sides) {
+    const bool agree = sides.size() == 2 && sides[0].rises != sides[1].rises;
+    if (sides.size() == 1 || agree) return;
+    const Side* one = nullptr;
+    const Side* other = nullptr;
+    double best = -2;
+    for (const Side& s : sides) {
+      const Point n = normal_of(mesh, s.triangle);
+      if (other == nullptr &&
+          (one == nullptr || n.norm() > normal_of(mesh, one->triangle).norm())) {
+        one = &s;
+      }
+      for (const Side& t : sides) {
+        if (s.triangle >= t.triangle || s.rises == t.rises) continue;
+        const double flat = n.normalized().dot(normal_of(mesh, t.triangle).normalized());
+        if (flat <= best) continue;
+        best = flat;
+        one = &s;
+        other = &t;
+      }
+    }
+    for (const Side& s : sides) {
+      if (&s != one && &s != other) flags[s.triangle] = 1;
+    }
+  });
+  return drop(mesh, flags);
+}
+
+std::size_t drop_at_vertices(TriangleMesh& mesh) {
+  std::vector<std::uint32_t> fan(3 * mesh.triangles.size());  // of corners, as disjoint sets
+  std::iota(fan.begin(), fan.end(), 0u);
+  const auto root = [&](std::uint32_t corner) {
+    while (fan[corner] != corner) corner = fan[corner] = fan[fan[corner]];
+    return corner;
+  };
+  const auto corner_at = [&](std::uint32_t t, std::uint32_t vertex) {
+    const Triangle& triangle = mesh.triangles[t];
+    return 3 * t + (triangle[0] == vertex ? 0u : triangle[1] == vertex ? 1u : 2u);
+  };
+  for_each_edge(sides_by_edge(mesh), [&](std::span<const Side> sides) {
+    for (const Side& s : sides.subspan(1)) {
+      for (const std::uint32_t vertex : {s.low, s.high}) {
+        const std::uint32_t a = root(corner_at(sides[0].triangle, vertex));
+        const std::uint32_t b = root(corner_at(s.triangle, vertex));
+        fan[std::max(a, b)] = std::min(a, b);
+      }
+    }
+  });
+  std::vector<double> area(fan.size(), 0);  // of each root
+  for (std::uint32_t c = 0; c < fan.size(); ++c) area[root(c)] += normal_of(mesh, c / 3).norm();
+  std::vector<std::uint32_t> best(mesh.vertices.size(), ~0u);
+  for (std::uint32_t c = 0; c < fan.size(); ++c) {
+    if (root(c) != c) continue;
+    std::uint32_t& winner = best[mesh.triangles[c / 3][c % 3]];
+    if (winner == ~0u || area[c] > area[winner]) winner = c;
+  }
+  Flags flags(mesh.triangles.size(), 0);
+  for (std::uint32_t c = 0; c < fan.size(); ++c) {
+    if (best[mesh.triangles[c / 3][c % 3]] != root(c)) flags[c / 3] = 1;
+  }
+  return drop(mesh, flags);
+}
+
+std::size_t drop_intersecting(TriangleMesh& mesh) {
+  std::vector<Bounds> boxes;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    boxes.push_back(bounds_of(mesh.view().corners(t)));
+  }
+  std::vector<std::vector<std::uint32_t>> meets(mesh.triangles.size());
+  BoxPairs(boxes).for_each([&](std::uint32_t i, std::uint32_t j) {
+    if (!intersect_beyond_shared(mesh.view(), i, j)) return;
+    meets[i].push_back(j);
+    meets[j].push_back(i);
+  });
+  std::set<std::pair<std::size_t, std::uint32_t>> by_count;  // of pairs left, and the triangle
+  for (std::uint32_t t = 0; t < meets.size(); ++t) {
+    if (!meets[t].empty()) by_count.insert({meets[t].size(), t});
+  }
+  std::vector<std::size_t> left;
+  left.reserve(meets.size());
+  for (const std::vector<std::uint32_t>& pairs : meets) left.push_back(pairs.size());
+  Flags flags(mesh.triangles.size(), 0);
+  while (!by_count.empty()) {
+    const std::uint32_t worst = by_count.rbegin()->second;
+    by_count.erase(std::prev(by_count.end()));
+    flags[worst] = 1;
+    for (const std::uint32_t t : meets[worst]) {
+      if (flags[t] != 0) continue;
+      by_count.erase({left[t], t});
+      if (--left[t] > 0) by_count.insert({left[t], t});
+    }
+  }
+  return drop(mesh, flags);
+}
+
+}  // namespace
+
+ManifoldPart manifold_part(TriangleMesh mesh) {
+  require_usable(mesh);
+  ManifoldPart part;
+  merge_equal_vertices(mesh.vertices, mesh.triangles);
+  part.dropped = drop_degenerate(mesh);
+  orient_consistently(mesh);
+  part.dropped += drop_intersecting(mesh);
+  for (std::size_t last = 1; last > 0;) {
+    last = drop_at_edges(mesh);
+    last += drop_at_vertices(mesh);
+    part.dropped += last;
+    if (last > 0) orient_consistently(mesh);
+  }
+  drop_unused(mesh);
+  part.mesh = std::move(mesh);
+  return part;
+}
+
+}  // namespace emax
