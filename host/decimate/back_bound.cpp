@@ -9,7 +9,8 @@
 namespace emax {
 namespace {
 
-constexpr int kMostSteps = 64;    // of the walk to the first corner
+constexpr int kMostSteps = 64;    // of the walk to the centroid
+constexpr double kTouch = 1e-13, kRoundings = 1e-9;  // of the area of T
 constexpr int kMostPieces = 160;  // that one triangle may be halved into
 
 }  // namespace
@@ -29,6 +30,7 @@ struct BackBound::Plane {
       line[i] = {-(to.z - from.z) / length, (to.y - from.y) / length, 0};
       line[i][2] = -(line[i][0] * from.y + line[i][1] * from.z);
     }
+    area = 0.5 * corners[1].y * corners[2].z;
   }
   // y along the first side, z across it.
   Corner project(const Point& p) const {
@@ -42,6 +44,7 @@ struct BackBound::Plane {
 
   Point origin, along, across, normal;
   std::array<Corner, 3> corners;
+  double area;
   std::array<std::array<double, 3>, 3> line;
 };
 
@@ -79,8 +82,10 @@ bool BackBound::holds(const std::array<Point, 3>& corners, std::uint32_t near) c
   return sheet == Sheet::kWithin;
 }
 
-// A walk through the projection, over the side beyond which the first corner lies.
-std::uint32_t BackBound::under_first_corner(const Plane& plane, std::uint32_t from) const {
+// A walk through the projection, over the side beyond which the centroid lies.
+std::uint32_t BackBound::under_centroid(const Plane& plane, std::uint32_t from) const {
+  const double y = (plane.corners[1].y + plane.corners[2].y) / 3;
+  const double z = plane.corners[2].z / 3;
   for (int step = 0; step < kMostSteps && from != kNoIndex; ++step) {
     std::array<Corner, 3> r;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -92,7 +97,7 @@ std::uint32_t BackBound::under_first_corner(const Plane& plane, std::uint32_t fr
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner& a = r[i];
       const Corner& b = r[(i + 1) % 3];
-      const double turn = a.y * b.z - a.z * b.y;  // of the first corner, which is the origin
+      const double turn = (a.y - y) * (b.z - z) - (a.z - z) * (b.y - y);
       area += turn;
       if (turn < least) {
         least = turn;
@@ -107,12 +112,12 @@ std::uint32_t BackBound::under_first_corner(const Plane& plane, std::uint32_t fr
 }
 
 BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near) const {
-  const std::uint32_t start = under_first_corner(plane, near);
+  const std::uint32_t start = under_centroid(plane, near);
   if (start == kNoIndex) return Sheet::kNoSheet;
   ++search_;
   front_.assign(1, start);
   seen_[start] = search_;
-  bool within = true;
+  double covered = 0;
   while (!front_.empty()) {
     const std::uint32_t t = front_.back();
     front_.pop_back();
@@ -143,13 +148,19 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
       }
       part_.swap(clipped_);
     }
-    if (part_.empty()) continue;
+    double overlap = 0;
+    for (std::size_t i = 2; i < part_.size(); ++i) {
+      overlap += 0.5 * ((part_[i - 1].y - part_[0].y) * (part_[i].z - part_[0].z) -
+                        (part_[i - 1].z - part_[0].z) * (part_[i].y - part_[0].y));
+    }
+    // What only touches T says nothing of it, whichever way it faces.
+    if (std::abs(overlap) < kTouch * plane.area) continue;
+    covered += overlap;
     const double u = r[1].y - r[0].y, v = r[1].z - r[0].z;
     const double x = r[2].y - r[0].y, y = r[2].z - r[0].z;
     const double area = u * y - v * x;
     if (!(area > 1e-12 * (u * u + v * v + x * x + y * y))) return Sheet::kNoSheet;
-    if (within && !part_holds(plane, part_, t)) within = false;
-    if (!within) return Sheet::kBeyond;
+    if (!part_holds(plane, part_, t)) return Sheet::kBeyond;
     for (std::size_t i = 0; i < 3; ++i) {
       if ((beyond[i] & beyond[(i + 1) % 3]) != 0) continue;
       const std::uint32_t next = neighbours_[t][i];
@@ -159,7 +170,7 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
       front_.push_back(next);
     }
   }
-  return Sheet::kWithin;
+  return covered >= (1 - kRoundings) * plane.area ? Sheet::kWithin : Sheet::kNoSheet;
 }
 
 bool BackBound::part_holds(const Plane& plane, const std::vector<Corner>& part,

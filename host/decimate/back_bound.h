@@ -13,9 +13,10 @@ namespace emax {
 // caller takes off the limit; "no" may be the budget's.
 //
 // The reference near a triangle T is mostly one sheet over it. From a triangle of the reference
-// under a corner of T the sheet is followed through its edges as far as it overlaps T in T's
+// under the middle of T the sheet is followed through its edges as far as it overlaps T in T's
 // projection. If all that overlap face the same way and none ends at a border of the reference
-// inside T, the projection of the sheet covers T: it is open and closed in T. The distance to one
+// inside T, the projection of the sheet covers T: it is open and closed in T. Where roundings mislead
+// the search, the areas of the overlaps do not add up to that of T. The distance to one
 // triangle of the reference is convex, so the part of T that is covered by it is within the limit
 // when the corners of that part are. Parts where this fails, and all of T where there is no such
 // sheet, are halved until each part is within the limit of one triangle of the reference.
@@ -49,7 +50,7 @@ class BackBound {
   enum class Sheet { kWithin, kBeyond, kNoSheet };
 
   Sheet follow_sheet(const Plane& plane, std::uint32_t near) const;
-  std::uint32_t under_first_corner(const Plane& plane, std::uint32_t from) const;
+  std::uint32_t under_centroid(const Plane& plane, std::uint32_t from) const;
   bool part_holds(const Plane& plane, const std::vector<Corner>& part, std::uint32_t triangle) const;
   bool halve(const std::array<Point, 3>& corners) const;
 
