@@ -1,0 +1,91 @@
+#include "host/decimate/back_bound.h"
+
+#include <gtest/gtest.h>
+
+#include "surfaces.h"
+#include "sw_model/surface_distance.h"
+
+namespace emax::test {
+namespace {
+
+double farthest(const std::array<Point, 3>& corners, const ExactMesh& reference) {
+  const std::vector<Triangle> one = {{0, 1, 2}};
+  return surface_distance({corners, one}, reference).upper / 1.01;
+}
+
+class BackBoundTwin : public testing::Test {
+ protected:
+  // Whether what is proven is so, and how much that is so is proven.
+  void compare(const TriangleMesh& mesh, double limit,
+               const std::vector<std::array<Point, 3>>& triangles) {
+    const BackBound bound(mesh, limit);
+    const ExactMesh reference(mesh.view());
+    for (const std::array<Point, 3>& t : triangles) {
+      const double exact = farthest(t, reference);
+      const bool held = bound.holds(t, bound.sight(t[0]).triangle);
+      EXPECT_TRUE(!held || exact <= limit * (1 + 1e-9)) << exact;
+      within_ += exact < 0.95 * limit ? 1 : 0;
+      proven_ += held ? 1 : 0;
+      beyond_ += exact > limit ? 1 : 0;
+    }
+  }
+  std::size_t within_ = 0, proven_ = 0, beyond_ = 0;
+};
+
+std::vector<TriangleMesh> references() {
+  return {bumpy(30, 50), sheet(30, 0.3), without_vertex(sheet(20, 0.1), 190), cube(8),
+          joined(sheet(20, 0.3), sheet(20, 0.3), {0, 0, 0.05})};
+}
+
+TEST_F(BackBoundTwin, TrianglesOfTheReferencesOwnVertices) {
+  Random random(11);
+  for (const TriangleMesh& mesh : references()) {
+    std::vector<std::array<Point, 3>> triangles;
+    for (int i = 0; i < 400; ++i) {
+      const Point& a = mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+      std::vector<Point> near;
+      const double reach = random.uniform(0.1, 0.8);
+      for (const Point& p : mesh.vertices) {
+        if (p != a && (p - a).norm() < reach) near.push_back(p);
+      }
+      if (near.size() < 2) continue;
+      const Point& b = near[random.below(static_cast<std::uint32_t>(near.size()))];
+      const Point& c = near[random.below(static_cast<std::uint32_t>(near.size()))];
+      if ((b - a).cross(c - a).norm() > 1e-6) triangles.push_back({a, b, c});
+    }
+    for (const double limit : {0.005, 0.05}) compare(mesh, limit, triangles);
+  }
+  EXPECT_GT(beyond_, 100u);
+  EXPECT_GT(within_, 500u);
+  EXPECT_GT(proven_, within_ * 9 / 10);
+}
+
+TEST_F(BackBoundTwin, TrianglesNearTheReference) {
+  Random random(12);
+  for (const TriangleMesh& mesh : references()) {
+    std::vector<std::array<Point, 3>> triangles;
+    for (int i = 0; i < 400; ++i) {
+      const Point& a = mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+      const double size = random.uniform(0.02, 0.4);
+      triangles.push_back({a + 0.01 * random.point(-1, 1), a + size * random.point(-1, 1),
+                           a + size * random.point(-1, 1)});
+    }
+    compare(mesh, 0.04, triangles);
+    compare(mesh, 0.15, triangles);
+  }
+  EXPECT_GT(beyond_, 500u);
+  EXPECT_GT(within_, 200u);
+  EXPECT_GT(proven_, within_ * 8 / 10);
+}
+
+// Far from everything, out of sight of the hint.
+TEST(BackBound, RefusesWhatItDoesNotSee) {
+  const BackBound bound(bumpy(10, 16), 0.05);
+  const std::array<Point, 3> away = {Point(5, 0, 0), Point(6, 0, 0), Point(5, 1, 0)};
+  EXPECT_EQ(bound.sight(away[0]).triangle, kNoIndex);
+  EXPECT_FALSE(bound.holds(away, kNoIndex));
+  EXPECT_FALSE(bound.holds(away, 0));
+}
+
+}  // namespace
+}  // namespace emax::test
