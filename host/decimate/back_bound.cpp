@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/decimate/local_distance.h"
 
@@ -10,7 +11,8 @@ namespace emax {
 namespace {
 
 constexpr int kMostSteps = 64;    // of the walk to the centroid
-constexpr double kTouch = 1e-13, kRoundings = 1e-9;  // of the area of T
+constexpr double kTouch = 1e-13, kRoundings = 1e-12;  // of the area of T
+constexpr double kSteep = 1e-12;
 constexpr int kMostPieces = 160;  // that one triangle may be halved into
 
 }  // namespace
@@ -38,6 +40,15 @@ struct BackBound::Plane {
     return {along.dot(q), across.dot(q), normal.dot(q)};
   }
   Point lift(const Corner& c) const { return origin + c.y * along + c.z * across; }
+  double least_angle() const {
+    double least = 4;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner &a = corners[i], &b = corners[(i + 1) % 3], &c = corners[(i + 2) % 3];
+      const double by = b.y - a.y, bz = b.z - a.z, cy = c.y - a.y, cz = c.z - a.z;
+      least = std::min(least, std::atan2(by * cz - bz * cy, by * cy + bz * cz));
+    }
+    return least;
+  }
   double inside(std::size_t side, const Corner& c) const {
     return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
   }
@@ -112,12 +123,20 @@ std::uint32_t BackBound::under_centroid(const Plane& plane, std::uint32_t from) 
 }
 
 BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near) const {
-  const std::uint32_t start = under_centroid(plane, near);
+  std::uint32_t start = under_centroid(plane, near);
+  if (start == kNoIndex) {
+    // The nearest at a ridge may be across it.
+    const Point centroid = plane.lift({(plane.corners[1].y + plane.corners[2].y) / 3,
+                                       plane.corners[2].z / 3, 0});
+    near = sight(centroid, near).triangle;
+    if (near == kNoIndex) return Sheet::kBeyond;
+    start = under_centroid(plane, near);
+  }
   if (start == kNoIndex) return Sheet::kNoSheet;
   ++search_;
   front_.assign(1, start);
   seen_[start] = search_;
-  double covered = 0;
+  double covered = 0, worst = 0;
   while (!front_.empty()) {
     const std::uint32_t t = front_.back();
     front_.pop_back();
@@ -155,38 +174,46 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
     }
     // What only touches T says nothing of it, whichever way it faces.
     if (std::abs(overlap) < kTouch * plane.area) continue;
-    covered += overlap;
     const double u = r[1].y - r[0].y, v = r[1].z - r[0].z;
     const double x = r[2].y - r[0].y, y = r[2].z - r[0].z;
     const double area = u * y - v * x;
-    if (!(area > 1e-12 * (u * u + v * v + x * x + y * y))) return Sheet::kNoSheet;
-    if (!part_holds(plane, part_, t)) return Sheet::kBeyond;
+    // Over a ridge of the reference the sheet ends.
+    if (!(area > kSteep * (u * u + v * v + x * x + y * y))) continue;
+    covered += overlap;
+    worst = std::max(worst, part_distance(plane, part_, t));
+    if (!(worst <= limit_)) return Sheet::kBeyond;
     for (std::size_t i = 0; i < 3; ++i) {
       if ((beyond[i] & beyond[(i + 1) % 3]) != 0) continue;
       const std::uint32_t next = neighbours_[t][i];
-      if (next == kNoIndex) return Sheet::kNoSheet;
-      if (seen_[next] == search_) continue;
+      if (next == kNoIndex || seen_[next] == search_) continue;
       seen_[next] = search_;
       front_.push_back(next);
     }
   }
-  return covered >= (1 - kRoundings) * plane.area ? Sheet::kWithin : Sheet::kNoSheet;
+  // The rest of T is no farther from what is covered than the radius of the greatest sector of a
+  // disc about it, in T, that the uncovered area could fill.
+  const double rest = std::max(plane.area - covered, 0.0) + kRoundings * plane.area;
+  const double reach = std::sqrt(2 * rest / plane.least_angle());
+  return worst + reach <= limit_ ? Sheet::kWithin : Sheet::kNoSheet;
 }
 
-bool BackBound::part_holds(const Plane& plane, const std::vector<Corner>& part,
-                           std::uint32_t triangle) const {
-  bool within = true;
+// At most the limit, or infinite.
+double BackBound::part_distance(const Plane& plane, const std::vector<Corner>& part,
+                                std::uint32_t triangle) const {
+  double height = 0;
+  for (const Corner& c : part) height = std::max(height, std::abs(c.height));
+  if (height <= limit_) return height;
+  double squared = 0;
   for (const Corner& c : part) {
-    if (std::abs(c.height) <= limit_) continue;
-    if (squared_distance(plane.lift(c), reference_.corners(triangle)) <= squared_limit_) continue;
-    within = false;
-    break;
+    squared = std::max(squared, squared_distance(plane.lift(c), reference_.corners(triangle)));
   }
-  if (within) return true;
+  if (squared <= squared_limit_) return std::sqrt(squared);
   for (std::size_t i = 2; i < part.size(); ++i) {
-    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])})) return false;
+    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])})) {
+      return std::numeric_limits<double>::infinity();
+    }
   }
-  return true;
+  return limit_;
 }
 
 bool BackBound::halve(const std::array<Point, 3>& corners) const {

@@ -14,12 +14,12 @@ namespace emax {
 //
 // The reference near a triangle T is mostly one sheet over it. From a triangle of the reference
 // under the middle of T the sheet is followed through its edges as far as it overlaps T in T's
-// projection. If all that overlap face the same way and none ends at a border of the reference
-// inside T, the projection of the sheet covers T: it is open and closed in T. Where roundings mislead
-// the search, the areas of the overlaps do not add up to that of T. The distance to one
-// triangle of the reference is convex, so the part of T that is covered by it is within the limit
-// when the corners of that part are. Parts where this fails, and all of T where there is no such
-// sheet, are halved until each part is within the limit of one triangle of the reference.
+// projection and faces the same way. The distance to one triangle of the reference is convex, so the
+// part of T that is covered by it is as near as the farthest corner of that part. Where the areas of
+// the parts add up to that of T, all of T is covered; what is left at ridges and borders of the
+// reference is as near as its area allows it to be from the rest. Parts beyond the limit, and all of
+// T where that does not do, are halved until each is within the limit of one triangle of the
+// reference.
 //
 // O(triangles of the reference over T). Not for concurrent use.
 class BackBound {
@@ -51,7 +51,8 @@ class BackBound {
 
   Sheet follow_sheet(const Plane& plane, std::uint32_t near) const;
   std::uint32_t under_centroid(const Plane& plane, std::uint32_t from) const;
-  bool part_holds(const Plane& plane, const std::vector<Corner>& part, std::uint32_t triangle) const;
+  double part_distance(const Plane& plane, const std::vector<Corner>& part,
+                       std::uint32_t triangle) const;
   bool halve(const std::array<Point, 3>& corners) const;
 
   EditableMesh reference_;

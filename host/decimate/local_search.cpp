@@ -144,8 +144,14 @@ Point LocalSearch::quadric_optimum() const {
   }
   const double trace = matrix.trace();
   if (!(trace > 0)) return start;
-  matrix.diagonal().array() += 1e-3 * trace;
-  return start + matrix.ldlt().solve(right);
+  const double weight = 1e-4 * trace;
+  matrix.diagonal().array() += weight;
+  const Eigen::LDLT<Eigen::Matrix3d> solver(matrix);
+  // Repeated, so that planes that meet in an edge or corner are met to the last digits, while where
+  // they do not, the start decides.
+  Point optimum = Point::Zero();
+  for (int i = 0; i < 3; ++i) optimum = solver.solve(right + weight * optimum);
+  return start + optimum;
 }
 
 bool LocalSearch::shape(const Point& position) {

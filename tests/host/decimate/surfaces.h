@@ -49,8 +49,8 @@ inline TriangleMesh cube(std::uint32_t n) {
       const auto at = [&](std::uint32_t i, std::uint32_t j) {
         Point p;
         p[axis] = side;
-        p[(axis + 1) % 3] = -1 + 2.0 * i / n;
-        p[(axis + 2) % 3] = side * (-1 + 2.0 * j / n);
+        p[(axis + 1) % 3] = (2.0 * i - n) / n;
+        p[(axis + 2) % 3] = side * (2.0 * j - n) / n;
         return vertex(p);
       };
       for (std::uint32_t i = 0; i < n; ++i) {
