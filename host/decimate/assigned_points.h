@@ -31,7 +31,8 @@ class AssignedPoints {
     squared_[point] = squared_distance;
     if (owner_[point] == slot) return;
     if (owner_[point] != kNoIndex) {
-      (previous_[point] == kNoIndex ? first_[owner_[point]] : next_[previous_[point]]) = next_[point];
+      (previous_[point] == kNoIndex ? first_[owner_[point]] : next_[previous_[point]]) =
+          next_[point];
       if (next_[point] != kNoIndex) previous_[next_[point]] = previous_[point];
     }
     owner_[point] = slot;

@@ -10,7 +10,7 @@
 namespace emax {
 namespace {
 
-constexpr int kMostSteps = 64;    // of the walk to the centroid
+constexpr int kMostSteps = 64;                        // of the walk to the centroid
 constexpr double kTouch = 1e-13, kRoundings = 1e-12;  // of the area of T
 constexpr double kSteep = 1e-12;
 constexpr int kMostPieces = 160;  // that one triangle may be halved into
@@ -126,8 +126,8 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
   std::uint32_t start = under_centroid(plane, near);
   if (start == kNoIndex) {
     // The nearest at a ridge may be across it.
-    const Point centroid = plane.lift({(plane.corners[1].y + plane.corners[2].y) / 3,
-                                       plane.corners[2].z / 3, 0});
+    const Point centroid =
+        plane.lift({(plane.corners[1].y + plane.corners[2].y) / 3, plane.corners[2].z / 3, 0});
     near = sight(centroid, near).triangle;
     if (near == kNoIndex) return Sheet::kBeyond;
     start = under_centroid(plane, near);
@@ -162,8 +162,8 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
         if (at_a >= 0) clipped_.push_back(a);
         if ((at_a < 0) == (at_b < 0)) continue;
         const double s = at_a / (at_a - at_b);
-        clipped_.push_back({a.y + s * (b.y - a.y), a.z + s * (b.z - a.z),
-                            a.height + s * (b.height - a.height)});
+        clipped_.push_back(
+            {a.y + s * (b.y - a.y), a.z + s * (b.z - a.z), a.height + s * (b.height - a.height)});
       }
       part_.swap(clipped_);
     }

@@ -14,12 +14,12 @@ namespace emax {
 //
 // The reference near a triangle T is mostly one sheet over it. From a triangle of the reference
 // under the middle of T the sheet is followed through its edges as far as it overlaps T in T's
-// projection and faces the same way. The distance to one triangle of the reference is convex, so the
-// part of T that is covered by it is as near as the farthest corner of that part. Where the areas of
-// the parts add up to that of T, all of T is covered; what is left at ridges and borders of the
-// reference is as near as its area allows it to be from the rest. Parts beyond the limit, and all of
-// T where that does not do, are halved until each is within the limit of one triangle of the
-// reference.
+// projection and faces the same way. The distance to one triangle of the reference is convex, so
+// the part of T that is covered by it is as near as the farthest corner of that part. Where the
+// areas of the parts add up to that of T, all of T is covered; what is left at ridges and borders
+// of the reference is as near as its area allows it to be from the rest. Parts beyond the limit,
+// and all of T where that does not do, are halved until each is within the limit of one triangle of
+// the reference.
 //
 // O(triangles of the reference over T). Not for concurrent use.
 class BackBound {
@@ -30,7 +30,8 @@ class BackBound {
   double limit() const { return limit_; }
   const EditableMesh& reference() const { return reference_; }
 
-  // Where a point is seen from the reference: its nearest triangle, kNoIndex beyond twice the limit.
+  // Where a point is seen from the reference: its nearest triangle, kNoIndex beyond twice the
+  // limit.
   struct Sight {
     std::uint32_t triangle = kNoIndex;
     double share = 16;  // squared distance / limit^2; 16 out of sight

@@ -33,8 +33,9 @@ double limit_of(double epsilon, double roundings) {
     throw Error("the maximum error of a decimation has to be positive and finite");
   }
   if (epsilon < 1e3 * roundings) {
-    throw Error("the maximum error is lost in the roundings of the coordinates; move the data "
-                "closer to the origin or allow more");
+    throw Error(
+        "the maximum error is lost in the roundings of the coordinates; move the data "
+        "closer to the origin or allow more");
   }
   return epsilon * (1 - kMargin) - roundings;
 }

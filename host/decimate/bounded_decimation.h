@@ -23,8 +23,7 @@ struct ReferenceSurface {
 // triangle, a cloud without points, or one that does not belong to the mesh: most of its points
 // are farther from it than a tenth of its width.
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                   double far,
-                                   const std::function<bool()>& interrupted = nullptr);
+                                   double far, const std::function<bool()>& interrupted = nullptr);
 
 struct DecimationSettings {
   double epsilon = 0;  // every point of the cloud stays within this of the mesh,

@@ -6,8 +6,8 @@
 namespace emax {
 namespace {
 
-constexpr double kHopeless = 4;      // squared distance / limit^2 from which finer steps do not help
-constexpr double kMendable = 2.5;    // squared distance / limit^2 up to which mending is tried
+constexpr double kHopeless = 4;    // squared distance / limit^2 from which finer steps do not help
+constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
 constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
 
 }  // namespace

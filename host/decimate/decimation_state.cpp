@@ -58,8 +58,7 @@ bool DecimationState::permits(const MeshEdit& edit) {
         if (edit.vertex != kNoIndex) {
           while (i < 2 && t[i] != edit.vertex) ++i;
         }
-        const std::uint32_t near =
-            t[i] == edit.vertex ? moved_.triangle : sight_[t[i]].triangle;
+        const std::uint32_t near = t[i] == edit.vertex ? moved_.triangle : sight_[t[i]].triangle;
         const std::array<Point, 3> corners = {mesh_.position(t[i]), mesh_.position(t[(i + 1) % 3]),
                                               mesh_.position(t[(i + 2) % 3])};
         if (!back_->holds(corners, near)) return false;

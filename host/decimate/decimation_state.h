@@ -61,7 +61,8 @@ class DecimationState {
   };
 
   // `mesh` is manifold and consistently oriented, without degenerate triangles; `back` may be null
-  // and outlives the state. Points farther than `squared_limit` from the mesh belong to no triangle.
+  // and outlives the state. Points farther than `squared_limit` from the mesh belong to no
+  // triangle.
   DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud, const BackBound* back,
                   double squared_limit, const Guards& guards);
 
@@ -107,9 +108,9 @@ class DecimationState {
   AssignedPoints assigned_;
   SlotTree tree_;
   std::vector<BackBound::Sight> sight_;  // of each vertex
-  BackBound::Sight moved_;             // of the position of the edit last permitted
-  std::vector<std::uint32_t> placed_;  // scratch: slots of the added triangles
-  std::vector<Bounds> boxes_;          // and their boxes
+  BackBound::Sight moved_;               // of the position of the edit last permitted
+  std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
+  std::vector<Bounds> boxes_;            // and their boxes
 };
 
 }  // namespace emax

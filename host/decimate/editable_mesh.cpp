@@ -103,7 +103,8 @@ bool EditableMesh::collapsible(std::uint32_t a, std::uint32_t b) const {
     apex[1] = opposite(triangles_[sides[1]], a, b);
     if (on_boundary(a) && on_boundary(b)) return false;
   }
-  // The edges from an apex to a and b are drawn together: one of them at least has another triangle.
+  // The edges from an apex to a and b are drawn together: one of them at least has another
+  // triangle.
   for (const std::uint32_t c : apex) {
     if (c == kNoIndex) continue;
     if (slots_at_edge(a, c)[1] == kNoIndex && slots_at_edge(b, c)[1] == kNoIndex) return false;

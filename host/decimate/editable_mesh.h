@@ -38,7 +38,7 @@ class EditableMesh {
 
   void move(std::uint32_t vertex, const Point& to) { positions_[vertex] = to; }
   std::uint32_t add_vertex(const Point& at);
-  std::uint32_t add_slot();  // free
+  std::uint32_t add_slot();                                // free
   void set(std::uint32_t slot, const Triangle& triangle);  // into a free slot
   void clear(std::uint32_t slot);                          // frees it
 

@@ -12,7 +12,8 @@ constexpr std::size_t kMostPlaces = 24;  // triangles around a point where it is
 
 class Insertion {
  public:
-  Insertion(DecimationState& state, double squared_far) : state_(state), squared_far_(squared_far) {}
+  Insertion(DecimationState& state, double squared_far)
+      : state_(state), squared_far_(squared_far) {}
 
   bool insert(std::uint32_t point) {
     const Point& p = state_.point(point);
@@ -26,7 +27,8 @@ class Insertion {
       for (std::size_t i = 0; i < 3; ++i) {
         if (attach(place, t[i], t[(i + 1) % 3])) return true;
       }
-      if (try_edit({place}, {{t[0], t[1], vertex_}, {t[1], t[2], vertex_}, {t[2], t[0], vertex_}})) {
+      if (try_edit({place},
+                   {{t[0], t[1], vertex_}, {t[1], t[2], vertex_}, {t[2], t[0], vertex_}})) {
         return true;
       }
       for (std::size_t i = 0; i < 3; ++i) {

@@ -17,10 +17,10 @@ struct FarPoints {
 };
 
 // Makes every point of the cloud that is farther than `far` from the mesh one of its vertices: an
-// edge of the boundary near it gets a triangle, or a triangle or edge is split there. The mesh stays
-// manifold and free of self-intersections and slivers, and no other point comes to be farther than
-// `far`; where that cannot be had the point is left out. `mesh` is as manifold_part() gives it.
-// O(log n) for a point and for an insertion.
+// edge of the boundary near it gets a triangle, or a triangle or edge is split there. The mesh
+// stays manifold and free of self-intersections and slivers, and no other point comes to be farther
+// than `far`; where that cannot be had the point is left out. `mesh` is as manifold_part() gives
+// it. O(log n) for a point and for an insertion.
 FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
                             const std::function<bool()>& interrupted = nullptr);
 

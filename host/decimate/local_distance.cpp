@@ -51,8 +51,7 @@ void measure(LocalPoints& points, std::span<const LocalFrame> triangles) {
       const Lanes s3 = hn::Add(hn::Mul(y, all(t.y23)), hn::Mul(zl, all(t.z23)));
       edge(hn::Sub(hn::Mul(y, all(t.z23)), hn::Mul(zl, all(t.y23))), s3,
            hn::Sub(s3, all(t.length23)));
-      const Lanes squared =
-          hn::Add(hn::Mul(x, x), hn::IfThenElse(outside, planar, zero));
+      const Lanes squared = hn::Add(hn::Mul(x, x), hn::IfThenElse(outside, planar, zero));
       const auto nearer = hn::Lt(squared, best);
       best = hn::IfThenElse(nearer, squared, best);
       which = hn::IfThenElse(nearer, all(index), which);

@@ -34,16 +34,16 @@ struct LocalPoints {
   std::size_t count = 0;  // the arrays are longer, by a vector at least
 };
 
-// Sets `squared` and `nearest` for all points; of equally near triangles the first counts. Rounding:
-// a few units in the last place of the points' and the triangles' extent around their frames. The
-// bits are the same on every SIMD target.
+// Sets `squared` and `nearest` for all points; of equally near triangles the first counts.
+// Rounding: a few units in the last place of the points' and the triangles' extent around their
+// frames. The bits are the same on every SIMD target.
 void measure(LocalPoints& points, std::span<const LocalFrame> triangles);
 
 // The nearest point of a triangle in terms of its first corner.
 struct Foot {
-  Point residual;     // from the foot to the point
-  Point direction;    // in which the distance grows, of length 1
-  double weight;      // of the first corner in the foot
+  Point residual;   // from the foot to the point
+  Point direction;  // in which the distance grows, of length 1
+  double weight;    // of the first corner in the foot
 };
 Foot foot_on(const LocalFrame& frame, const Point& p);
 

@@ -144,7 +144,7 @@ Point LocalSearch::quadric_optimum() const {
   }
   const double trace = matrix.trace();
   if (!(trace > 0)) return start;
-  const double weight = 1e-4 * trace;
+  const double weight = 1e-3 * trace;
   matrix.diagonal().array() += weight;
   const Eigen::LDLT<Eigen::Matrix3d> solver(matrix);
   // Repeated, so that planes that meet in an edge or corner are met to the last digits, while where

@@ -22,9 +22,9 @@ struct Fit {
 class LocalSearch {
  public:
   struct Options {
-    int power = 4;          // of the energy, even
-    int steps = 4;          // of reweighted least squares at most
-    double gain = 0.02;     // the share of the energy that a step must gain for another to follow
+    int power = 4;       // of the energy, even
+    int steps = 4;       // of reweighted least squares at most
+    double gain = 0.02;  // the share of the energy that a step must gain for another to follow
   };
 
   explicit LocalSearch(const DecimationState& state) : state_(state) {}
@@ -62,14 +62,14 @@ class LocalSearch {
 
   const DecimationState& state_;
   std::uint32_t vertex_ = kNoIndex;
-  std::uint32_t other_ = kNoIndex;           // the vertex drawn in
+  std::uint32_t other_ = kNoIndex;  // the vertex drawn in
   std::vector<std::uint32_t> removed_;
-  std::vector<Triangle> added_;           // the moving vertex first
-  std::vector<Point> normals_;            // of the triangles they replace
-  std::vector<std::uint32_t> ids_;        // of the points
-  bool watch_back_ = false;               // whether the vertex counts as a point of the reference
+  std::vector<Triangle> added_;     // the moving vertex first
+  std::vector<Point> normals_;      // of the triangles they replace
+  std::vector<std::uint32_t> ids_;  // of the points
+  bool watch_back_ = false;         // whether the vertex counts as a point of the reference
   LocalPoints points_;
-  BackBound::Sight sight_;                // of the moving vertex where it was last measured
+  BackBound::Sight sight_;  // of the moving vertex where it was last measured
   std::vector<LocalFrame> frames_;
 };
 

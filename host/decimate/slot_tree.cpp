@@ -107,8 +107,8 @@ void SlotTree::update(const EditableMesh& mesh, std::uint32_t slot) {
   }
 }
 
-SlotTree::Nearest SlotTree::nearest(const EditableMesh& mesh, const Point& p,
-                                    double squared_bound, std::uint32_t hint) const {
+SlotTree::Nearest SlotTree::nearest(const EditableMesh& mesh, const Point& p, double squared_bound,
+                                    std::uint32_t hint) const {
   Nearest best{kNoIndex, squared_bound};
   const auto try_slot = [&](std::uint32_t slot) {
     if (!mesh.alive(slot)) return;

@@ -28,8 +28,8 @@ class SlotTree {
   // The slot changed: O(depth) at most. Slots added since the last rebuild are searched one by one.
   void update(const EditableMesh& mesh, std::uint32_t slot);
 
-  // Calls visit(slot, its box) for every triangle whose box overlaps `box` (touching counts), in an order
-  // that depends on the edits alone, until it returns false; returns whether it never did.
+  // Calls visit(slot, its box) for every triangle whose box overlaps `box` (touching counts), in an
+  // order that depends on the edits alone, until it returns false; returns whether it never did.
   template <class Visit>
   bool for_each_overlap(const Bounds& box, const Visit& visit) const;
 
@@ -45,7 +45,8 @@ class SlotTree {
  private:
   struct Node {
     Bounds box;
-    std::uint32_t left = kNoIndex, right = kNoIndex;  // the leaf's slot in `left` where right is kNoIndex
+    std::uint32_t left = kNoIndex,
+                  right = kNoIndex;  // the leaf's slot in `left` where right is kNoIndex
     std::uint32_t parent = kNoIndex;
   };
 

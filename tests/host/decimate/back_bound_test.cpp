@@ -42,7 +42,8 @@ TEST_F(BackBoundTwin, TrianglesOfTheReferencesOwnVertices) {
   for (const TriangleMesh& mesh : references()) {
     std::vector<std::array<Point, 3>> triangles;
     for (int i = 0; i < 400; ++i) {
-      const Point& a = mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+      const Point& a =
+          mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
       std::vector<Point> near;
       const double reach = random.uniform(0.1, 0.8);
       for (const Point& p : mesh.vertices) {
@@ -65,7 +66,8 @@ TEST_F(BackBoundTwin, TrianglesNearTheReference) {
   for (const TriangleMesh& mesh : references()) {
     std::vector<std::array<Point, 3>> triangles;
     for (int i = 0; i < 400; ++i) {
-      const Point& a = mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+      const Point& a =
+          mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
       const double size = random.uniform(0.02, 0.4);
       triangles.push_back({a + 0.01 * random.point(-1, 1), a + size * random.point(-1, 1),
                            a + size * random.point(-1, 1)});

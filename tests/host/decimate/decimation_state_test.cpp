@@ -201,9 +201,8 @@ TEST_P(Edits, OfOneKindAfterSplitsAreUndoneToo) {
   expect_in_step(state_, back_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Edits, testing::Bool(), [](const auto& param) {
-  return param.param ? "Closed" : "Open";
-});
+INSTANTIATE_TEST_SUITE_P(Surfaces, Edits, testing::Bool(),
+                         [](const auto& param) { return param.param ? "Closed" : "Open"; });
 
 }  // namespace
 }  // namespace emax::test

@@ -30,8 +30,9 @@ Topology topology(const TriangleMesh& mesh) {
     }
   }
   const MeshValidity v = check_mesh(mesh.view());
-  const bool manifold = v.non_manifold_edges + v.non_manifold_vertices + v.inconsistent_edges == 0 &&
-                        faces.size() == mesh.triangles.size();
+  const bool manifold =
+      v.non_manifold_edges + v.non_manifold_vertices + v.inconsistent_edges == 0 &&
+      faces.size() == mesh.triangles.size();
   return {manifold, v.components,
           static_cast<long>(vertices.size() + faces.size()) - static_cast<long>(edges.size()),
           v.boundary_edges > 0, vertices.size()};
@@ -47,8 +48,17 @@ std::vector<TriangleMesh> meshes() {
   // A strip around an axis, three quads long: its two boundaries are three edges each.
   TriangleMesh band = {{{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}},
                        {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}}};
-  return {tetrahedron, octahedron, bipyramid, triangle, pair, band, sheet(2, 0), sheet(4, 0),
-          bumpy(6, 5), without_vertex(bumpy(6, 5), 8), without_vertex(sheet(5, 0), 12),
+  return {tetrahedron,
+          octahedron,
+          bipyramid,
+          triangle,
+          pair,
+          band,
+          sheet(2, 0),
+          sheet(4, 0),
+          bumpy(6, 5),
+          without_vertex(bumpy(6, 5), 8),
+          without_vertex(sheet(5, 0), 12),
           joined(bumpy(3, 4), sheet(3, 0), {3, 0, 0})};
 }
 

@@ -16,8 +16,8 @@ std::vector<std::array<Point, 3>> shapes(Random& random) {
   for (int i = 0; i < 60; ++i) {
     const Point a = random.point(-1, 1), b = random.point(-1, 1);
     // Every third is a sliver.
-    const Point c = i % 3 == 0 ? Point(a + 0.4 * (b - a) + 1e-3 * random.point(-1, 1))
-                               : random.point(-1, 1);
+    const Point c =
+        i % 3 == 0 ? Point(a + 0.4 * (b - a) + 1e-3 * random.point(-1, 1)) : random.point(-1, 1);
     all.push_back({a, b, c});
   }
   return all;
@@ -72,8 +72,8 @@ TEST(LocalDistance, TheFootTellsHowTheDistanceMovesWithTheFirstCorner) {
       auto ahead = corners, behind = corners;
       ahead[0] += by;
       behind[0] -= by;
-      const double change = 0.5 * (std::sqrt(squared_distance(p, ahead)) -
-                                   std::sqrt(squared_distance(p, behind)));
+      const double change =
+          0.5 * (std::sqrt(squared_distance(p, ahead)) - std::sqrt(squared_distance(p, behind)));
       const double sign = foot.residual.dot(foot.direction) < 0 ? -1 : 1;
       EXPECT_NEAR(change, -sign * foot.weight * foot.direction.dot(by), 1e-9);
       ++compared;
