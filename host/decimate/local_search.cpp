@@ -122,7 +122,7 @@ double LocalSearch::energy_before(int power) const {
 Point LocalSearch::quadric_optimum() const {
   const EditableMesh& mesh = state_.mesh();
   const Point& a = mesh.position(vertex_);
-  const Point start = other_ == kNoIndex ? a : Point(0.5 * (a + mesh.position(other_)));
+  Point start = other_ == kNoIndex ? a : Point(0.5 * (a + mesh.position(other_)));
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Point right = Point::Zero();
   const auto plane = [&](const Point& normal, const Point& at, double weight) {
