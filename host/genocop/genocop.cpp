@@ -13,8 +13,6 @@
 namespace emax {
 namespace {
 
-constexpr int kRedraws = 20;  // of a duplicate: first as offspring, then anywhere in the domain
-
 void check(const Settings& settings) {
   const auto check_number = [](const SettingInfo& info, double value) {
     if (value >= info.least && value <= info.greatest) return;
@@ -38,180 +36,129 @@ void check(const Settings& settings) {
   }
 }
 
+// The movable coordinates of continuous and, if wanted, integer genes.
+std::vector<std::size_t> coordinates(const LinearDomain& domain, bool whole_ones) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t k : domain.movable()) {
+    const Gene::Kind kind = domain.gene(k).kind;
+    if (kind == Gene::Kind::kContinuous || (whole_ones && kind == Gene::Kind::kInteger)) {
+      chosen.push_back(k);
+    }
+  }
+  return chosen;
+}
+
 }  // namespace
 
 Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
-    : settings_(settings), seed_(seed), problem_(std::move(problem)), domain_(problem_) {
-  check(settings_);
+    : settings_(settings),
+      seed_(seed),
+      problem_(std::move(problem)),
+      domain_(problem_),
+      frequencies_((check(settings), settings.operator_frequencies),
+                   settings.adaptive_frequencies ? settings.frequency_floor : 0) {
   if (problem_.monotone_gene && settings_.monotone_step) {
     const std::size_t k = domain_.coordinate(*problem_.monotone_gene);
     monotone_.emplace(domain_, k, settings_);
   }
+  if (auto ordered = coordinates(domain_, true); settings_.linear_model && !ordered.empty()) {
+    linear_.emplace(domain_, problem_, std::move(ordered));
+  }
+  if (auto continuous = coordinates(domain_, false); settings_.finish && !continuous.empty()) {
+    finish_.emplace(domain_, problem_, std::move(continuous));
+  }
+  take_known();
   make_starts();
 }
 
-// The given starts; the first one at evenly spaced values of the monotone gene; then a Latin
-// hypercube, one point in each of as many slices of every gene.
-void Genocop::make_starts() {
-  for (const Genes& start : problem_.starts) starts_.push_back(domain_.reduce(start));
-  if (monotone_ && !starts_.empty()) {
-    const Genes first = starts_.front();
-    const std::size_t k = domain_.coordinate(*problem_.monotone_gene);
-    const Interval range = domain_.range(first, k);
-    for (std::size_t i = 0; i < settings_.monotone_fan; ++i) {
-      Genes point = first;
-      point[k] = range.lower + (range.upper - range.lower) * static_cast<double>(i) /
-                                   static_cast<double>(settings_.monotone_fan);
-      starts_.push_back(domain_.pull_inside(point, first));
+// Earlier results enter as if told, in their order.
+void Genocop::take_known() {
+  for (std::size_t i = 0; i < problem_.known.size(); ++i) {
+    const auto& [genes, evaluation] = problem_.known[i];
+    const Genes free = genes.size() == problem_.genes.size() ? domain_.reduce(genes) : Genes{};
+    if (free.size() != domain_.size() || !domain_.contains(free)) {
+      throw Error(fmt::format(
+          "known result {}: outside a domain or a linear constraint; leave it out", i + 1));
     }
-  }
-  const std::size_t wanted =
-      std::max<std::size_t>(settings_.search_population, settings_.look_ahead);
-  if (starts_.size() >= wanted) return;
-  const std::size_t count = wanted - starts_.size();
-  RandomStream random(seed_, 0, RandomStream::Purpose::kStart);
-  std::vector<std::vector<double>> positions(count, std::vector<double>(domain_.size()));
-  for (std::size_t k = 0; k < domain_.size(); ++k) {
-    const std::vector<std::size_t> slices = random.permutation(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      positions[i][k] =
-          (static_cast<double>(slices[i]) + random.uniform()) / static_cast<double>(count);
-    }
-  }
-  for (const auto& position : positions) {
-    starts_.push_back(domain_.from_unit_cube(position, random));
+    if (!known_.try_emplace(cache_key(free), evaluation).second) continue;
+    learn(free, evaluation);
+    if (!evaluation.evaluated_ok) continue;
+    offer_best(kKnownBefore, free, evaluation);
+    const Individual individual{kKnownBefore - i, free, evaluation, {}};
+    RandomStream random(seed_, i, RandomStream::Purpose::kKnown);
+    if (evaluation.feasible()) enter_references(individual, std::nullopt);
+    enter_search(individual, random);
+    sort_populations();
   }
 }
 
-Candidate Genocop::ask() {
-  const std::uint64_t index = asked();
-  const std::uint64_t known = index < settings_.look_ahead ? 0 : index - settings_.look_ahead + 1;
-  if (told_ != known) {
-    throw std::logic_error(fmt::format("candidate {} depends on the first {} results, {} were told",
-                                       index, known, told_));
-  }
-  RandomStream random(seed_, index, RandomStream::Purpose::kAsk);
-  Proposal proposal = propose(random);
-  const auto [entry, fresh] = first_.try_emplace(proposal.free, index);
-  Candidate candidate{index, domain_.complete(proposal.free), proposal.origin, std::nullopt};
-  if (!fresh) candidate.same_as = entry->second;
-  if (monotone_) monotone_->asked(proposal.free);
-  records_.push_back(
-      {std::move(proposal.free), proposal.role, !fresh, std::move(proposal.chain), std::nullopt});
-  return candidate;
+void Genocop::learn(const Genes& free, const Evaluation& evaluation) {
+  if (monotone_) monotone_->told(free, evaluation);
+  if (linear_) linear_->told(free, evaluation);
+  if (finish_) finish_->told(free, evaluation);
 }
 
-Genocop::Proposal Genocop::propose(RandomStream& random) {
-  if (asked() < starts_.size()) {
-    if (const Genes& start = starts_[asked()]; is_new(start)) return {start, "start", {}, {}};
-  } else {
-    if (monotone_) {
-      if (std::optional<Genes> trial = monotone_->climb(); trial && is_new(*trial)) {
-        return {std::move(*trial), "climb", Role::kClimb, {}};
-      }
-    }
-    if (std::optional<Proposal> repair = next_repair(random)) return std::move(*repair);
-    for (int draw = 0; draw < kRedraws; ++draw) {
-      std::optional<Proposal> child = offspring(random);
-      if (!child) break;
-      if (is_new(child->free)) return std::move(*child);
+bool Genocop::offer_best(std::uint64_t index, const Genes& free, const Evaluation& evaluation) {
+  if (best_) {
+    const Evaluation& old = best_->evaluation;
+    if (evaluation.feasible() != old.feasible()) {
+      if (old.feasible()) return false;
+    } else if (evaluation.feasible() ? evaluation.objective >= old.objective
+                                     : evaluation.violation >= old.violation) {
+      return false;
     }
   }
-  Genes point = domain_.sample(random);
-  for (int draw = 1; draw < kRedraws && !is_new(point); ++draw) point = domain_.sample(random);
-  return {std::move(point), "sample", Role::kSearch, {}};
-}
-
-std::optional<Genocop::Proposal> Genocop::next_repair(RandomStream& random) {
-  while (!repairs_.empty()) {
-    RepairChain chain = std::move(repairs_.front());
-    repairs_.pop_front();
-    Genes point = chain.next(domain_, random);
-    const auto known = first_.find(point);
-    if (known == first_.end()) return Proposal{std::move(point), "repair", Role::kRepair, chain};
-    // A known result serves without being charged; one still in flight ends the repair.
-    const Record& record = records_[known->second];
-    if (!record.evaluation) continue;
-    chain.tell(*record.evaluation);
-    if (!record.evaluation->feasible() && chain.tries() < settings_.max_repair_tries) {
-      repairs_.push_front(std::move(chain));
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<Genocop::Proposal> Genocop::offspring(RandomStream& random) {
-  if (domain_.movable().empty()) return std::nullopt;
-  const bool from_references =
-      !references_.empty() && (search_.empty() || random.chance(settings_.reference_share));
-  const std::vector<Individual>& population = from_references ? references_ : search_;
-  if (population.empty()) return std::nullopt;
-
-  const OperatorEntry& entry = kOperators[select(settings_.operator_frequencies, random)];
-  const std::vector<double> probabilities =
-      ranking_probabilities(population.size(), settings_.selection_pressure);
-  std::vector<std::size_t> ranks(entry.parents);
-  for (std::size_t& rank : ranks) rank = select(probabilities, random);
-  std::sort(ranks.begin(), ranks.end());
-  std::vector<Genes> parents;
-  parents.reserve(ranks.size());
-  for (std::size_t rank : ranks) parents.push_back(population[rank].free);
-
-  const OperatorInput input{domain_, parents, remaining(), settings_.non_uniform_power,
-                            settings_.gaussian_sigma};
-  Genes child = entry.apply(input, random);
-  if (monotone_ && random.chance(settings_.monotone_share)) {
-    child = monotone_->aim(child, parents[0], population[ranks[0]].evaluation);
-  }
-  return Proposal{std::move(child), entry.name, Role::kSearch, {}};
-}
-
-double Genocop::remaining() const {
-  const double spent = static_cast<double>(asked()) /
-                       static_cast<double>(std::max<std::uint64_t>(settings_.budget, 1));
-  return std::max(1 - spent, 0.0);
+  best_ = Best{index, domain_.complete(free), evaluation};
+  return true;
 }
 
 void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
   if (index != told_ || index >= asked()) {
     throw std::logic_error(fmt::format("result {} told where {} is next", index, told_));
   }
-  ++told_;
   if (!std::isfinite(evaluation.objective) || std::isnan(evaluation.violation)) {
     evaluation.evaluated_ok = false;
   }
+  if (evaluation.evaluated_ok && evaluation.constraints.size() != problem_.nonlinear.size()) {
+    throw std::logic_error(fmt::format("result {} has {} constraint values, the problem {}", index,
+                                       evaluation.constraints.size(), problem_.nonlinear.size()));
+  }
+  ++told_;
   Record& record = records_[index];
   record.evaluation = evaluation;
   if (record.repeated) return;
-  if (monotone_) monotone_->told(record.free, evaluation);
-
+  learn(record.free, evaluation);
   const Individual individual{index, record.free, evaluation, {}};
-  if (evaluation.evaluated_ok) {
-    const bool first = !best_;
-    const bool feasible_first = !first && evaluation.feasible() && !best_->evaluation.feasible();
-    const bool same_kind = !first && evaluation.feasible() == best_->evaluation.feasible();
-    const bool less =
-        !first && (evaluation.feasible() ? evaluation.objective < best_->evaluation.objective
-                                         : evaluation.violation < best_->evaluation.violation);
-    if (first || feasible_first || (same_kind && less)) {
-      best_ = Best{index, domain_.complete(record.free), evaluation};
-    }
-  }
+  const bool is_best = evaluation.evaluated_ok && offer_best(index, record.free, evaluation);
+  if (record.role == Role::kLinear) linear_->judge(is_best);
+
   RandomStream random(seed_, index, RandomStream::Purpose::kTell);
   if (record.chain) {
     RepairChain chain = std::move(*record.chain);
     record.chain.reset();
     chain.tell(evaluation);
     finish_repair(std::move(chain), individual, random);
+  } else if (evaluation.evaluated_ok && record.role == Role::kFinish) {
+    enter_finished(individual);
   } else if (evaluation.evaluated_ok) {
+    std::optional<std::size_t> bred_by;
+    if (record.bred) bred_by = record.bred->entry;
+    bool in_repair = false;
     if (evaluation.feasible()) {
       enter_references(individual, std::nullopt);
-    } else if (record.role == Role::kSearch) {
-      start_repair(individual, random);
+    } else if (record.role == Role::kSearch || record.role == Role::kLinear) {
+      in_repair = start_repair(individual, bred_by, random);
     }
+    if (record.bred && !in_repair) reward(record.bred->entry, key(individual) < record.bred->parent);
     enter_search(individual, random);
+  } else if (record.bred) {
+    reward(record.bred->entry, false);
   }
   sort_populations();
+}
+
+void Genocop::reward(std::size_t entry, bool success) {
+  if (settings_.adaptive_frequencies) frequencies_.reward(entry, success ? 1 : 0);
 }
 
 // Better is less. Where the monotone gene tells the price of violation, every point counts as if
@@ -282,27 +229,52 @@ void Genocop::enter_references(Individual individual, std::optional<std::uint64_
   }
 }
 
-void Genocop::start_repair(const Individual& individual, RandomStream& random) {
-  if (references_.empty() || settings_.max_repair_tries == 0) return;
+// A local search has one reference at most, or its trail would fill the population.
+void Genocop::enter_finished(Individual individual) {
+  if (!individual.evaluation.feasible()) return;
+  for (Individual& member : references_) {
+    if (member.id != finish_reference_) continue;
+    if (individual.evaluation.objective >= member.evaluation.objective) return;
+    finish_reference_ = individual.id;
+    member = std::move(individual);
+    return;
+  }
+  finish_reference_ = individual.id;
+  enter_references(std::move(individual), std::nullopt);
+}
+
+bool Genocop::start_repair(const Individual& individual, std::optional<std::size_t> bred_by,
+                           RandomStream& random) {
+  if (references_.empty() || settings_.max_repair_tries == 0) return false;
   // With the price of violation known, the climb repairs along the monotone gene, and only those
   // points that can then beat the incumbent.
-  if (monotone_ && monotone_->price() > 0) return;
+  if (monotone_ && monotone_->price() > 0) return false;
   const std::vector<double> probabilities =
       ranking_probabilities(references_.size(), settings_.selection_pressure);
   const Individual& reference = references_[select(probabilities, random)];
   const bool promising = individual.evaluation.objective < reference.evaluation.objective;
-  if (settings_.repair_only_promising && !promising) return;
+  if (settings_.repair_only_promising && !promising) return false;
   RepairChain chain(settings_.repair, individual.free, individual.evaluation.violation,
                     reference.free, reference.evaluation.violation);
   chain.search_id = individual.id;
   chain.reference_id = reference.id;
+  chain.reference_objective = reference.evaluation.objective;
+  chain.bred_by = bred_by;
   repairs_.push_back(std::move(chain));
+  return true;
 }
 
 void Genocop::finish_repair(RepairChain chain, const Individual& point, RandomStream& random) {
   if (!point.evaluation.feasible()) {
-    if (chain.tries() < settings_.max_repair_tries) repairs_.push_back(std::move(chain));
+    if (chain.tries() < settings_.max_repair_tries) {
+      repairs_.push_back(std::move(chain));
+    } else if (chain.bred_by) {
+      reward(*chain.bred_by, false);
+    }
     return;
+  }
+  if (chain.bred_by) {
+    reward(*chain.bred_by, point.evaluation.objective < chain.reference_objective);
   }
   enter_references(point, chain.reference_id);
   const bool replace = random.chance(settings_.replacement_probability);

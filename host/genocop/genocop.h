@@ -8,6 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "host/genocop/adaptive_frequencies.h"
+#include "host/genocop/finish.h"
+#include "host/genocop/linear_step.h"
 #include "host/genocop/monotone_step.h"
 #include "host/genocop/problem.h"
 #include "host/genocop/repair.h"
@@ -19,11 +22,15 @@ namespace emax {
 struct Candidate {
   std::uint64_t index = 0;
   Genes genes;
-  std::string_view origin;  // "start", "climb", "repair", "sample" or the operator's name
+  // "start", "climb", "finish", "linear_model", "repair", "sample" or the operator's name
+  std::string_view origin;
   // The earlier candidate with the same genes, when nothing new was found in a bounded number of
   // draws; its evaluation is to be told again instead of being made again.
   std::optional<std::uint64_t> same_as;
 };
+
+// The index of a point that Problem::known gave.
+inline constexpr std::uint64_t kKnownBefore = ~std::uint64_t{0};
 
 struct Best {
   std::uint64_t index = 0;
@@ -32,7 +39,7 @@ struct Best {
 };
 
 struct Individual {
-  std::uint64_t id = 0;  // index of its candidate
+  std::uint64_t id = 0;  // index of its candidate; those of Problem::known count down from 2^64-1
   Genes free;            // LinearDomain's coordinates
   Evaluation evaluation;
   std::optional<double> repaired_objective;  // of the feasible point its repair ended in
@@ -65,49 +72,75 @@ class Genocop {
   const std::vector<Individual>& reference_population() const { return references_; }
 
  private:
-  enum class Role { kSearch, kClimb, kRepair };
+  enum class Role { kSearch, kClimb, kRepair, kLinear, kFinish };
+  using SortKey = std::pair<int, double>;
+  struct Bred {  // by which operator, from what
+    std::size_t entry;
+    SortKey parent;
+  };
   struct Record {
     Genes free;
     Role role;
     bool repeated;
     std::optional<RepairChain> chain;
+    std::optional<Bred> bred;
     std::optional<Evaluation> evaluation;
   };
   struct Proposal {
     Genes free;
     std::string_view origin;
     Role role = Role::kSearch;
-    std::optional<RepairChain> chain;
+    std::optional<RepairChain> chain = std::nullopt;
+    std::optional<Bred> bred = std::nullopt;
   };
-  using SortKey = std::pair<int, double>;
 
-  void make_starts();
-  Proposal propose(RandomStream& random);
-  std::optional<Proposal> next_repair(RandomStream& random);
-  std::optional<Proposal> offspring(RandomStream& random);
-  double remaining() const;  // share of the budget, 1 - t/T
-  bool is_new(const Genes& free) const { return !first_.contains(free); }
-
+  // genocop.cpp: what is told
+  void take_known();
+  void learn(const Genes& free, const Evaluation& evaluation);
+  bool offer_best(std::uint64_t index, const Genes& free, const Evaluation& evaluation);
   SortKey key(const Individual& individual) const;
   void sort_populations();
   void enter_search(Individual individual, RandomStream& random);
   void enter_references(Individual individual, std::optional<std::uint64_t> replaced);
-  void start_repair(const Individual& individual, RandomStream& random);
+  void enter_finished(Individual individual);
+  bool start_repair(const Individual& individual, std::optional<std::size_t> bred_by,
+                    RandomStream& random);
   void finish_repair(RepairChain chain, const Individual& point, RandomStream& random);
+  void reward(std::size_t entry, bool success);
+
+  // proposals.cpp: what is asked
+  void make_starts();
+  Proposal propose(RandomStream& random);
+  std::optional<Proposal> next_repair(RandomStream& random);
+  std::optional<Proposal> next_linear(RandomStream& random);
+  std::optional<Proposal> next_finish(RandomStream& random);
+  bool start_finish();
+  std::optional<Proposal> offspring(RandomStream& random);
+  double remaining() const;  // share of the budget, 1 - t/T
+  Genes cache_key(const Genes& free) const;
+  bool is_new(const Genes& free) const;
+  // The result of a point with the same key, or nothing while it is in flight.
+  std::optional<Evaluation> result_of(const Genes& cached) const;
 
   Settings settings_;
   std::uint64_t seed_;
   Problem problem_;
   LinearDomain domain_;
   std::optional<MonotoneStep> monotone_;
+  std::optional<LinearStep> linear_;
+  std::optional<Finish> finish_;
+  AdaptiveFrequencies frequencies_;
   std::vector<Genes> starts_;
   std::vector<Record> records_;
-  std::map<Genes, std::uint64_t> first_;  // the first candidate with these coordinates
+  std::map<Genes, std::uint64_t> first_;  // by cache key: the first candidate
+  std::map<Genes, Evaluation> known_;     // by cache key: Problem::known
   std::uint64_t told_ = 0;
   std::vector<Individual> search_;      // best first
   std::vector<Individual> references_;  // best first; feasible
   std::deque<RepairChain> repairs_;
   std::optional<Best> best_;
+  std::vector<Genes> finished_;  // where local searches started and ended
+  std::optional<std::uint64_t> finish_reference_;  // the one the running local search brought
 };
 
 }  // namespace emax

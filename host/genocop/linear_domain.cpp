@@ -12,7 +12,7 @@ namespace {
 
 bool within(const Gene& gene, double value) {
   return value >= gene.lower && value <= gene.upper &&
-         (gene.kind == Gene::Kind::kContinuous || value == std::round(value));
+         (!gene.is_whole() || value == std::round(value));
 }
 
 double left_side(const LinearConstraint& constraint, const Genes& genes) {
@@ -23,13 +23,21 @@ double left_side(const LinearConstraint& constraint, const Genes& genes) {
 
 void check(const Problem& problem) {
   for (const Gene& gene : problem.genes) {
-    const bool integer = gene.kind == Gene::Kind::kInteger;
+    const bool integer = gene.is_whole();
     const bool holds_value =
         integer ? std::ceil(gene.lower) <= std::floor(gene.upper) : gene.lower <= gene.upper;
     if (!std::isfinite(gene.lower) || !std::isfinite(gene.upper) || !holds_value) {
       throw Error(
           fmt::format("gene {}: the domain {} to {} holds no {}; give finite lower <= upper",
                       gene.name, gene.lower, gene.upper, integer ? "integer" : "number"));
+    }
+  }
+  for (const LinearConstraint& constraint : problem.linear) {
+    for (const auto& [gene, coefficient] : constraint.terms) {
+      if (problem.genes[gene].kind != Gene::Kind::kCategorical) continue;
+      throw Error(fmt::format("gene {}: categories have no order, so no linear constraint can hold "
+                              "it; make it an integer gene",
+                              problem.genes[gene].name));
     }
   }
 }
@@ -39,7 +47,7 @@ void check(const Problem& problem) {
 LinearDomain::LinearDomain(const Problem& problem) : genes_(problem.genes) {
   check(problem);
   for (Gene& gene : genes_) {
-    if (gene.kind == Gene::Kind::kContinuous) continue;
+    if (!gene.is_whole()) continue;
     gene.lower = std::ceil(gene.lower);
     gene.upper = std::floor(gene.upper);
   }
@@ -82,7 +90,7 @@ void LinearDomain::solve_equalities(const Problem& problem) {
     for (std::size_t g = 0; g < count; ++g) {
       const double magnitude = std::abs(row.weights[g]);
       greatest = std::max(greatest, magnitude);
-      if (genes_[g].kind == Gene::Kind::kInteger || problem.monotone_gene == g) continue;
+      if (genes_[g].is_whole() || problem.monotone_gene == g) continue;
       if (magnitude > 1e-12 && (pivot == count || magnitude > std::abs(row.weights[pivot]))) {
         pivot = g;
       }
@@ -198,7 +206,7 @@ Interval LinearDomain::range(const Genes& free, std::size_t k) const {
     if (weight > 0) interval.upper = std::min(interval.upper, end);
     if (weight < 0) interval.lower = std::max(interval.lower, end);
   }
-  if (gene(k).kind == Gene::Kind::kInteger) {
+  if (gene(k).is_whole()) {
     // The slack lets a whole end survive rounding; pull_inside has the last word.
     constexpr double kSlack = 1e-9;
     interval.lower = std::ceil(interval.lower - kSlack);
@@ -211,7 +219,7 @@ Interval LinearDomain::range(const Genes& free, std::size_t k) const {
 Genes LinearDomain::snap(const Genes& free) const {
   Genes result(size());
   for (std::size_t k = 0; k < size(); ++k) {
-    const double value = gene(k).kind == Gene::Kind::kInteger ? std::round(free[k]) : free[k];
+    const double value = gene(k).is_whole() ? std::round(free[k]) : free[k];
     result[k] = std::clamp(value, gene(k).lower, gene(k).upper) + 0.0;  // no negative zero
   }
   return result;
@@ -239,7 +247,8 @@ Genes LinearDomain::pull_inside(const Genes& child, const Genes& anchor) const {
     const double step = limit * (1 - retreat);
     for (std::size_t k = 0; k < size(); ++k) {
       const double target = std::clamp(child[k], gene(k).lower, gene(k).upper);
-      point[k] = anchor[k] + step * (target - anchor[k]);
+      point[k] = gene(k).kind == Gene::Kind::kCategorical ? target
+                                                          : anchor[k] + step * (target - anchor[k]);
     }
     if (Genes snapped = snap(point); contains(snapped)) return snapped;
   }
@@ -251,7 +260,7 @@ Genes LinearDomain::from_unit_cube(const std::vector<double>& position,
   Genes point(size());
   for (std::size_t k = 0; k < size(); ++k) {
     const Gene& g = gene(k);
-    point[k] = g.kind == Gene::Kind::kInteger
+    point[k] = g.is_whole()
                    ? g.lower + std::floor(position[k] * (g.upper - g.lower + 1))
                    : g.lower + position[k] * (g.upper - g.lower);
   }
@@ -263,7 +272,7 @@ Genes LinearDomain::from_unit_cube(const std::vector<double>& position,
     for (std::size_t k : random.permutation(size())) {
       Genes next = point;
       const Interval interval = range(point, k);
-      next[k] = gene(k).kind == Gene::Kind::kInteger
+      next[k] = gene(k).is_whole()
                     ? interval.lower +
                           static_cast<double>(random.below(
                               static_cast<std::uint64_t>(interval.upper - interval.lower) + 1))

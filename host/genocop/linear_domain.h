@@ -20,7 +20,8 @@ struct Interval {
 class LinearDomain {
  public:
   // Throws emax::Error when a domain is empty, a start lies outside, the equalities contradict each
-  // other or leave no continuous gene to solve for, or no point is found inside.
+  // other or leave no continuous gene to solve for, a linear constraint names a categorical gene, or
+  // no point is found inside.
   explicit LinearDomain(const Problem& problem);
 
   std::size_t size() const { return free_.size(); }
@@ -46,14 +47,16 @@ class LinearDomain {
   const Genes& inside() const { return inside_; }  // one point that is inside
   const Gene& gene(std::size_t k) const { return genes_[free_[k]]; }
   const std::vector<std::size_t>& movable() const { return movable_; }  // lower < upper
+  // The domains of solved genes and the inequalities: sum of weight * free <= bound.
+  struct Row {
+    std::vector<double> weights;
+    double bound;
+  };
+  const std::vector<Row>& rows() const { return rows_; }
   // The coordinate of a gene, or size() when an equality determines it.
   std::size_t coordinate(std::size_t gene) const;
 
  private:
-  struct Row {  // sum of weight * free <= bound
-    std::vector<double> weights;
-    double bound;
-  };
   struct Solved {  // gene = constant + sum of weight * free
     std::size_t gene;
     double constant;

@@ -203,7 +203,7 @@ Genes MonotoneStep::aim(const Genes& child, const Genes& parent,
   if (known.objective > 0 && known_value < zero) rate = known.objective / (zero - known_value);
   Genes aimed = child;
   aimed[coordinate_] = zero - (1 - gain_) * objective / rate;
-  if (domain_.gene(coordinate_).kind == Gene::Kind::kInteger) {
+  if (domain_.gene(coordinate_).is_whole()) {
     aimed[coordinate_] = std::ceil(aimed[coordinate_]);
   }
   return domain_.pull_inside(aimed, child);

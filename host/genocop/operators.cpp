@@ -7,7 +7,18 @@ namespace emax {
 namespace {
 
 bool is_integer(const LinearDomain& domain, std::size_t k) {
-  return domain.gene(k).kind == Gene::Kind::kInteger;
+  return domain.gene(k).is_whole();
+}
+
+bool is_category(const LinearDomain& domain, std::size_t k) {
+  return domain.gene(k).kind == Gene::Kind::kCategorical;
+}
+
+// Nothing lies between two categories: a child of mixed parents has that of either.
+double mixed(const LinearDomain& domain, std::size_t k, double p, double q, double value,
+             RandomStream& random) {
+  if (!is_category(domain, k) || p == q) return is_category(domain, k) ? p : value;
+  return random.chance(0.5) ? p : q;
 }
 
 std::size_t random_movable(const LinearDomain& domain, RandomStream& random) {
@@ -38,8 +49,23 @@ Genes uniform_in_range(const LinearDomain& domain, const Genes& parent, std::siz
   return with_value(domain, parent, k, range.lower + static_cast<double>(random.below(count)));
 }
 
+// Any other category, each as likely.
+Genes other_category(const LinearDomain& domain, const Genes& parent, std::size_t k,
+                     RandomStream& random) {
+  const Gene& gene = domain.gene(k);
+  double value =
+      gene.lower + static_cast<double>(random.below(static_cast<std::uint64_t>(gene.upper - gene.lower)));
+  if (value >= parent[k]) ++value;
+  return with_value(domain, parent, k, value);
+}
+
 Genes non_uniform_step(const OperatorInput& input, const Genes& parent, std::size_t k, bool alone,
                        RandomStream& random) {
+  if (is_category(input.domain, k)) {
+    const bool moves = alone || random.chance(input.remaining / static_cast<double>(parent.size()));
+    const bool others = input.domain.gene(k).lower < input.domain.gene(k).upper;
+    return moves && others ? other_category(input.domain, parent, k, random) : parent;
+  }
   const Interval range = input.domain.range(parent, k);
   const bool upwards = (random.bits() >> 63) != 0;
   double step = ((upwards ? range.upper : range.lower) - parent[k]) * random.uniform();
@@ -56,7 +82,9 @@ Genes whole_arithmetical_crossover(const OperatorInput& input, RandomStream& ran
   const Genes& q = input.parents[1];
   const double share = random.uniform();
   Genes child(p.size());
-  for (std::size_t k = 0; k < p.size(); ++k) child[k] = share * p[k] + (1 - share) * q[k];
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    child[k] = mixed(input.domain, k, p[k], q[k], share * p[k] + (1 - share) * q[k], random);
+  }
   return input.domain.pull_inside(child, p);
 }
 
@@ -66,7 +94,7 @@ Genes simple_arithmetical_crossover(const OperatorInput& input, RandomStream& ra
   const double share = random.uniform();
   const std::size_t cut = child.size() > 1 ? 1 + random.below(child.size() - 1) : 0;
   for (std::size_t k = cut; k < child.size(); ++k) {
-    child[k] = share * q[k] + (1 - share) * child[k];
+    child[k] = mixed(input.domain, k, q[k], child[k], share * q[k] + (1 - share) * child[k], random);
   }
   return input.domain.pull_inside(child, input.parents[0]);
 }
@@ -77,7 +105,8 @@ Genes heuristic_crossover(const OperatorInput& input, RandomStream& random) {
   const double length = random.uniform();
   Genes child(better.size());
   for (std::size_t k = 0; k < child.size(); ++k) {
-    child[k] = better[k] + length * (better[k] - worse[k]);
+    child[k] = is_category(input.domain, k) ? better[k]
+                                            : better[k] + length * (better[k] - worse[k]);
   }
   return input.domain.pull_inside(child, better);
 }
@@ -97,6 +126,9 @@ Genes whole_uniform_mutation(const OperatorInput& input, RandomStream& random) {
 
 Genes boundary_mutation(const OperatorInput& input, RandomStream& random) {
   const std::size_t k = random_movable(input.domain, random);
+  if (is_category(input.domain, k)) {
+    return other_category(input.domain, input.parents[0], k, random);
+  }
   const Interval range = input.domain.range(input.parents[0], k);
   const double end = (random.bits() >> 63) != 0 ? range.upper : range.lower;
   return with_value(input.domain, input.parents[0], k, end);
@@ -118,6 +150,7 @@ Genes whole_non_uniform_mutation(const OperatorInput& input, RandomStream& rando
 Genes gaussian_mutation(const OperatorInput& input, RandomStream& random) {
   const std::size_t k = random_movable(input.domain, random);
   const Genes& parent = input.parents[0];
+  if (is_category(input.domain, k)) return other_category(input.domain, parent, k, random);
   const Interval range = input.domain.range(parent, k);
   const double step =
       random.gaussian() * input.gaussian_sigma * input.remaining * (range.upper - range.lower);
@@ -143,6 +176,7 @@ Genes scatter_search(const OperatorInput& input, RandomStream& random) {
     for (std::size_t p = 0; p < others; ++p) mean += input.parents[p][k];
     mean /= static_cast<double>(others);
     child[k] = mean + length * (mean - worst[k]);
+    if (is_category(input.domain, k)) child[k] = input.parents[random.below(others)][k];
   }
   return input.domain.pull_inside(child, input.parents[0]);
 }

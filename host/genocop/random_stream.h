@@ -16,7 +16,15 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
 // library differ between implementations and libm may differ in the last bit between machines.
 class RandomStream {
  public:
-  enum class Purpose : std::uint32_t { kAsk = 0, kTell = 1, kStart = 2, kDomain = 3, kTest = 4 };
+  enum class Purpose : std::uint32_t {
+    kAsk = 0,
+    kTell = 1,
+    kStart = 2,
+    kDomain = 3,
+    kTest = 4,
+    kSobol = 5,
+    kKnown = 6
+  };
 
   RandomStream(std::uint64_t seed, std::uint64_t index, Purpose purpose);
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "host/genocop/linear_domain.h"
 #include "host/genocop/settings.h"
@@ -21,6 +22,8 @@ class RepairChain {
 
   std::uint64_t search_id = 0;  // for the caller
   std::uint64_t reference_id = 0;
+  double reference_objective = 0;
+  std::optional<std::size_t> bred_by;  // operator of the search point
 
  private:
   RepairMethod method_;

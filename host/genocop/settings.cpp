@@ -4,7 +4,7 @@ namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
   using S = Settings;
-  static const std::array<SettingInfo, 17> infos = {{
+  static const std::array<SettingInfo, 27> infos = {{
       {"budget", &S::budget, 1, 1e9, "evaluations, every trial charged"},
       {"look_ahead", &S::look_ahead, 1, 1e6,
        "candidate i knows the results up to i - look_ahead; at least the number of workers, less "
@@ -36,8 +36,42 @@ std::span<const SettingInfo> setting_infos() {
        "trials at one time of points that differ in the monotone gene alone"},
       {"monotone_fan", &S::monotone_fan, 0, 1e6,
        "values of the monotone gene tried on the start point"},
+      {"linear_model", &S::linear_model, 0, 0,
+       "steps of local linear models of objective and constraints around the best point"},
+      {"linear_share", &S::linear_share, 0, 1, "of the candidates that other strategies leave"},
+      {"finish", &S::finish, 0, 0, "local searches on the continuous genes from the best points"},
+      {"finish_share", &S::finish_share, 0, 1, "of the candidates while a local search runs"},
+      {"finish_radius", &S::finish_radius, 1e-6, 0.5,
+       "first trust region of a local search, of the genes' domains"},
+      {"first_phase", &S::first_phase, 0, 0,
+       "minimise the violation while nothing is feasible; without, draw at random"},
+      {"adaptive_frequencies", &S::adaptive_frequencies, 0, 0,
+       "operators whose offspring succeed become more frequent"},
+      {"frequency_floor", &S::frequency_floor, 0, 1,
+       "share of the offspring that is divided among the operators whatever their success"},
+      {"sobol_starts", &S::sobol_starts, 0, 0,
+       "first points from Sobol's sequence; without, a Latin hypercube"},
+      {"cache_resolution", &S::cache_resolution, 0, 0.01,
+       "genes that differ by less than this share of their domain count as equal"},
   }};
   return infos;
+}
+
+Settings Settings::original() {
+  Settings settings;
+  settings.look_ahead = 1;
+  settings.search_population = settings.reference_population = 70;
+  settings.replacement_probability = 0.15;
+  settings.repair = RepairMethod::kRandom;
+  settings.max_repair_tries = 100;
+  settings.repair_only_promising = false;
+  for (std::size_t i = 0; i < kOperators.size(); ++i) {
+    if (kOperators[i].apply == uniform_mutation) settings.operator_frequencies[i] = 0;
+  }
+  settings.monotone_step = settings.linear_model = settings.finish = false;
+  settings.first_phase = settings.adaptive_frequencies = settings.sobol_starts = false;
+  settings.cache_resolution = 0;
+  return settings;
 }
 
 }  // namespace emax

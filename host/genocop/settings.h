@@ -17,8 +17,9 @@ enum class RepairMethod {
   kValueAware      // regula falsi on the violation along the segment
 };
 
-// Everything the search depends on besides problem and seed. Published values: populations of 70,
-// replacement_probability 0.15 or 0.25, selection_pressure 0.1 (docs/genocop3.md).
+// Everything the search depends on besides problem and seed. The strategies that are not in
+// Genocop III are monotone_step, linear_model, finish, adaptive_frequencies, sobol_starts,
+// first_phase and the value-aware repair; each is switched by its own setting.
 struct Settings {
   std::size_t budget = 150;     // T of the operators whose steps shrink
   std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
@@ -43,7 +44,23 @@ struct Settings {
   std::size_t monotone_in_flight = 3;  // trials of one line at one time
   std::size_t monotone_fan = 6;        // values of the gene tried on the first start point
 
+  bool linear_model = true;     // steps of local linear models around the best point
+  double linear_share = 0.2;    // of the candidates that other strategies leave
+  bool finish = true;           // local searches on the continuous genes
+  double finish_share = 0.8;    // of the candidates while one runs
+  double finish_radius = 0.1;   // its first trust region, of the domains
+  bool first_phase = true;      // while nothing is feasible the violation is minimised
+  bool adaptive_frequencies = true;  // of the operators
+  double frequency_floor = 0.3;      // share of the offspring that success does not move
+  bool sobol_starts = true;          // else a Latin hypercube
+  double cache_resolution = 1e-13;   // genes closer than this share of their domain are equal
+
   bool operator==(const Settings&) const = default;
+
+  // Genocop III as published (Michalewicz & Nazhiyath 1995; Michalewicz 1996): populations of 70,
+  // p_r = 0.15, q = 0.1, its ten operators, repair at random until feasible, one result after the
+  // other.
+  static Settings original();
 
   static constexpr std::array<double, kOperators.size()> standard_frequencies() {
     std::array<double, kOperators.size()> frequencies{};

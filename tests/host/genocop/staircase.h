@@ -41,7 +41,7 @@ inline BenchmarkProblem staircase(double roughness = 0.03) {
     }
     const double noise = 1 + roughness * (static_cast<double>(hash >> 11) * 0x1p-53 - 0.5) * 2;
     const double error = 0.08 * quality * noise / std::pow(1.02 - x[4], 1.1);
-    return evaluation(count, {error / 0.5 - 1});
+    return Evaluation{std::isfinite(error), count, error / 0.5 - 1};
   };
   // At the best other genes and the luckiest error: 0.08 (1-roughness) / (1.02-x)^1.1 = 0.5.
   const double best = 1.02 - std::pow(0.16 * (1 - roughness), 1 / 1.1);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "host/genocop/random_stream.h"
+
+namespace emax {
+
+// Operator frequencies that follow success (probability matching; Davis 1989, Thierens 2005): an
+// operator's quality is the mean reward of its offspring, recent ones counting more, and its
+// frequency floor/n + (1 - floor) * its share of the quality. Operators given a frequency of 0 stay
+// out. The frequencies sum to 1.
+class AdaptiveFrequencies {
+ public:
+  // `initial`: at least one above 0, none below; their shares are where it starts from.
+  AdaptiveFrequencies(std::span<const double> initial, double floor);
+
+  std::size_t draw(RandomStream& random) const;
+  void reward(std::size_t entry, double amount);  // 0 to 1, for one offspring
+  const std::vector<double>& frequencies() const { return frequencies_; }
+
+ private:
+  void update();
+
+  double floor_;
+  std::size_t used_ = 0;
+  std::vector<double> initial_;
+  std::vector<double> quality_;
+  std::vector<double> frequencies_;
+};
+
+}  // namespace emax

@@ -1,0 +1,232 @@
+#include "host/genocop/finish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstdio>
+#include <utility>
+
+namespace emax {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr double kLeastRadius = 1e-7;     // of the domains
+constexpr double kFine = 1e-3;            // from here on a promise below kPrecision is the end
+constexpr double kPrecision = 1e-11;      // of the objective
+constexpr double kNear = 3;               // radii within which points span the model's directions
+double FAR_=getenv("FAR")?atof(getenv("FAR")):6;
+#define kFar FAR_ 
+;//              // and within which they tell of curvature
+constexpr double kPoised = 0.1;           // share of a step that must be new to the others
+
+}  // namespace
+
+Finish::Finish(const LinearDomain& domain, const Problem& problem,
+               std::vector<std::size_t> coordinates)
+    : frame_(domain, problem, std::move(coordinates)) {}
+
+void Finish::start(const Genes& free, const Evaluation& evaluation, double radius) {
+  stop();
+  running_ = true;
+  radius_ = radius;
+  penalty_ = 0;
+  told(free, evaluation);
+  centre_ = 0;
+}
+
+void Finish::stop() {
+  running_ = false;
+  points_.clear();
+  trials_.clear();
+  hessians_.clear();
+  next_.reset();
+  centre_ = 0;
+}
+
+double Finish::merit(const Point& point) const {
+  return point.responses[0] + penalty_ * std::max(0.0, point.violation);
+}
+
+void Finish::choose_centre() {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (merit(points_[i]) < merit(points_[centre_])) centre_ = i;
+  }
+}
+
+void Finish::asked(const Genes& free) {
+  if (next_ && next_->free == free) trials_.push_back(std::move(*next_));
+  next_.reset();
+}
+
+void Finish::told(const Genes& free, const Evaluation& evaluation) {
+  if (!running_) return;
+  const auto found = std::find_if(trials_.begin(), trials_.end(),
+                                  [&](const Trial& trial) { return trial.free == free; });
+  const bool own = found != trials_.end();
+  const Point* added = nullptr;
+  if (evaluation.evaluated_ok && (points_.empty() || frame_.same_rest(free, *centre()))) {
+    const Vector at = frame_.position(free);
+    const bool near =
+        points_.empty() || (at - points_[centre_].at).cwiseAbs().maxCoeff() <= kNear * radius_;
+    if (own || near) {
+      Point point{free, at, frame_.responses(evaluation), 0};
+      point.violation = frame_.violation(point.responses);
+      if (point.responses.allFinite()) {
+        points_.push_back(std::move(point));
+        added = &points_.back();
+      }
+    }
+  }
+  if (own) {
+    const Trial trial = std::move(*found);
+    trials_.erase(found);
+    if (trial.reduction) judge_step(trial, added);
+  }
+  if (added != nullptr) choose_centre();
+}
+
+void Finish::judge_step(const Trial& trial, const Point* point) {
+  const double length = (trial.at - points_[centre_].at).cwiseAbs().maxCoeff();
+  const double gained = point == nullptr ? -1 : merit(points_[centre_]) - merit(*point);
+  const double ratio = gained / *trial.reduction;
+  if (getenv("TR")) fprintf(stderr," ratio %.3g gained %.4g\n",ratio,gained);
+  if (ratio < 0.1) {
+    shrink(std::clamp(length / radius_, 0.2, 1.0) * 0.5);
+  } else if (ratio > 0.7 && length > 0.8 * radius_) {
+    radius_ = std::min(2 * radius_, 0.5);
+  }
+}
+
+void Finish::shrink(double factor) {
+  radius_ *= factor;
+  if (radius_ < kLeastRadius) running_ = false;
+}
+
+// The nearest points, and first of all those whose steps point into directions of their own (a
+// pivoted Gram-Schmidt process); a direction left open is answered with the point that fills it
+// best. Trials in flight count as there.
+Finish::Selection Finish::select() const {
+  const Eigen::Index n = frame_.size();
+  const Vector& origin = points_[centre_].at;
+  struct Entry {
+    double distance;
+    std::size_t index;  // from points_.size() on: in flight
+  };
+  std::vector<Entry> order;
+  for (std::size_t i = 0; i < points_.size() + trials_.size(); ++i) {
+    if (i == centre_) continue;
+    const Vector& at = i < points_.size() ? points_[i].at : trials_[i - points_.size()].at;
+    const double distance = (at - origin).cwiseAbs().maxCoeff();
+    if (distance <= kFar * radius_ && distance > 1e-12) order.push_back({distance, i});
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Entry& a, const Entry& b) { return a.distance < b.distance; });
+  Matrix basis(n, n);
+  Eigen::Index directions = 0;
+  const auto rest = [&](Vector step) {
+    for (int twice = 0; twice < 2; ++twice) {
+      for (Eigen::Index d = 0; d < directions; ++d) step -= basis.col(d).dot(step) * basis.col(d);
+    }
+    return step;
+  };
+  Selection selection;
+  std::vector<std::size_t> others;
+  for (const Entry& entry : order) {
+    const bool in_flight = entry.index >= points_.size();
+    const Vector step =
+        (in_flight ? trials_[entry.index - points_.size()].at : points_[entry.index].at) - origin;
+    const Vector own = rest(step);
+    if (directions < n && entry.distance <= kNear * radius_ && own.norm() >= kPoised * step.norm()) {
+      basis.col(directions++) = own.normalized();
+      if (!in_flight) selection.points.push_back(entry.index);
+    } else if (!in_flight) {
+      others.push_back(entry.index);
+    }
+  }
+  const auto most = static_cast<std::size_t>(std::min<int>(int((n + 1) * (n + 2) / 2 - 1), getenv("MOST")?(int)(n*atof(getenv("MOST")))+1: 2 * (int)n + 1));
+  for (std::size_t i : others) {
+    if (selection.points.size() >= most) break;
+    selection.points.push_back(i);
+  }
+  if (directions == n) return selection;
+
+  double best = kPoised * 0.1 * radius_;
+  for (Eigen::Index axis = 0; axis < n; ++axis) {
+    const Vector open = rest(Vector::Unit(n, axis));
+    if (open.norm() < 1e-6) continue;
+    for (const Vector& direction : {Vector(Vector::Unit(n, axis)), Vector(open.normalized())}) {
+      for (const double sign : {1.0, -1.0}) {
+        Genes free = frame_.moved(points_[centre_].free, sign * radius_ * direction);
+        const double gain = rest(frame_.position(free) - origin).norm();
+        if (gain <= 1.001 * best) continue;
+        best = gain;
+        selection.missing = std::move(free);
+      }
+    }
+  }
+  return selection;
+}
+
+LocalModel Finish::fit(const std::vector<std::size_t>& chosen) {
+  const Point& centre = points_[centre_];
+  const auto rows = static_cast<Eigen::Index>(chosen.size());
+  Matrix steps(rows, frame_.size());
+  Matrix values(rows, centre.responses.size());
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Point& point = points_[chosen[static_cast<std::size_t>(i)]];
+    steps.row(i) = (point.at - centre.at).transpose();
+    values.row(i) = point.responses.transpose();
+  }
+  LocalModel model = fit_quadratic(steps, values, centre.responses, hessians_);
+  hessians_ = model.hessians;
+  return model;
+}
+
+std::optional<Genes> Finish::propose() {
+  const bool step_in_flight = std::any_of(trials_.begin(), trials_.end(),
+                                          [](const Trial& trial) { return trial.reduction; });
+  constexpr int kMostRounds = 100;
+  for (int round = 0; running_; ++round) {
+    if (round == kMostRounds) {
+      running_ = false;
+      break;
+    }
+    Selection selection = select();
+    if (selection.missing) {
+      const Vector at = frame_.position(*selection.missing);
+      next_ = Trial{*selection.missing, at, std::nullopt};
+      return std::move(*selection.missing);
+    }
+    if (step_in_flight || !trials_.empty()) return std::nullopt;
+    if (selection.points.empty()) {
+      running_ = false;
+      break;
+    }
+    const LocalModel model = fit(selection.points);
+    const LocalStep step = best_step(frame_, *centre(), model, radius_, penalty_);
+    if (getenv("TR")) fprintf(stderr,"r %.3g pen %.3g f %.8g v %.3g pts %zu len %.3g red %.4g | ",radius_,penalty_,points_[centre_].responses[0],points_[centre_].violation,selection.points.size(),step.step.cwiseAbs().maxCoeff(),step.reduction);
+    const std::size_t before = centre_;
+    choose_centre();  // the penalty may have grown
+    if (centre_ != before) continue;
+    const double least = kPrecision * std::max(1.0, std::abs(points_[centre_].responses[0]));
+    const double length = step.step.cwiseAbs().maxCoeff();
+    if (!(step.reduction > least) || length < 1e-3 * kLeastRadius) {
+      if (radius_ <= kFine) running_ = false;
+      shrink(0.1);
+      continue;
+    }
+    Genes free = frame_.moved(*centre(), step.step);
+    const Vector at = frame_.position(free);
+    if ((at - points_[centre_].at).cwiseAbs().maxCoeff() < 1e-13) {
+      shrink(0.1);
+      continue;
+    }
+    next_ = Trial{free, at, step.reduction};
+    return free;
+  }
+  return std::nullopt;
+}
+
+}  // namespace emax

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/genocop/local_model.h"
+
+namespace emax {
+
+// A local search on the continuous genes, the others held: interpolation on points around the best
+// one, a step that is best for the models within a trust region, and points added where they leave a
+// direction open, as COBYLA does (Powell 1994), with models of the least curvature that fits
+// (COBYQA, Ragonneau & Zhang 2024). The merit is the objective plus a penalty on the violation, so
+// it may start and pass outside the constraints.
+class Finish {
+ public:
+  // `coordinates`: continuous and movable ones of the domain, at least one.
+  Finish(const LinearDomain& domain, const Problem& problem, std::vector<std::size_t> coordinates);
+
+  // `known` are evaluated points that may serve the first models.
+  void start(const Genes& free, const Evaluation& evaluation, double radius);
+  bool running() const { return running_; }
+  void stop();
+
+  // The next trial; none while one that decides is in flight, or when the search has ended.
+  std::optional<Genes> propose();
+  void asked(const Genes& free);  // what propose() gave is in flight
+  // Any result, of a trial or not.
+  void told(const Genes& free, const Evaluation& evaluation);
+
+  // The best point of the search that runs or has ended; nullptr before the first and after stop().
+  const Genes* centre() const { return points_.empty() ? nullptr : &points_[centre_].free; }
+  double radius() const { return radius_; }
+
+ private:
+  struct Point {
+    Genes free;
+    Eigen::VectorXd at;
+    Eigen::VectorXd responses;
+    double violation;
+  };
+  struct Trial {
+    Genes free;
+    Eigen::VectorXd at;
+    std::optional<double> reduction;  // predicted; none: asked for the model's sake
+  };
+  struct Selection {
+    std::vector<std::size_t> points;  // nearest first
+    std::optional<Genes> missing;     // a point that the models need
+  };
+
+  double merit(const Point& point) const;
+  void choose_centre();
+  void judge_step(const Trial& trial, const Point* point);
+  Selection select() const;
+  LocalModel fit(const std::vector<std::size_t>& chosen);
+  void shrink(double factor);
+
+  LocalFrame frame_;
+  bool running_ = false;
+  double radius_ = 0;
+  double penalty_ = 0;
+  std::vector<Point> points_;
+  std::size_t centre_ = 0;
+  std::vector<Eigen::MatrixXd> hessians_;  // of the last models
+  std::vector<Trial> trials_;  // in flight
+  std::optional<Trial> next_;  // what propose() gave last
+};
+
+}  // namespace emax

@@ -1,0 +1,272 @@
+#include "host/genocop/local_model.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "host/genocop/convex_program.h"
+
+namespace emax {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+using Relation = LinearConstraint::Relation;
+
+// By which a step aims inside a nonlinear constraint, so that rounding does not decide.
+constexpr double kMargin = 1e-9;
+
+std::size_t row_count(const std::vector<NonlinearConstraint>& constraints) {
+  std::size_t count = 0;
+  for (const NonlinearConstraint& c : constraints) count += c.relation == Relation::kEqual ? 2 : 1;
+  return count;
+}
+
+Matrix convex(const Matrix& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric);
+  const Vector values = eigen.eigenvalues().cwiseMax(0.0);
+  return eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+LocalFrame::LocalFrame(const LinearDomain& domain, const Problem& problem,
+                       std::vector<std::size_t> coordinates)
+    : domain_(domain),
+      coordinates_(std::move(coordinates)),
+      is_rest_(domain.size(), true),
+      widths_(size()),
+      constraints_(problem.nonlinear),
+      single_(problem.nonlinear.empty()) {
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const std::size_t k = coordinates_[static_cast<std::size_t>(i)];
+    is_rest_[k] = false;
+    widths_[i] = domain.gene(k).upper - domain.gene(k).lower;
+  }
+  if (single_) constraints_.emplace_back();
+}
+
+Vector LocalFrame::position(const Genes& free) const {
+  Vector at(size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const std::size_t k = coordinates_[static_cast<std::size_t>(i)];
+    at[i] = (free[k] - domain_.gene(k).lower) / widths_[i];
+  }
+  return at;
+}
+
+Genes LocalFrame::moved(const Genes& centre, const Vector& step) const {
+  constexpr double kSnap = 1e-10;  // of the width: an interior point method ends short of a bound
+  Genes free = centre;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const std::size_t k = coordinates_[static_cast<std::size_t>(i)];
+    const Gene& gene = domain_.gene(k);
+    double value = centre[k] + step[i] * widths_[i];
+    if (value < gene.lower + kSnap * widths_[i]) value = gene.lower;
+    if (value > gene.upper - kSnap * widths_[i]) value = gene.upper;
+    free[k] = value;
+  }
+  return domain_.pull_inside(free, centre);
+}
+
+bool LocalFrame::same_rest(const Genes& a, const Genes& b) const {
+  for (std::size_t k = 0; k < is_rest_.size(); ++k) {
+    if (is_rest_[k] && a[k] != b[k]) return false;
+  }
+  return true;
+}
+
+Vector LocalFrame::responses(const Evaluation& evaluation) const {
+  Vector result(1 + static_cast<Eigen::Index>(constraints_.size()));
+  result[0] = evaluation.objective;
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    result[static_cast<Eigen::Index>(c) + 1] =
+        single_ ? evaluation.violation : evaluation.constraints[c];
+  }
+  return result;
+}
+
+double LocalFrame::violation(const Vector& responses) const {
+  double worst = -HUGE_VAL;
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    worst = std::max(worst, constraints_[c].violation(responses[static_cast<Eigen::Index>(c) + 1]));
+  }
+  return worst;
+}
+
+void LocalFrame::linear_rows(const Genes& centre, double radius, Matrix& rows,
+                             Vector& bounds) const {
+  const Eigen::Index n = size();
+  const auto& given = domain_.rows();
+  const auto linear = static_cast<Eigen::Index>(given.size());
+  rows = Matrix::Zero(linear + 2 * n, n);
+  bounds.resize(linear + 2 * n);
+  for (Eigen::Index r = 0; r < linear; ++r) {
+    const auto& row = given[static_cast<std::size_t>(r)];
+    double left = row.bound;
+    for (std::size_t k = 0; k < centre.size(); ++k) left -= row.weights[k] * centre[k];
+    for (Eigen::Index i = 0; i < n; ++i) {
+      rows(r, i) = row.weights[coordinates_[static_cast<std::size_t>(i)]] * widths_[i];
+    }
+    const double length = rows.row(r).norm();
+    if (length > 0) rows.row(r) /= length;
+    bounds[r] = std::max(left, 0.0) / (length > 0 ? length : 1);
+  }
+  const Vector at = position(centre);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    rows(linear + 2 * i, i) = 1;
+    bounds[linear + 2 * i] = std::min(radius, 1 - at[i]);
+    rows(linear + 2 * i + 1, i) = -1;
+    bounds[linear + 2 * i + 1] = std::min(radius, at[i]);
+  }
+}
+
+Vector LocalModel::at(const Vector& step) const {
+  Vector result = values + gradients.transpose() * step;
+  for (std::size_t r = 0; r < hessians.size(); ++r) {
+    result[static_cast<Eigen::Index>(r)] += 0.5 * step.dot(hessians[r] * step);
+  }
+  return result;
+}
+
+Vector LocalModel::gradient(std::size_t response, const Vector& step) const {
+  Vector result = gradients.col(static_cast<Eigen::Index>(response));
+  if (!hessians.empty()) result += hessians[response] * step;
+  return result;
+}
+
+LocalModel fit_linear(const Matrix& steps, const Matrix& values, const Vector& centre_values,
+                      const Vector& weights) {
+  constexpr double kRidge = 1e-12;
+  const double scale = std::max(steps.cwiseAbs().maxCoeff(), 1e-300);
+  const Matrix scaled = steps / scale;
+  Matrix normal = scaled.transpose() * weights.asDiagonal() * scaled;
+  normal.diagonal().array() += kRidge * std::max(normal.trace(), 1e-300);
+  const Matrix rest = values.rowwise() - centre_values.transpose();
+  const Matrix solution =
+      normal.ldlt().solve(scaled.transpose() * weights.asDiagonal() * rest);
+  return {centre_values, solution / scale, {}};
+}
+
+LocalModel fit_quadratic(const Matrix& steps, const Matrix& values, const Vector& centre_values,
+                         const std::vector<Matrix>& earlier) {
+  constexpr double kRidge = 1e-12;
+  const Eigen::Index points = steps.rows();
+  const Eigen::Index n = steps.cols();
+  const double scale = std::max(steps.rowwise().norm().maxCoeff(), 1e-300);
+  const Matrix scaled = steps / scale;
+  Matrix system = Matrix::Zero(points + n, points + n);
+  system.topLeftCorner(points, points) =
+      0.5 * (scaled * scaled.transpose()).array().square().matrix();
+  system.topLeftCorner(points, points).diagonal().array() += kRidge;
+  system.topRightCorner(points, n) = scaled;
+  system.bottomLeftCorner(n, points) = scaled.transpose();
+  system.bottomRightCorner(n, n).diagonal().array() -= kRidge;
+  Matrix right = Matrix::Zero(points + n, values.cols());
+  right.topRows(points) = values.rowwise() - centre_values.transpose();
+  for (std::size_t r = 0; r < earlier.size(); ++r) {
+    for (Eigen::Index i = 0; i < points; ++i) {
+      const Vector step = steps.row(i).transpose();
+      right(i, static_cast<Eigen::Index>(r)) -= 0.5 * step.dot(earlier[r] * step);
+    }
+  }
+  const Eigen::PartialPivLU<Matrix> factor(system);
+  Matrix solution = factor.solve(right);
+  solution += factor.solve(right - system * solution);
+  LocalModel model{centre_values, solution.bottomRows(n) / scale, {}};
+  for (Eigen::Index r = 0; r < values.cols(); ++r) {
+    const Vector weights = solution.col(r).head(points);
+    Matrix hessian = scaled.transpose() * weights.asDiagonal() * scaled / (scale * scale);
+    if (!earlier.empty()) hessian += earlier[static_cast<std::size_t>(r)];
+    model.hessians.push_back(std::move(hessian));
+  }
+  return model;
+}
+
+LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalModel& model,
+                    double radius, double& penalty) {
+  const Eigen::Index n = frame.size();
+  const auto nonlinear = static_cast<Eigen::Index>(row_count(frame.constraints()));
+  Matrix linear_rows;
+  Vector linear_bounds;
+  frame.linear_rows(centre, radius, linear_rows, linear_bounds);
+  // In units of the radius, so that the solver's tolerances are relative to it.
+  linear_bounds /= radius;
+  constexpr double kInside = 1e-9;  // where rounding cannot make a step leave the linear domain
+  linear_bounds.head(linear_bounds.size() - 2 * n).array() -= kInside;
+
+  const auto merit = [&](const Vector& responses) {
+    return responses[0] + penalty * std::max(0.0, frame.violation(responses) + kMargin);
+  };
+  ConvexProgram program;
+  program.rows.resize(nonlinear + linear_rows.rows(), n);
+  program.bounds.resize(nonlinear + linear_rows.rows());
+  program.rows.bottomRows(linear_rows.rows()) = linear_rows;
+  program.bounds.tail(linear_rows.rows()) = linear_bounds;
+  program.elastic = nonlinear;
+
+  LocalStep best{Vector::Zero(n), 0};
+  Vector at = Vector::Zero(n);
+  Vector multipliers = Vector::Zero(nonlinear);
+  const int passes = model.hessians.empty() ? 1 : 5;
+  for (int pass = 0; pass < passes; ++pass) {
+    const Vector responses = model.at(at);
+    Matrix curvature = Matrix::Zero(n, n);
+    if (!model.hessians.empty()) curvature = model.hessians[0];
+    Eigen::Index r = 0;
+    const auto add_row = [&](double sign, std::size_t c, double tolerance) {
+      const auto response = static_cast<Eigen::Index>(c) + 1;
+      const Vector gradient = sign * model.gradient(c + 1, at);
+      program.rows.row(r) = gradient.transpose() * radius;
+      program.bounds[r] = tolerance - kMargin - sign * responses[response] + gradient.dot(at);
+      if (!model.hessians.empty()) curvature += sign * multipliers[r] * model.hessians[c + 1];
+      ++r;
+    };
+    for (std::size_t c = 0; c < frame.constraints().size(); ++c) {
+      const NonlinearConstraint& constraint = frame.constraints()[c];
+      add_row(1, c, constraint.tolerance);
+      if (constraint.relation == Relation::kEqual) add_row(-1, c, constraint.tolerance);
+    }
+    program.hessian = model.hessians.empty() ? Matrix::Zero(n, n) : convex(curvature);
+    program.gradient = (model.gradient(0, at) - program.hessian * at) * radius;
+    program.hessian *= radius * radius;
+    const double steepest = program.gradient.cwiseAbs().maxCoeff();
+    const double rise = program.rows.topRows(nonlinear).rowwise().norm().maxCoeff();
+    if (penalty == 0) penalty = rise > 0 ? 10 * steepest / rise : 1;
+    program.penalty = penalty;
+    ConvexSolution solution = solve(program);
+
+    // The penalty must be worth it: most of what can be had of feasibility is taken.
+    const double now = std::max(0.0, frame.violation(responses));
+    if (solution.converged && solution.excess > kMargin) {
+      ConvexProgram feasibility = program;
+      feasibility.hessian.setZero();
+      feasibility.gradient.setZero();
+      feasibility.penalty = 1;
+      const double least = solve(feasibility).excess;
+      for (int raise = 0; raise < 6; ++raise) {
+        constexpr double kSolved = 1e-7;  // below it the solver's own tolerance would speak
+        if (solution.excess - least <= 0.1 * (now - least) + kSolved * (1 + now)) break;
+        penalty *= 10;
+        program.penalty = penalty;
+        solution = solve(program);
+      }
+    }
+    multipliers = solution.multipliers.head(nonlinear);
+    if (!solution.x.allFinite()) break;
+    const double sum = multipliers.sum();
+    if (sum < 0.9 * penalty) penalty = std::max(penalty, 2 * sum);
+    const Vector next = solution.x * radius;
+    const double reduction = merit(model.values) - merit(model.at(next));
+    if (pass == 0 || reduction > best.reduction) best = {next, reduction};
+    if ((next - at).cwiseAbs().maxCoeff() < 1e-6 * radius) break;
+    at = next;
+  }
+  best.reduction = merit(model.values) - merit(model.at(best.step));
+  return best;
+}
+
+}  // namespace emax

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/genocop/linear_domain.h"
+#include "host/genocop/problem.h"
+
+namespace emax {
+
+// Some coordinates of the domain as a space of its own, each scaled by its gene's width; the other
+// coordinates stay as they are at the centre of a local search.
+class LocalFrame {
+ public:
+  LocalFrame(const LinearDomain& domain, const Problem& problem,
+             std::vector<std::size_t> coordinates);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
+  Eigen::VectorXd position(const Genes& free) const;
+  Genes moved(const Genes& centre, const Eigen::VectorXd& step) const;  // pulled inside
+  bool same_rest(const Genes& a, const Genes& b) const;
+
+  // Objective, then the values of the nonlinear constraints, or the violation where they are not
+  // told one by one.
+  Eigen::VectorXd responses(const Evaluation& evaluation) const;
+  double violation(const Eigen::VectorXd& responses) const;
+
+  // Domain and linear constraints as rows * step <= bounds, within `radius` of the centre.
+  void linear_rows(const Genes& centre, double radius, Eigen::MatrixXd& rows,
+                   Eigen::VectorXd& bounds) const;
+  const std::vector<NonlinearConstraint>& constraints() const { return constraints_; }
+
+ private:
+  const LinearDomain& domain_;
+  std::vector<std::size_t> coordinates_;
+  std::vector<bool> is_rest_;
+  Eigen::VectorXd widths_;
+  std::vector<NonlinearConstraint> constraints_;
+  bool single_;  // only the violation is told
+};
+
+// Models of all responses around a centre: value + gradient' s + s' hessian s / 2.
+struct LocalModel {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd gradients;             // a column for each response
+  std::vector<Eigen::MatrixXd> hessians;  // none: linear
+
+  Eigen::VectorXd at(const Eigen::VectorXd& step) const;
+  Eigen::VectorXd gradient(std::size_t response, const Eigen::VectorXd& step) const;
+};
+
+// `steps` and `values` have a row for each point, relative to a centre with `centre_values`.
+// Weighted least squares with a slight preference for small gradients; exact for linear responses
+// when the steps span the space.
+LocalModel fit_linear(const Eigen::MatrixXd& steps, const Eigen::MatrixXd& values,
+                      const Eigen::VectorXd& centre_values, const Eigen::VectorXd& weights);
+// Interpolation whose Hessians differ least, in the Frobenius norm, from the `earlier` ones (Powell
+// 2004), which may be none. O((points + coordinates)^3).
+LocalModel fit_quadratic(const Eigen::MatrixXd& steps, const Eigen::MatrixXd& values,
+                         const Eigen::VectorXd& centre_values,
+                         const std::vector<Eigen::MatrixXd>& earlier);
+
+struct LocalStep {
+  Eigen::VectorXd step;
+  double reduction = 0;  // of the merit objective + penalty * violation, as the model has it
+};
+
+// The best point of the model within `radius` of the centre and inside the linear domain: a linear
+// program for a linear model, a few steps of sequential quadratic programming on the model
+// otherwise. `penalty` is raised where the constraints need it (an exact penalty on the greatest
+// violation; Byrd, Nocedal & Waltz 2008).
+LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalModel& model,
+                    double radius, double& penalty);
+
+}  // namespace emax

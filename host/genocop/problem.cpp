@@ -1,0 +1,23 @@
+#include "host/genocop/problem.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace emax {
+
+Evaluation make_evaluation(const std::vector<NonlinearConstraint>& nonlinear, double objective,
+                           std::vector<double> constraints) {
+  if (constraints.size() != nonlinear.size()) {
+    throw std::logic_error("as many values as nonlinear constraints are needed");
+  }
+  Evaluation evaluation{std::isfinite(objective), objective, nonlinear.empty() ? -1.0 : -HUGE_VAL,
+                        std::move(constraints)};
+  for (std::size_t c = 0; c < nonlinear.size(); ++c) {
+    const double value = evaluation.constraints[c];
+    evaluation.evaluated_ok = evaluation.evaluated_ok && std::isfinite(value);
+    evaluation.violation = std::max(evaluation.violation, nonlinear[c].violation(value));
+  }
+  return evaluation;
+}
+
+}  // namespace emax

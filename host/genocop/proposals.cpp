@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "host/genocop/genocop.h"
+#include "host/genocop/ranking.h"
+#include "host/genocop/sobol.h"
+
+namespace emax {
+namespace {
+
+constexpr int kRedraws = 20;  // of a duplicate: first as offspring, then anywhere in the domain
+constexpr double kApart = 0.02;  // of the domains: less far from an earlier one no search starts
+
+}  // namespace
+
+// The given starts; the first one at evenly spaced values of the monotone gene; then
+// Sobol's sequence or a Latin hypercube, one point in each of as many slices of every gene.
+void Genocop::make_starts() {
+  for (const Genes& start : problem_.starts) starts_.push_back(domain_.reduce(start));
+  if (monotone_ && !starts_.empty()) {
+    const Genes first = starts_.front();
+    const std::size_t k = domain_.coordinate(*problem_.monotone_gene);
+    const Interval range = domain_.range(first, k);
+    for (std::size_t i = 0; i < settings_.monotone_fan; ++i) {
+      Genes point = first;
+      point[k] = range.lower + (range.upper - range.lower) * static_cast<double>(i) /
+                                   static_cast<double>(settings_.monotone_fan);
+      starts_.push_back(domain_.pull_inside(point, first));
+    }
+  }
+  const std::size_t wanted =
+      std::max<std::size_t>(settings_.search_population, settings_.look_ahead);
+  if (starts_.size() >= wanted) return;
+  const std::size_t count = wanted - starts_.size();
+  RandomStream random(seed_, 0, RandomStream::Purpose::kStart);
+  if (settings_.sobol_starts) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto index = static_cast<std::uint32_t>(i);
+      starts_.push_back(domain_.from_unit_cube(sobol_point(seed_, index, domain_.size()), random));
+    }
+    return;
+  }
+  std::vector<std::vector<double>> positions(count, std::vector<double>(domain_.size()));
+  for (std::size_t k = 0; k < domain_.size(); ++k) {
+    const std::vector<std::size_t> slices = random.permutation(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      positions[i][k] =
+          (static_cast<double>(slices[i]) + random.uniform()) / static_cast<double>(count);
+    }
+  }
+  for (const auto& position : positions) {
+    starts_.push_back(domain_.from_unit_cube(position, random));
+  }
+}
+
+Candidate Genocop::ask() {
+  const std::uint64_t index = asked();
+  const std::uint64_t known = index < settings_.look_ahead ? 0 : index - settings_.look_ahead + 1;
+  if (told_ != known) {
+    throw std::logic_error(fmt::format("candidate {} depends on the first {} results, {} were told",
+                                       index, known, told_));
+  }
+  RandomStream random(seed_, index, RandomStream::Purpose::kAsk);
+  Proposal proposal = propose(random);
+  const auto [entry, fresh] = first_.try_emplace(cache_key(proposal.free), index);
+  Candidate candidate{index, domain_.complete(proposal.free), proposal.origin, std::nullopt};
+  if (!fresh) candidate.same_as = entry->second;
+  if (monotone_) monotone_->asked(proposal.free);
+  if (proposal.role == Role::kFinish) finish_->asked(proposal.free);
+  records_.push_back({std::move(proposal.free), proposal.role, !fresh, std::move(proposal.chain),
+                      proposal.bred, std::nullopt});
+  return candidate;
+}
+
+// Two points with the same key are one: genes are rounded to the resolution, and those without a
+// meaning beside the point's categories left out.
+Genes Genocop::cache_key(const Genes& free) const {
+  Genes key = free;
+  for (std::size_t k = 0; k < key.size(); ++k) {
+    const Gene& gene = domain_.gene(k);
+    if (gene.only_with) {
+      const std::size_t category = domain_.coordinate(gene.only_with->gene);
+      if (free[category] != gene.only_with->category) {
+        key[k] = 0;
+        continue;
+      }
+    }
+    const double grain = settings_.cache_resolution * (gene.upper - gene.lower);
+    if (!gene.is_whole() && grain > 0) key[k] = std::floor((free[k] - gene.lower) / grain + 0.5);
+  }
+  return key;
+}
+
+bool Genocop::is_new(const Genes& free) const {
+  const Genes key = cache_key(free);
+  return !first_.contains(key) && !known_.contains(key);
+}
+
+std::optional<Evaluation> Genocop::result_of(const Genes& cached) const {
+  if (const auto known = known_.find(cached); known != known_.end()) return known->second;
+  return records_[first_.at(cached)].evaluation;
+}
+
+Genocop::Proposal Genocop::propose(RandomStream& random) {
+  if (asked() < starts_.size()) {
+    if (const Genes& start = starts_[asked()]; is_new(start)) return {start, "start"};
+  } else {
+    if (monotone_) {
+      if (std::optional<Genes> trial = monotone_->climb(); trial && is_new(*trial)) {
+        return {std::move(*trial), "climb", Role::kClimb};
+      }
+    }
+    if (finish_) {
+      if (std::optional<Proposal> trial = next_finish(random)) return std::move(*trial);
+    }
+    if (std::optional<Proposal> repair = next_repair(random)) return std::move(*repair);
+    if (linear_ && random.chance(settings_.linear_share)) {
+      if (std::optional<Proposal> step = next_linear(random)) return std::move(*step);
+    }
+    const bool breeding = settings_.first_phase || !references_.empty();
+    for (int draw = 0; breeding && draw < kRedraws; ++draw) {
+      std::optional<Proposal> child = offspring(random);
+      if (!child) break;
+      if (is_new(child->free)) return std::move(*child);
+    }
+  }
+  Genes point = domain_.sample(random);
+  for (int draw = 1; draw < kRedraws && !is_new(point); ++draw) point = domain_.sample(random);
+  return {std::move(point), "sample"};
+}
+
+std::optional<Genocop::Proposal> Genocop::next_linear(RandomStream& random) {
+  const std::vector<Individual>& population = references_.empty() ? search_ : references_;
+  if (population.empty()) return std::nullopt;
+  std::optional<Genes> step =
+      linear_->propose(population.front().free, population.front().evaluation, random);
+  if (!step || !is_new(*step)) return std::nullopt;
+  return Proposal{std::move(*step), "linear_model", Role::kLinear};
+}
+
+std::optional<Genocop::Proposal> Genocop::next_finish(RandomStream& random) {
+  if (!finish_->running() && !start_finish()) return std::nullopt;
+  if (!random.chance(settings_.finish_share)) return std::nullopt;
+  constexpr int kMostKnown = 100;
+  for (int known = 0; known < kMostKnown; ++known) {
+    std::optional<Genes> trial = finish_->propose();
+    if (!trial) break;
+    if (is_new(*trial)) return Proposal{std::move(*trial), "finish", Role::kFinish};
+    const std::optional<Evaluation> evaluation = result_of(cache_key(*trial));
+    if (!evaluation) break;
+    finish_->asked(*trial);
+    finish_->told(*trial, *evaluation);
+  }
+  return std::nullopt;
+}
+
+// From the best point of the populations that lies apart from earlier starts and ends.
+bool Genocop::start_finish() {
+  if (told_ < starts_.size()) return false;
+  if (const Genes* end = finish_->centre()) {
+    finished_.push_back(*end);
+    finish_->stop();
+  }
+  const auto apart = [&](const Genes& free) {
+    return std::none_of(finished_.begin(), finished_.end(), [&](const Genes& other) {
+      for (std::size_t k : domain_.movable()) {
+        const Gene& gene = domain_.gene(k);
+        const double distance = std::abs(free[k] - other[k]) / (gene.upper - gene.lower);
+        if (gene.is_whole() ? distance > 0 : distance > kApart) return false;
+      }
+      return true;
+    });
+  };
+  for (const auto* population : {&references_, &search_}) {
+    for (const Individual& individual : *population) {
+      if (!apart(individual.free)) continue;
+      finished_.push_back(individual.free);
+      finish_reference_.reset();
+      finish_->start(individual.free, individual.evaluation, settings_.finish_radius);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Genocop::Proposal> Genocop::next_repair(RandomStream& random) {
+  while (!repairs_.empty()) {
+    RepairChain chain = std::move(repairs_.front());
+    repairs_.pop_front();
+    Genes point = chain.next(domain_, random);
+    if (is_new(point)) return Proposal{std::move(point), "repair", Role::kRepair, chain};
+    // A known result serves without being charged; one still in flight ends the repair.
+    const std::optional<Evaluation> evaluation = result_of(cache_key(point));
+    if (!evaluation) continue;
+    chain.tell(*evaluation);
+    if (!evaluation->feasible() && chain.tries() < settings_.max_repair_tries) {
+      repairs_.push_front(std::move(chain));
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Genocop::Proposal> Genocop::offspring(RandomStream& random) {
+  if (domain_.movable().empty()) return std::nullopt;
+  const bool from_references =
+      !references_.empty() && (search_.empty() || random.chance(settings_.reference_share));
+  const std::vector<Individual>& population = from_references ? references_ : search_;
+  if (population.empty()) return std::nullopt;
+
+  const std::size_t drawn = frequencies_.draw(random);
+  const OperatorEntry& entry = kOperators[drawn];
+  const std::vector<double> probabilities =
+      ranking_probabilities(population.size(), settings_.selection_pressure);
+  std::vector<std::size_t> ranks(entry.parents);
+  for (std::size_t& rank : ranks) rank = select(probabilities, random);
+  std::sort(ranks.begin(), ranks.end());
+  std::vector<Genes> parents;
+  parents.reserve(ranks.size());
+  for (std::size_t rank : ranks) parents.push_back(population[rank].free);
+
+  const OperatorInput input{domain_, parents, remaining(), settings_.non_uniform_power,
+                            settings_.gaussian_sigma};
+  Genes child = entry.apply(input, random);
+  if (monotone_ && random.chance(settings_.monotone_share)) {
+    child = monotone_->aim(child, parents[0], population[ranks[0]].evaluation);
+  }
+  return Proposal{std::move(child), entry.name, Role::kSearch, {},
+                  Bred{drawn, key(population[ranks[0]])}};
+}
+
+double Genocop::remaining() const {
+  const double spent = static_cast<double>(asked()) /
+                       static_cast<double>(std::max<std::uint64_t>(settings_.budget, 1));
+  return std::max(1 - spent, 0.0);
+}
+
+}  // namespace emax
