@@ -33,10 +33,10 @@ void AdaptiveFrequencies::update() {
   double sum = 0;
   for (std::size_t i = 0; i < initial_.size(); ++i) sum += initial_[i] * (quality_[i] + kLeast);
   for (std::size_t i = 0; i < initial_.size(); ++i) {
-    frequencies_[i] = initial_[i] == 0 ? 0
-                                       : floor_ / static_cast<double>(used_) +
-                                             (1 - floor_) * initial_[i] *
-                                                 (quality_[i] + kLeast) / sum;
+    frequencies_[i] = initial_[i] == 0
+                          ? 0
+                          : floor_ / static_cast<double>(used_) +
+                                (1 - floor_) * initial_[i] * (quality_[i] + kLeast) / sum;
   }
 }
 

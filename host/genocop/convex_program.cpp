@@ -72,8 +72,8 @@ ConvexSolution solve(const ConvexProgram& program) {
     const Vector stationarity = p.hessian * x + p.gradient + p.rows.transpose() * dual;
     const Vector feasibility = p.rows * x + slack - p.bounds;
     const double gap = slack.dot(dual) / static_cast<double>(m);
-    if (stationarity.cwiseAbs().maxCoeff() < 1e-9 && feasibility.cwiseAbs().maxCoeff() < kTolerance &&
-        gap < kTolerance) {
+    if (stationarity.cwiseAbs().maxCoeff() < 1e-9 &&
+        feasibility.cwiseAbs().maxCoeff() < kTolerance && gap < kTolerance) {
       solution.converged = true;
       break;
     }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 #include <utility>
 
 namespace emax {
@@ -12,14 +10,12 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double kLeastRadius = 1e-7;     // of the domains
-constexpr double kFine = 1e-3;            // from here on a promise below kPrecision is the end
-constexpr double kPrecision = 1e-11;      // of the objective
-constexpr double kNear = 3;               // radii within which points span the model's directions
-double FAR_=getenv("FAR")?atof(getenv("FAR")):6;
-#define kFar FAR_ 
-;//              // and within which they tell of curvature
-constexpr double kPoised = 0.1;           // share of a step that must be new to the others
+constexpr double kLeastRadius = 1e-7;  // of the domains
+constexpr double kFine = 1e-3;         // from here on a promise below kPrecision is the end
+constexpr double kPrecision = 1e-11;   // of the objective
+constexpr double kNear = 3;            // radii within which points span the model's directions
+constexpr double kFar = 6;             // and within which they tell of curvature
+constexpr double kPoised = 0.1;        // share of a step that must be new to the others
 
 }  // namespace
 
@@ -32,6 +28,7 @@ void Finish::start(const Genes& free, const Evaluation& evaluation, double radiu
   running_ = true;
   radius_ = radius;
   penalty_ = 0;
+  failures_ = 0;
   told(free, evaluation);
   centre_ = 0;
 }
@@ -91,7 +88,10 @@ void Finish::judge_step(const Trial& trial, const Point* point) {
   const double length = (trial.at - points_[centre_].at).cwiseAbs().maxCoeff();
   const double gained = point == nullptr ? -1 : merit(points_[centre_]) - merit(*point);
   const double ratio = gained / *trial.reduction;
-  if (getenv("TR")) fprintf(stderr," ratio %.3g gained %.4g\n",ratio,gained);
+  // Curvature carried along from farther away may be what misleads.
+  constexpr int kMisled = 3;
+  failures_ = ratio < 0.1 ? failures_ + 1 : 0;
+  if (failures_ % kMisled == kMisled - 1) hessians_.clear();
   if (ratio < 0.1) {
     shrink(std::clamp(length / radius_, 0.2, 1.0) * 0.5);
   } else if (ratio > 0.7 && length > 0.8 * radius_) {
@@ -138,29 +138,32 @@ Finish::Selection Finish::select() const {
     const Vector step =
         (in_flight ? trials_[entry.index - points_.size()].at : points_[entry.index].at) - origin;
     const Vector own = rest(step);
-    if (directions < n && entry.distance <= kNear * radius_ && own.norm() >= kPoised * step.norm()) {
+    if (directions < n && entry.distance <= kNear * radius_ &&
+        own.norm() >= kPoised * step.norm()) {
       basis.col(directions++) = own.normalized();
       if (!in_flight) selection.points.push_back(entry.index);
     } else if (!in_flight) {
       others.push_back(entry.index);
     }
   }
-  const auto most = static_cast<std::size_t>(std::min<int>(int((n + 1) * (n + 2) / 2 - 1), getenv("MOST")?(int)(n*atof(getenv("MOST")))+1: 2 * (int)n + 1));
+  const auto most = static_cast<std::size_t>(std::min((n + 1) * (n + 2) / 2 - 1, 2 * n + 1));
   for (std::size_t i : others) {
     if (selection.points.size() >= most) break;
     selection.points.push_back(i);
   }
   if (directions == n) return selection;
 
-  double best = kPoised * 0.1 * radius_;
+  double best = 0.1 * kPoised * radius_;
   for (Eigen::Index axis = 0; axis < n; ++axis) {
     const Vector open = rest(Vector::Unit(n, axis));
     if (open.norm() < 1e-6) continue;
     for (const Vector& direction : {Vector(Vector::Unit(n, axis)), Vector(open.normalized())}) {
       for (const double sign : {1.0, -1.0}) {
         Genes free = frame_.moved(points_[centre_].free, sign * radius_ * direction);
-        const double gain = rest(frame_.position(free) - origin).norm();
-        if (gain <= 1.001 * best) continue;
+        const Vector step = frame_.position(free) - origin;
+        const double gain = rest(step).norm();
+        // Barely enough would not be seen as enough next time.
+        if (gain <= 1.001 * best || gain < 1.001 * kPoised * step.norm()) continue;
         best = gain;
         selection.missing = std::move(free);
       }
@@ -206,7 +209,11 @@ std::optional<Genes> Finish::propose() {
     }
     const LocalModel model = fit(selection.points);
     const LocalStep step = best_step(frame_, *centre(), model, radius_, penalty_);
-    if (getenv("TR")) fprintf(stderr,"r %.3g pen %.3g f %.8g v %.3g pts %zu len %.3g red %.4g | ",radius_,penalty_,points_[centre_].responses[0],points_[centre_].violation,selection.points.size(),step.step.cwiseAbs().maxCoeff(),step.reduction);
+    // A penalty from afar would make every curved constraint a wall.
+    constexpr double kAmple = 10;
+    if (points_[centre_].violation <= 0 && penalty_ > kAmple * step.multipliers) {
+      penalty_ = std::max(penalty_ / kAmple, 0.3 * kAmple * step.multipliers);
+    }
     const std::size_t before = centre_;
     choose_centre();  // the penalty may have grown
     if (centre_ != before) continue;

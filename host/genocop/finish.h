@@ -10,8 +10,8 @@
 namespace emax {
 
 // A local search on the continuous genes, the others held: interpolation on points around the best
-// one, a step that is best for the models within a trust region, and points added where they leave a
-// direction open, as COBYLA does (Powell 1994), with models of the least curvature that fits
+// one, a step that is best for the models within a trust region, and points added where they leave
+// a direction open, as COBYLA does (Powell 1994), with models of the least curvature that fits
 // (COBYQA, Ragonneau & Zhang 2024). The merit is the objective plus a penalty on the violation, so
 // it may start and pass outside the constraints.
 class Finish {
@@ -65,8 +65,9 @@ class Finish {
   std::vector<Point> points_;
   std::size_t centre_ = 0;
   std::vector<Eigen::MatrixXd> hessians_;  // of the last models
-  std::vector<Trial> trials_;  // in flight
-  std::optional<Trial> next_;  // what propose() gave last
+  int failures_ = 0;                       // steps in a row that kept little of their promise
+  std::vector<Trial> trials_;              // in flight
+  std::optional<Trial> next_;              // what propose() gave last
 };
 
 }  // namespace emax

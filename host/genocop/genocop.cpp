@@ -64,7 +64,8 @@ Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
   if (auto ordered = coordinates(domain_, true); settings_.linear_model && !ordered.empty()) {
     linear_.emplace(domain_, problem_, std::move(ordered));
   }
-  if (auto continuous = coordinates(domain_, false); settings_.finish && !continuous.empty()) {
+  if (auto continuous = coordinates(domain_, false);
+      settings_.finish && !monotone_ && !continuous.empty()) {
     finish_.emplace(domain_, problem_, std::move(continuous));
   }
   take_known();
@@ -149,7 +150,8 @@ void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
     } else if (record.role == Role::kSearch || record.role == Role::kLinear) {
       in_repair = start_repair(individual, bred_by, random);
     }
-    if (record.bred && !in_repair) reward(record.bred->entry, key(individual) < record.bred->parent);
+    if (record.bred && !in_repair)
+      reward(record.bred->entry, key(individual) < record.bred->parent);
     enter_search(individual, random);
   } else if (record.bred) {
     reward(record.bred->entry, false);

@@ -139,7 +139,7 @@ class Genocop {
   std::vector<Individual> references_;  // best first; feasible
   std::deque<RepairChain> repairs_;
   std::optional<Best> best_;
-  std::vector<Genes> finished_;  // where local searches started and ended
+  std::vector<Genes> finished_;                    // where local searches started and ended
   std::optional<std::uint64_t> finish_reference_;  // the one the running local search brought
 };
 

@@ -35,9 +35,10 @@ void check(const Problem& problem) {
   for (const LinearConstraint& constraint : problem.linear) {
     for (const auto& [gene, coefficient] : constraint.terms) {
       if (problem.genes[gene].kind != Gene::Kind::kCategorical) continue;
-      throw Error(fmt::format("gene {}: categories have no order, so no linear constraint can hold "
-                              "it; make it an integer gene",
-                              problem.genes[gene].name));
+      throw Error(
+          fmt::format("gene {}: categories have no order, so no linear constraint can hold "
+                      "it; make it an integer gene",
+                      problem.genes[gene].name));
     }
   }
 }
@@ -260,9 +261,8 @@ Genes LinearDomain::from_unit_cube(const std::vector<double>& position,
   Genes point(size());
   for (std::size_t k = 0; k < size(); ++k) {
     const Gene& g = gene(k);
-    point[k] = g.is_whole()
-                   ? g.lower + std::floor(position[k] * (g.upper - g.lower + 1))
-                   : g.lower + position[k] * (g.upper - g.lower);
+    point[k] = g.is_whole() ? g.lower + std::floor(position[k] * (g.upper - g.lower + 1))
+                            : g.lower + position[k] * (g.upper - g.lower);
   }
   point = snap(point);
   if (contains(point)) return point;

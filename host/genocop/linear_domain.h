@@ -20,8 +20,8 @@ struct Interval {
 class LinearDomain {
  public:
   // Throws emax::Error when a domain is empty, a start lies outside, the equalities contradict each
-  // other or leave no continuous gene to solve for, a linear constraint names a categorical gene, or
-  // no point is found inside.
+  // other or leave no continuous gene to solve for, a linear constraint names a categorical gene,
+  // or no point is found inside.
   explicit LinearDomain(const Problem& problem);
 
   std::size_t size() const { return free_.size(); }

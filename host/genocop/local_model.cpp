@@ -146,8 +146,7 @@ LocalModel fit_linear(const Matrix& steps, const Matrix& values, const Vector& c
   Matrix normal = scaled.transpose() * weights.asDiagonal() * scaled;
   normal.diagonal().array() += kRidge * std::max(normal.trace(), 1e-300);
   const Matrix rest = values.rowwise() - centre_values.transpose();
-  const Matrix solution =
-      normal.ldlt().solve(scaled.transpose() * weights.asDiagonal() * rest);
+  const Matrix solution = normal.ldlt().solve(scaled.transpose() * weights.asDiagonal() * rest);
   return {centre_values, solution / scale, {}};
 }
 
@@ -208,7 +207,7 @@ LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalMod
   program.bounds.tail(linear_rows.rows()) = linear_bounds;
   program.elastic = nonlinear;
 
-  LocalStep best{Vector::Zero(n), 0};
+  LocalStep best{Vector::Zero(n)};
   Vector at = Vector::Zero(n);
   Vector multipliers = Vector::Zero(nonlinear);
   const int passes = model.hessians.empty() ? 1 : 5;
@@ -261,7 +260,7 @@ LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalMod
     if (sum < 0.9 * penalty) penalty = std::max(penalty, 2 * sum);
     const Vector next = solution.x * radius;
     const double reduction = merit(model.values) - merit(model.at(next));
-    if (pass == 0 || reduction > best.reduction) best = {next, reduction};
+    if (pass == 0 || reduction > best.reduction) best = {next, reduction, sum};
     if ((next - at).cwiseAbs().maxCoeff() < 1e-6 * radius) break;
     at = next;
   }

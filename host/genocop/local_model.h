@@ -45,7 +45,7 @@ class LocalFrame {
 // Models of all responses around a centre: value + gradient' s + s' hessian s / 2.
 struct LocalModel {
   Eigen::VectorXd values;
-  Eigen::MatrixXd gradients;             // a column for each response
+  Eigen::MatrixXd gradients;              // a column for each response
   std::vector<Eigen::MatrixXd> hessians;  // none: linear
 
   Eigen::VectorXd at(const Eigen::VectorXd& step) const;
@@ -65,7 +65,8 @@ LocalModel fit_quadratic(const Eigen::MatrixXd& steps, const Eigen::MatrixXd& va
 
 struct LocalStep {
   Eigen::VectorXd step;
-  double reduction = 0;  // of the merit objective + penalty * violation, as the model has it
+  double reduction = 0;    // of the merit objective + penalty * violation, as the model has it
+  double multipliers = 0;  // sum of the nonlinear constraints': the least penalty that is exact
 };
 
 // The best point of the model within `radius` of the centre and inside the linear domain: a linear

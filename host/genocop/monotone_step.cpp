@@ -32,7 +32,14 @@ Genes MonotoneStep::line_of(Genes genes) const {
   return genes;
 }
 
+// What can still be gained shrinks about as one over the number of trials.
+double MonotoneStep::gain() const {
+  constexpr double kEarly = 150;
+  return gain_ * std::min(1.0, kEarly / static_cast<double>(asked_ + 1));
+}
+
 void MonotoneStep::asked(const Genes& genes) {
+  ++asked_;
   lines_[line_of(genes)].try_emplace(genes[coordinate_]);
 }
 
@@ -126,7 +133,7 @@ std::optional<Genes> MonotoneStep::climb() const {
     return trial(key, lines_.at(key));
   }
   const double best = incumbent_evaluation_->objective;
-  double least = best - gain_ * std::abs(best);
+  double least = best - gain() * std::abs(best);
   const std::pair<const Genes, Line>* chosen = nullptr;
   for (const auto& entry : lines_) {
     const Bracket b = bracket(entry.first, entry.second);
@@ -202,7 +209,7 @@ Genes MonotoneStep::aim(const Genes& child, const Genes& parent,
   }
   if (known.objective > 0 && known_value < zero) rate = known.objective / (zero - known_value);
   Genes aimed = child;
-  aimed[coordinate_] = zero - (1 - gain_) * objective / rate;
+  aimed[coordinate_] = zero - (1 - gain()) * objective / rate;
   if (domain_.gene(coordinate_).is_whole()) {
     aimed[coordinate_] = std::ceil(aimed[coordinate_]);
   }

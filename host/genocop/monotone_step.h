@@ -24,7 +24,7 @@ class MonotoneStep {
 
   // The next trial on the most promising line: the predicted root of the violation, kept off the
   // ends of a bracket; the widest gap is halved while the root is in flight. None where no line
-  // promises monotone_gain of the best objective, or monotone_in_flight trials are out. While
+  // promises gain() of the best objective, or monotone_in_flight trials are out. While
   // nothing is feasible, the line of the least violation is followed downwards, its lower end
   // first.
   std::optional<Genes> climb() const;
@@ -48,6 +48,7 @@ class MonotoneStep {
     std::optional<Evaluation> at_upper;
   };
 
+  double gain() const;
   Genes line_of(Genes genes) const;
   Bracket bracket(const Genes& key, const Line& line) const;
   double root(const Bracket& b) const;
@@ -58,6 +59,7 @@ class MonotoneStep {
   std::size_t coordinate_;
   std::size_t most_in_flight_;
   double gain_;
+  std::size_t asked_ = 0;
   std::map<Genes, Line> lines_;
   Genes incumbent_;  // the best feasible point, else the least violating one
   std::optional<Evaluation> incumbent_evaluation_;

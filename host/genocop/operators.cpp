@@ -6,9 +6,7 @@
 namespace emax {
 namespace {
 
-bool is_integer(const LinearDomain& domain, std::size_t k) {
-  return domain.gene(k).is_whole();
-}
+bool is_integer(const LinearDomain& domain, std::size_t k) { return domain.gene(k).is_whole(); }
 
 bool is_category(const LinearDomain& domain, std::size_t k) {
   return domain.gene(k).kind == Gene::Kind::kCategorical;
@@ -54,7 +52,8 @@ Genes other_category(const LinearDomain& domain, const Genes& parent, std::size_
                      RandomStream& random) {
   const Gene& gene = domain.gene(k);
   double value =
-      gene.lower + static_cast<double>(random.below(static_cast<std::uint64_t>(gene.upper - gene.lower)));
+      gene.lower +
+      static_cast<double>(random.below(static_cast<std::uint64_t>(gene.upper - gene.lower)));
   if (value >= parent[k]) ++value;
   return with_value(domain, parent, k, value);
 }
@@ -94,7 +93,8 @@ Genes simple_arithmetical_crossover(const OperatorInput& input, RandomStream& ra
   const double share = random.uniform();
   const std::size_t cut = child.size() > 1 ? 1 + random.below(child.size() - 1) : 0;
   for (std::size_t k = cut; k < child.size(); ++k) {
-    child[k] = mixed(input.domain, k, q[k], child[k], share * q[k] + (1 - share) * child[k], random);
+    child[k] =
+        mixed(input.domain, k, q[k], child[k], share * q[k] + (1 - share) * child[k], random);
   }
   return input.domain.pull_inside(child, input.parents[0]);
 }
@@ -105,8 +105,8 @@ Genes heuristic_crossover(const OperatorInput& input, RandomStream& random) {
   const double length = random.uniform();
   Genes child(better.size());
   for (std::size_t k = 0; k < child.size(); ++k) {
-    child[k] = is_category(input.domain, k) ? better[k]
-                                            : better[k] + length * (better[k] - worse[k]);
+    child[k] =
+        is_category(input.domain, k) ? better[k] : better[k] + length * (better[k] - worse[k]);
   }
   return input.domain.pull_inside(child, better);
 }

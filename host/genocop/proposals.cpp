@@ -12,7 +12,7 @@
 namespace emax {
 namespace {
 
-constexpr int kRedraws = 20;  // of a duplicate: first as offspring, then anywhere in the domain
+constexpr int kRedraws = 20;     // of a duplicate: first as offspring, then anywhere in the domain
 constexpr double kApart = 0.02;  // of the domains: less far from an earlier one no search starts
 
 }  // namespace
@@ -228,8 +228,8 @@ std::optional<Genocop::Proposal> Genocop::offspring(RandomStream& random) {
   if (monotone_ && random.chance(settings_.monotone_share)) {
     child = monotone_->aim(child, parents[0], population[ranks[0]].evaluation);
   }
-  return Proposal{std::move(child), entry.name, Role::kSearch, {},
-                  Bred{drawn, key(population[ranks[0]])}};
+  return Proposal{
+      std::move(child), entry.name, Role::kSearch, {}, Bred{drawn, key(population[ranks[0]])}};
 }
 
 double Genocop::remaining() const {

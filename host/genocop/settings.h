@@ -39,17 +39,17 @@ struct Settings {
   std::array<double, kOperators.size()> operator_frequencies = standard_frequencies();
 
   bool monotone_step = true;           // where the problem names a monotone gene
-  double monotone_share = 0.9;         // of the offspring aim just below the incumbent
-  double monotone_gain = 0.02;         // by this share of its objective
+  double monotone_share = 0.97;        // of the offspring aim just below the incumbent
+  double monotone_gain = 0.02;         // by this share of its objective; less after 150 candidates
   std::size_t monotone_in_flight = 3;  // trials of one line at one time
   std::size_t monotone_fan = 6;        // values of the gene tried on the first start point
 
-  bool linear_model = true;     // steps of local linear models around the best point
-  double linear_share = 0.2;    // of the candidates that other strategies leave
-  bool finish = true;           // local searches on the continuous genes
-  double finish_share = 0.8;    // of the candidates while one runs
-  double finish_radius = 0.1;   // its first trust region, of the domains
-  bool first_phase = true;      // while nothing is feasible the violation is minimised
+  bool linear_model = true;          // steps of local linear models around the best point
+  double linear_share = 0.2;         // of the candidates that other strategies leave
+  bool finish = true;                // local searches on the continuous genes
+  double finish_share = 0.6;         // of the candidates while one runs
+  double finish_radius = 0.1;        // its first trust region, of the domains
+  bool first_phase = true;           // while nothing is feasible the violation is minimised
   bool adaptive_frequencies = true;  // of the operators
   double frequency_floor = 0.3;      // share of the offspring that success does not move
   bool sobol_starts = true;          // else a Latin hypercube

@@ -155,9 +155,10 @@ inline BenchmarkProblem g05() {
     const auto wave = [](double angle) { return 1000 * std::sin(angle - 0.25); };
     const double f =
         3 * x[0] + 1e-6 * x[0] * x[0] * x[0] + 2 * x[1] + 2e-6 / 3 * x[1] * x[1] * x[1];
-    return {f, {wave(-x[2]) + wave(-x[3]) + 894.8 - x[0],
-                          wave(x[2]) + wave(x[2] - x[3]) + 894.8 - x[1],
-                          wave(x[3]) + wave(x[3] - x[2]) + 1294.8}};
+    return {
+        f,
+        {wave(-x[2]) + wave(-x[3]) + 894.8 - x[0], wave(x[2]) + wave(x[2] - x[3]) + 894.8 - x[1],
+         wave(x[3]) + wave(x[3] - x[2]) + 1294.8}};
   };
   return made("g05", p, values, 5126.496714);
 }
@@ -169,8 +170,9 @@ inline BenchmarkProblem g06() {
   const auto values = [](const Genes& x) -> Values {
     const auto square = [](double v) { return v * v; };
     const double f = square(x[0] - 10) * (x[0] - 10) + square(x[1] - 20) * (x[1] - 20);
-    return {f, {100 - square(x[0] - 5) - square(x[1] - 5),
-                          square(x[0] - 6) + square(x[1] - 5) - 82.81}};
+    return {
+        f,
+        {100 - square(x[0] - 5) - square(x[1] - 5), square(x[0] - 6) + square(x[1] - 5) - 82.81}};
   };
   return made("g06", p, values, -6961.813876);
 }
@@ -187,11 +189,12 @@ inline BenchmarkProblem g07() {
     const double f = sq(x[0]) + sq(x[1]) + x[0] * x[1] - 14 * x[0] - 16 * x[1] + sq(x[2] - 10) +
                      4 * sq(x[3] - 5) + sq(x[4] - 3) + 2 * sq(x[5] - 1) + 5 * sq(x[6]) +
                      7 * sq(x[7] - 11) + 2 * sq(x[8] - 10) + sq(x[9] - 7) + 45;
-    return {f, {3 * sq(x[0] - 2) + 4 * sq(x[1] - 3) + 2 * sq(x[2]) - 7 * x[3] - 120,
-                          5 * sq(x[0]) + 8 * x[1] + sq(x[2] - 6) - 2 * x[3] - 40,
-                          sq(x[0]) + 2 * sq(x[1] - 2) - 2 * x[0] * x[1] + 14 * x[4] - 6 * x[5],
-                          0.5 * sq(x[0] - 8) + 2 * sq(x[1] - 4) + 3 * sq(x[4]) - x[5] - 30,
-                          -3 * x[0] + 6 * x[1] + 12 * sq(x[8] - 8) - 7 * x[9]}};
+    return {f,
+            {3 * sq(x[0] - 2) + 4 * sq(x[1] - 3) + 2 * sq(x[2]) - 7 * x[3] - 120,
+             5 * sq(x[0]) + 8 * x[1] + sq(x[2] - 6) - 2 * x[3] - 40,
+             sq(x[0]) + 2 * sq(x[1] - 2) - 2 * x[0] * x[1] + 14 * x[4] - 6 * x[5],
+             0.5 * sq(x[0] - 8) + 2 * sq(x[1] - 4) + 3 * sq(x[4]) - x[5] - 30,
+             -3 * x[0] + 6 * x[1] + 12 * sq(x[8] - 8) - 7 * x[9]}};
   };
   return made("g07", p, values, 24.306209);
 }
@@ -218,11 +221,11 @@ inline BenchmarkProblem g09() {
     const double f = sq(x[0] - 10) + 5 * sq(x[1] - 12) + sq(sq(x[2])) + 3 * sq(x[3] - 11) +
                      10 * sq(x[4]) * sq(sq(x[4])) + 7 * sq(x[5]) + sq(sq(x[6])) - 4 * x[5] * x[6] -
                      10 * x[5] - 8 * x[6];
-    return {
-        f, {-127 + 2 * sq(x[0]) + 3 * sq(sq(x[1])) + x[2] + 4 * sq(x[3]) + 5 * x[4],
-            -282 + 7 * x[0] + 3 * x[1] + 10 * sq(x[2]) + x[3] - x[4],
-            -196 + 23 * x[0] + sq(x[1]) + 6 * sq(x[5]) - 8 * x[6],
-            4 * sq(x[0]) + sq(x[1]) - 3 * x[0] * x[1] + 2 * sq(x[2]) + 5 * x[5] - 11 * x[6]}};
+    return {f,
+            {-127 + 2 * sq(x[0]) + 3 * sq(sq(x[1])) + x[2] + 4 * sq(x[3]) + 5 * x[4],
+             -282 + 7 * x[0] + 3 * x[1] + 10 * sq(x[2]) + x[3] - x[4],
+             -196 + 23 * x[0] + sq(x[1]) + 6 * sq(x[5]) - 8 * x[6],
+             4 * sq(x[0]) + sq(x[1]) - 3 * x[0] * x[1] + 2 * sq(x[2]) + 5 * x[5] - 11 * x[6]}};
   };
   return made("g09", p, values, 680.630057);
 }
@@ -243,9 +246,9 @@ inline BenchmarkProblem g10() {
   constrain(p, 3);
   const auto values = [](const Genes& x) -> Values {
     return {x[0] + x[1] + x[2],
-                      {(-x[0] * x[5] + 833.33252 * x[3] + 100 * x[0] - 83333.333) / 83333.333,
-                       (-x[1] * x[6] + 1250 * x[4] + x[1] * x[3] - 1250 * x[3]) / 1e5,
-                       (-x[2] * x[7] + 1250000 + x[2] * x[4] - 2500 * x[4]) / 1.25e6}};
+            {(-x[0] * x[5] + 833.33252 * x[3] + 100 * x[0] - 83333.333) / 83333.333,
+             (-x[1] * x[6] + 1250 * x[4] + x[1] * x[3] - 1250 * x[3]) / 1e5,
+             (-x[2] * x[7] + 1250000 + x[2] * x[4] - 2500 * x[4]) / 1.25e6}};
   };
   return made("g10", p, values, 7049.248021);
 }

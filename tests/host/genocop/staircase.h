@@ -11,18 +11,15 @@ namespace emax::benchmark {
 
 // Shaped like the real job: a triangle count, a staircase that falls with the gene `reduction`,
 // and an error that grows with it, jumps by up to `roughness` from point to point, and depends with
-// the count on the other genes (3 continuous, 2 integer, 1 flag). The start is a standard setting:
-// feasible at a small reduction, well off the optimum.
+// the count on the other genes (3 continuous, 2 integer, 1 category). The start is a standard
+// setting: feasible at a small reduction, well off the optimum.
 inline BenchmarkProblem staircase(double roughness = 0.03) {
   using Kind = Gene::Kind;
   Problem p;
-  p.genes = {{"radius", Kind::kContinuous, 2, 14},
-             {"mu", Kind::kContinuous, 2, 6},
-             {"neighbours", Kind::kInteger, 50, 300},
-             {"k", Kind::kInteger, 6, 40},
-             {"reduction", Kind::kContinuous, 0, 0.98},
-             {"feature", Kind::kContinuous, 5, 60},
-             {"split", Kind::kInteger, 0, 1}};
+  p.genes = {{"radius", Kind::kContinuous, 2, 14},      {"mu", Kind::kContinuous, 2, 6},
+             {"neighbours", Kind::kInteger, 50, 300},   {"k", Kind::kInteger, 6, 40},
+             {"reduction", Kind::kContinuous, 0, 0.98}, {"feature", Kind::kContinuous, 5, 60},
+             {"split", Kind::kCategorical, 0, 1}};
   p.starts = {{6, 2.5, 100, 20, 0.5, 15, 1}};
   p.monotone_gene = 4;
   const auto evaluate = [roughness](const Genes& x) {

@@ -1,0 +1,190 @@
+"""Runs pagmo and NLopt on the search's test functions; prints one JSON line for each run.
+
+The functions come from a library with C linkage, so every optimizer minimises the very same ones.
+Every call is charged. A peer's point counts as feasible where every inequality holds within 1e-8
+and every equality within 1e-4; linear constraints are inequalities like the others. Where a problem
+gives a start point, every peer starts from it.
+"""
+
+import argparse
+import ctypes
+import json
+import math
+from importlib.metadata import version
+
+import nlopt
+import numpy
+import pygmo
+
+EQUALITY, INEQUALITY = 1e-4, 1e-8
+
+
+class Spent(Exception):
+    pass
+
+
+class Problem:
+    """One run: counts calls and keeps the best feasible objective."""
+
+    def __init__(self, library, name, budget):
+        self.library, self.name, self.budget = library, name, budget
+        self.index = library.emax_problem(name.encode())
+        sizes = (ctypes.c_int * 3)()
+        library.emax_sizes(self.index, sizes)
+        self.genes, self.inequalities, self.equalities = sizes
+        table = (ctypes.c_double * (4 * self.genes))()
+        library.emax_genes(self.index, table)
+        self.lower, self.upper, self.whole, self.start = numpy.array(table).reshape(-1, 4).T
+        self.has_start = not math.isnan(self.start[0])
+        self.width = 1 + self.inequalities + self.equalities
+        self.calls, self.best = 0, math.inf
+
+    def __call__(self, x):
+        if self.calls >= self.budget:
+            raise Spent
+        self.calls += 1
+        x = numpy.ascontiguousarray(numpy.clip(x, self.lower, self.upper))
+        x = numpy.where(self.whole > 0, numpy.round(x), x)
+        values = numpy.empty(self.width)
+        pointer = ctypes.POINTER(ctypes.c_double)
+        self.library.emax_evaluate(self.index, x.ctypes.data_as(pointer), values.ctypes.data_as(pointer))
+        values = numpy.where(numpy.isfinite(values), values, 1e30)
+        equal = values[1:1 + self.equalities]
+        if (abs(equal) <= EQUALITY).all() and (values[1 + self.equalities:] <= INEQUALITY).all():
+            self.best = min(self.best, values[0])
+        return values
+
+
+class Pagmo:
+    """What pagmo calls. It copies its problem, so the counting stands outside, and an exception of
+    the problem would end the process of some algorithms: past the budget the calls are empty."""
+
+    current = None
+
+    def fitness(self, x):
+        try:
+            return Pagmo.current(x)
+        except Spent:
+            return numpy.full(Pagmo.current.width, 1e30)
+
+    def order(self):
+        whole = Pagmo.current.whole > 0
+        return numpy.concatenate([numpy.flatnonzero(~whole), numpy.flatnonzero(whole)])
+
+    def get_bounds(self):
+        return Pagmo.current.lower, Pagmo.current.upper
+
+    def get_nec(self):
+        return Pagmo.current.equalities
+
+    def get_nic(self):
+        return Pagmo.current.inequalities
+
+
+def population(problem, size, seed):
+    Pagmo.current = problem
+    wrapped = pygmo.problem(Pagmo())
+    wrapped.c_tol = [EQUALITY] * problem.equalities + [0.0] * problem.inequalities
+    found = pygmo.population(wrapped, max(size - problem.has_start, 0), seed=seed)
+    if problem.has_start:
+        found.push_back(problem.start)
+    return found
+
+
+def gaco(problem, seed):
+    size = 20 if problem.budget <= 1000 else 63
+    evolve = pygmo.gaco(gen=max(1, problem.budget // size - 1), ker=min(size, 63), seed=seed)
+    pygmo.algorithm(evolve).evolve(population(problem, size, seed))
+
+
+def self_adaptive(problem, seed):
+    size = 10 if problem.budget <= 200 else 20
+    inner = pygmo.sade(gen=5, seed=seed)
+    outer = pygmo.cstrs_self_adaptive(iters=max(1, problem.budget // (5 * size)), algo=inner, seed=seed)
+    found = population(problem, size, seed)
+    while problem.calls < problem.budget:
+        before = problem.calls
+        found = pygmo.algorithm(outer).evolve(found)
+        if problem.calls == before:
+            break
+
+
+def with_nlopt(problem, algorithm, x):
+    optimizer = nlopt.opt(algorithm, problem.genes)
+    optimizer.set_lower_bounds(problem.lower)
+    optimizer.set_upper_bounds(problem.upper)
+    cache = {}
+
+    def values(point):
+        key = point.tobytes()
+        if key not in cache:
+            cache.clear()
+            cache[key] = problem(point.copy())
+        return cache[key]
+
+    def fill(result, part):
+        result[:] = part
+
+    optimizer.set_min_objective(lambda point, _: float(values(point)[0]))
+    first = 1 + problem.equalities
+    if problem.equalities:
+        optimizer.add_equality_mconstraint(lambda result, point, _: fill(result, values(point)[1:first]),
+                                           [EQUALITY] * problem.equalities)
+    if problem.inequalities:
+        optimizer.add_inequality_mconstraint(lambda result, point, _: fill(result, values(point)[first:]),
+                                             [INEQUALITY] * problem.inequalities)
+    optimizer.set_xtol_rel(1e-10)
+    optimizer.set_maxeval(problem.budget - problem.calls + 1)
+    optimizer.optimize(x)
+
+
+def isres(problem, seed):
+    nlopt.srand(seed)
+    random = numpy.random.default_rng(seed)
+    x = problem.start if problem.has_start else random.uniform(problem.lower, problem.upper)
+    with_nlopt(problem, nlopt.GN_ISRES, x)
+
+
+def cobyla(problem, seed):
+    """With restarts from random points until the budget is spent."""
+    random = numpy.random.default_rng(seed)
+    x = problem.start if problem.has_start else random.uniform(problem.lower, problem.upper)
+    while problem.calls < problem.budget:
+        try:
+            with_nlopt(problem, nlopt.LN_COBYLA, x)
+        except (nlopt.RoundoffLimited, RuntimeError, ValueError):
+            pass
+        x = random.uniform(problem.lower, problem.upper)
+
+
+PEERS = {"pagmo gaco": gaco, "pagmo cstrs_self_adaptive": self_adaptive, "NLopt ISRES": isres, "NLopt COBYLA": cobyla}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--library", required=True)
+    parser.add_argument("--problems", nargs="+", required=True)
+    parser.add_argument("--budgets", nargs="+", type=int, required=True)
+    parser.add_argument("--seeds", type=int, required=True)
+    arguments = parser.parse_args()
+    library = ctypes.CDLL(arguments.library)
+    library.emax_optimum.restype = ctypes.c_double
+    print(json.dumps({"versions": f"pygmo {version('pygmo')}, nlopt {version('nlopt')}"}), flush=True)
+    for name in arguments.problems:
+        for budget in arguments.budgets:
+            for title, peer in PEERS.items():
+                for seed in range(1, arguments.seeds + 1):
+                    problem = Problem(library, name, budget)
+                    try:
+                        peer(problem, seed)
+                    except Spent:
+                        pass
+                    except Exception as error:  # what a package cannot do is said in the table
+                        print(json.dumps({"failure": f"{title} on {name}: {str(error)[:200]}"}), flush=True)
+                    gap = problem.best - library.emax_optimum(problem.index)
+                    print(json.dumps({"way": title, "problem": name, "budget": budget, "seed": seed,
+                                      "gap": gap if math.isfinite(gap) else None}), flush=True)
+
+
+if __name__ == "__main__":
+    main()
