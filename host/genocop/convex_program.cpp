@@ -79,7 +79,7 @@ ConvexSolution solve(const ConvexProgram& program) {
     }
     const Vector weights = dual.cwiseQuotient(slack);
     Matrix normal = p.hessian + p.rows.transpose() * weights.asDiagonal() * p.rows;
-    normal.diagonal().array() += 1e-14 * (1 + normal.diagonal().maxCoeff());
+    normal.diagonal().array() += 1e-13;
     const Eigen::LDLT<Matrix> factor(normal);
     // complementarity: slack * dual + slack * d_dual + dual * d_slack = target
     const auto direction = [&](const Vector& target, Vector& dx, Vector& d_slack, Vector& d_dual) {

@@ -79,7 +79,11 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
   if (own) {
     const Trial trial = std::move(*found);
     trials_.erase(found);
-    if (trial.reduction) judge_step(trial, added);
+    if (trial.reduction) {
+      judge_step(trial, added);
+    } else if (added == nullptr) {
+      shrink(0.5);  // nothing can be learned there
+    }
   }
   if (added != nullptr) choose_centre();
 }

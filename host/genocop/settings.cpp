@@ -70,7 +70,7 @@ Settings Settings::original() {
     if (kOperators[i].apply == uniform_mutation) settings.operator_frequencies[i] = 0;
   }
   settings.monotone_step = settings.linear_model = settings.finish = false;
-  settings.first_phase = settings.adaptive_frequencies = settings.sobol_starts = false;
+  settings.adaptive_frequencies = settings.sobol_starts = false;
   settings.cache_resolution = 0;
   return settings;
 }

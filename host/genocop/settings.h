@@ -59,7 +59,7 @@ struct Settings {
 
   // Genocop III as published (Michalewicz & Nazhiyath 1995; Michalewicz 1996): populations of 70,
   // p_r = 0.15, q = 0.1, its ten operators, repair at random until feasible, one result after the
-  // other.
+  // other. The first phase stands in for the user, whom it asks for a first feasible point.
   static Settings original();
 
   static constexpr std::array<double, kOperators.size()> standard_frequencies() {

@@ -18,6 +18,8 @@ import tarfile
 import tempfile
 from pathlib import Path
 
+import search_bench
+
 PROGRAM = Path("build/bench/bin/emax_benchmark")
 HERE = Path("tests/benchmarks")
 REQUIREMENTS = HERE / "peers/requirements.txt"
@@ -72,7 +74,7 @@ def install_peers():
     wanted = REQUIREMENTS.read_text()
     if stamp.exists() and stamp.read_text() == wanted:
         return python
-    say(f"installing Open3D, FCPW and Matplotlib from PyPI (log: {LOG})")
+    say(f"installing Open3D, FCPW, Matplotlib, pygmo and NLopt from PyPI (log: {LOG})")
     shutil.rmtree(ENVIRONMENT, ignore_errors=True)
     pip = [python, "-m", "pip", "install", "--no-deps", "--require-hashes", "--only-binary", ":all:", "-r", REQUIREMENTS]
     if not logged(sys.executable, "-m", "venv", ENVIRONMENT):
@@ -91,8 +93,14 @@ def main():
         epilog="Other arguments go to the program, which then prints and writes no file; "
                f"{PROGRAM} --help lists them, and --benchmark_filter=REGEX is Google Benchmark's.")
     parser.add_argument("--quick", action="store_true", help="one round of the smallest case; print, write no file")
+    parser.add_argument("--search", action="store_true",
+                        help="measure the optimizer instead")
     arguments, others = parser.parse_known_args()
     LOG.unlink(missing_ok=True)
+    if arguments.search:
+        search_bench.main(others, install_peers())
+        return
+    search_section = search_bench.existing_section()
     if not arguments.quick:
         fetch_dragon()
     python = install_peers()
@@ -105,6 +113,8 @@ def main():
     if writing:
         command += ["--report", "docs/benchmarks.md", "--plots", CURVES]
     status = subprocess.run(command).returncode
+    if status == 0 and writing and search_section:
+        search_bench.put_section(search_section)
     if status == 0 and writing:
         if python:
             PLOTS.mkdir(exist_ok=True)

@@ -103,8 +103,11 @@ TEST(Genocop, EveryOriginAndOperatorOccurs) {
   run(benchmark::staircase(), settings, 55, count);
   settings.monotone_step = false;
   run(benchmark::staircase(), settings, 55, count);
+  settings.finish = false;
+  run(benchmark::staircase(), settings, 55, count);
   for (const OperatorEntry& entry : kOperators) EXPECT_GT(origins[std::string(entry.name)], 5);
-  for (const char* origin : {"start", "repair", "climb"}) EXPECT_GT(origins[origin], 0) << origin;
+  for (const char* origin : {"start", "repair", "climb", "linear_model", "finish"})
+    EXPECT_GT(origins[origin], 0) << origin;
 }
 
 TEST(Genocop, AnOperatorOfFrequencyZeroIsNotUsed) {
@@ -201,6 +204,7 @@ TEST(Genocop, BestIsTheBestFeasibleElseTheLeastViolating) {
   EXPECT_EQ(run(bench, settings, 60, observe)->evaluation.objective, least);
 
   double violation = 1e300;
+  bench.problem.nonlinear.clear();
   bench.evaluate = [](const Genes& g) { return Evaluation{true, -g[0], 1 + g[0] * g[1]}; };
   const auto best = run(bench, settings, 61, [&](const Genocop& search, const Candidate&, auto& e) {
     violation = std::min(violation, e.violation);
@@ -272,6 +276,117 @@ TEST(Genocop, AskAndTellInsistOnTheirOrder) {
   search.tell(1, {});
   search.tell(2, {});
   EXPECT_THROW(search.ask(), std::logic_error);  // 2 was told too early for candidate 3
+}
+
+// Every strategy changes what is asked when it is switched, and each setting gives the same bytes
+// twice.
+TEST(Genocop, EveryStrategyIsASwitchAndRepeatable) {
+  const auto trail = [](const BenchmarkProblem& bench, const Settings& settings) {
+    std::vector<Genes> genes;
+    run(bench, settings, 67,
+        [&](const Genocop&, const Candidate& c, const Evaluation&) { genes.push_back(c.genes); });
+    return genes;
+  };
+  BenchmarkProblem hard = benchmark::g10();  // nothing feasible among the starts
+  Settings base;
+  base.budget = 300;
+  const auto all = trail(hard, base);
+  EXPECT_EQ(all, trail(hard, base));
+  for (bool Settings::*strategy :
+       {&Settings::linear_model, &Settings::finish, &Settings::adaptive_frequencies,
+        &Settings::sobol_starts, &Settings::first_phase}) {
+    Settings settings = base;
+    settings.*strategy = false;
+    EXPECT_NE(trail(hard, settings), all);
+  }
+  Settings without = base;
+  without.monotone_step = false;
+  EXPECT_NE(trail(benchmark::staircase(), without), trail(benchmark::staircase(), base));
+}
+
+TEST(Genocop, TheOriginalUsesNothingElse) {
+  Settings settings = Settings::original();
+  settings.budget = 3000;
+  std::set<std::string> origins;
+  const auto best = run(benchmark::g09(), settings, 68,
+                        [&](const Genocop&, const Candidate& c, const Evaluation&) {
+                          origins.insert(std::string(c.origin));
+                        });
+  std::set<std::string> expected = {"start", "repair"};
+  for (const OperatorEntry& entry : kOperators) expected.insert(std::string(entry.name));
+  expected.erase("uniform_mutation");  // Genocop's, not among the ten
+  EXPECT_EQ(origins, expected);
+  EXPECT_TRUE(best->evaluation.feasible());
+}
+
+// Results of an earlier run enter for nothing: they are best from the first moment, never asked for
+// again, and the search goes on from them.
+TEST(Genocop, KnownResultsAreAWarmStart) {
+  BenchmarkProblem bench = benchmark::g04();
+  Settings settings;
+  settings.budget = 150;
+  std::set<Genes> seen;
+  const auto first =
+      run(bench, settings, 69, [&](const Genocop&, const Candidate& c, const Evaluation& e) {
+        bench.problem.known.emplace_back(c.genes, e);
+        seen.insert(c.genes);
+      });
+  const Genocop warm(bench.problem, settings, 70);
+  EXPECT_EQ(warm.best()->index, kKnownBefore);
+  EXPECT_EQ(warm.best()->genes, first->genes);
+  EXPECT_EQ(warm.asked(), 0u);
+  settings.budget = 60;
+  const auto best = run(bench, settings, 70, [&](const Genocop&, const Candidate& c, auto&&) {
+    EXPECT_FALSE(seen.contains(c.genes)) << "candidate " << c.index;
+  });
+  EXPECT_LE(best->evaluation.objective, first->evaluation.objective);
+
+  bench.problem.known = {{{0, 0, 0, 0, 0}, bench.evaluate({0, 0, 0, 0, 0})}};
+  EXPECT_THROW(Genocop(bench.problem, settings, 1), Error);
+}
+
+// Two methods with a parameter each: points that differ in the other method's parameter alone are
+// one, and one evaluation serves them.
+TEST(Genocop, ParametersOfAnotherMethodDoNotCount) {
+  using Kind = Gene::Kind;
+  BenchmarkProblem bench;
+  bench.problem.genes = {{"method", Kind::kCategorical, 0, 1},
+                         {"a", Kind::kInteger, 0, 4, Gene::Condition{0, 0}},
+                         {"b", Kind::kInteger, 0, 4, Gene::Condition{0, 1}}};
+  bench.evaluate = [](const Genes& g) { return Evaluation{true, g[0] == 0 ? 3 + g[1] : g[2], -1}; };
+  Settings settings;
+  settings.budget = 300;
+  std::set<std::pair<double, double>> effective;
+  int evaluations = 0;
+  const auto best = run(bench, settings, 71, [&](const Genocop&, const Candidate& c, auto&&) {
+    ++evaluations;
+    effective.emplace(c.genes[0], c.genes[0] == 0 ? c.genes[1] : c.genes[2]);
+  });
+  EXPECT_EQ(evaluations, 10);
+  EXPECT_EQ(effective.size(), 10u);
+  EXPECT_EQ(best->evaluation.objective, 0);
+}
+
+// The cache rounds: with a coarse resolution neighbours are one point.
+TEST(Genocop, NoTwoEvaluationsFallIntoOneCellOfTheCache) {
+  Settings settings;
+  settings.budget = 500;
+  settings.cache_resolution = 0.01;
+  std::set<std::pair<long, long>> cells;
+  int evaluations = 0;
+  const BenchmarkProblem bench = benchmark::g11();
+  run(bench, settings, 72, [&](const Genocop&, const Candidate& c, auto&&) {
+    ++evaluations;
+    const auto cell = [](double x) { return std::lround(std::floor((x + 1) / 0.02 + 0.5)); };
+    EXPECT_TRUE(cells.emplace(cell(c.genes[0]), cell(c.genes[1])).second);
+  });
+  EXPECT_GT(evaluations, 100);
+}
+
+TEST(Genocop, ConstraintValuesAreAskedForWhereTheProblemNamesThem) {
+  Genocop search(benchmark::g06().problem, {}, 73);
+  search.ask();
+  EXPECT_THROW(search.tell(0, {true, 1, -1}), std::logic_error);
 }
 
 TEST(Genocop, RefusesSettingsOutOfRange) {

@@ -132,6 +132,12 @@ TEST(LinearDomain, RefusesWhatHoldsNoPoint) {
   EXPECT_THROW(LinearDomain{p}, Error);
 }
 
+TEST(LinearDomain, RefusesCategoriesInLinearConstraints) {
+  Problem p = triangle();
+  p.genes[1] = {"method", Kind::kCategorical, 0, 3};
+  EXPECT_THROW(LinearDomain{p}, Error);
+}
+
 TEST(LinearDomain, AnEqualityThatFollowsFromOthersIsDropped) {
   Problem p = triangle();
   p.linear = {{{{0, 1.0}, {1, 1.0}}, Relation::kEqual, 1.0},

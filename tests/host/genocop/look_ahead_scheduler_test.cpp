@@ -94,6 +94,12 @@ TEST(LookAheadScheduler, ACandidateKnowsExactlyTheResultsUpToItsIndexMinusK) {
   settings.budget = 120;
   settings.look_ahead = 8;
   auto bench = benchmark::g07();
+  bench.problem.nonlinear
+      .clear();  // the greatest violation alone, so that a result is three numbers
+  bench.evaluate = [all = bench.evaluate](const Genes& genes) {
+    const Evaluation e = all(genes);
+    return Evaluation{e.evaluated_ok, e.objective, e.violation};
+  };
   const Trace before = simulate(bench, settings, 74, 3, 1);
   constexpr std::size_t kChanged = 40;
   const auto inner = bench.evaluate;

@@ -142,6 +142,7 @@ double median_gap(bool with_step) {
     Settings settings;
     settings.budget = 150;
     settings.monotone_step = with_step;
+    settings.linear_model = settings.finish = false;
     Genocop search(toy.problem, settings, seed);
     LookAheadScheduler scheduler(search, settings.budget);
     while (const auto candidate = scheduler.next()) {

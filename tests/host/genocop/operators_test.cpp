@@ -141,6 +141,27 @@ TEST(Operators, NonUniformAndGaussianStepsShrinkWithTheBudget) {
   EXPECT_NEAR(mean_step(gaussian_mutation, 0.5) / mean_step(gaussian_mutation, 1), 0.5, 0.05);
 }
 
+// Categories have no order: a child of several parents has one of theirs, a mutant any other.
+TEST(Operators, CategoriesAreTakenOrChangedNeverMixed) {
+  Problem p;
+  p.genes = {{"method", Gene::Kind::kCategorical, 0, 9}, {"x", Gene::Kind::kContinuous, 0, 1}};
+  const LinearDomain domain(p);
+  const std::vector<Genes> parents = {{2, 0.3}, {7, 0.8}, {2, 0.5}, {7, 0.1}};
+  for (const OperatorEntry& entry : kOperators) {
+    std::set<double> seen;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+      RandomStream random(31, i, RandomStream::Purpose::kTest);
+      const OperatorInput input{domain, std::span(parents).first(entry.parents)};
+      seen.insert(entry.apply(input, random)[0]);
+    }
+    if (entry.parents > 1) {
+      for (double category : seen) EXPECT_TRUE(category == 2 || category == 7) << entry.name;
+    } else {
+      EXPECT_EQ(seen.size(), 10u) << entry.name;
+    }
+  }
+}
+
 TEST(Operators, ManyParents) {
   const Box box;
   const std::vector<Genes> parents = {kP, kQ, {0, 0.3, 0.2, 0.5}, {-0.9, -0.8, -0.7, -0.6}};
