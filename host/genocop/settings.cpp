@@ -52,7 +52,7 @@ std::span<const SettingInfo> setting_infos() {
        "share of the offspring that is divided among the operators whatever their success"},
       {"sobol_starts", &S::sobol_starts, 0, 0,
        "first points from Sobol's sequence; without, a Latin hypercube"},
-      {"cache_resolution", &S::cache_resolution, 0, 0.01,
+      {"cache_resolution", &S::cache_resolution, 0, 0.5,
        "genes that differ by less than this share of their domain count as equal"},
   }};
   return infos;
