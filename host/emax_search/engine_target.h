@@ -43,9 +43,9 @@ enum class Strategy {
 };
 
 // What is known of a cloud's packets from the meshes before.
-struct Certified {
-  std::span<Certificate> certificates;  // of all packets
-  std::span<std::uint32_t> meshes;      // the number of the mesh each speaks of
+struct Settled {
+  std::span<SettledPacket> packets;  // of the cloud
+  std::span<std::uint32_t> meshes;   // the number of the mesh each speaks of
   std::span<const std::uint32_t>
       carried;                        // leaf of mesh `before` to the same triangle's, or kNoLeaf
   std::uint32_t now = 0, before = 0;  // numbers of meshes
@@ -58,7 +58,7 @@ struct SearchJob {
   RunningMaximum& worst;
   std::uint32_t enough;                // d^2 bits: a greater maximum ends the search
   std::vector<std::uint32_t>& raised;  // packets that raised the maximum are added
-  Certified certified;
+  Settled settled;
 };
 
 // The engine's inner loops for one kind of SIMD instructions. The same bits from every target.

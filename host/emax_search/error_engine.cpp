@@ -30,8 +30,8 @@ ErrorEngine::ErrorEngine(const PreparedCloud& cloud, EngineOptions options)
 
 void ErrorEngine::forget() {
   remembered_.clear();
-  certificates_.assign(cloud_.packets().packets.size(), {});
-  certified_meshes_.assign(certificates_.size(), 0);
+  settled_.assign(cloud_.packets().packets.size(), {});
+  settled_meshes_.assign(settled_.size(), 0);
   last_mesh_ = nullptr;
   carried_.clear();
   mesh_number_ = 0;
@@ -53,7 +53,7 @@ SearchJob ErrorEngine::job(const PreparedMesh& mesh, RunningMaximum& worst, std:
           worst,
           enough,
           raised,
-          {certificates_, certified_meshes_, carried_, mesh_number_, mesh_number_ - 1}};
+          {settled_, settled_meshes_, carried_, mesh_number_, mesh_number_ - 1}};
 }
 
 void ErrorEngine::in_supergroups(

@@ -61,8 +61,8 @@ class ErrorEngine {
   EngineOptions options_;
   const EngineTarget& target_;
   std::vector<std::uint32_t> remembered_;  // packets that were worst, the latest last
-  std::vector<Certificate> certificates_;  // of packets
-  std::vector<std::uint32_t> certified_meshes_;
+  std::vector<SettledPacket> settled_;     // of packets
+  std::vector<std::uint32_t> settled_meshes_;
   std::shared_ptr<const MeshLeaves> last_mesh_;
   std::vector<std::uint32_t> carried_;  // its leaves to those of the present one
   std::uint32_t mesh_number_ = 0;

@@ -29,9 +29,9 @@ HWY_INLINE float limit_of(const RunningMaximum& worst, const Packet& packet) {
 // Triangles that settle points of a packet, gathered without a branch. Who gathers keeps their
 // number, in a register.
 struct Witnesses {
-  // Each settles a point that was open, but for those of a certificate: kPacketPoints at most, and
+  // Each settles a point that was open, but for those known before: kPacketPoints at most, and
   // the place behind them.
-  static constexpr std::size_t kRoom = Certificate::kMost + kPacketPoints + 1;
+  static constexpr std::size_t kRoom = SettledPacket::kMost + kPacketPoints + 1;
   std::array<std::uint32_t, kRoom> leaves;
   std::array<std::uint16_t, kRoom> points;
 
@@ -41,29 +41,29 @@ struct Witnesses {
     points[count] = static_cast<std::uint16_t>(settled);
     return count + HWY_MIN(settled, 1u);  // not a branch that GCC would find
   }
-  // What is left where there were more than a certificate holds is searched again.
-  HWY_INLINE void certify(std::size_t count, float squared_limit, Certificate& certificate) {
-    for (std::size_t i = count; i < Certificate::kMost; ++i) points[i] = 0;
-    certificate.squared_limit = squared_limit;
-    std::copy_n(leaves.begin(), Certificate::kMost, certificate.leaves.begin());
-    std::copy_n(points.begin(), Certificate::kMost, certificate.points.begin());
+  // What is left where there were more than a settled packet holds is searched again.
+  HWY_INLINE void keep(std::size_t count, float squared_limit, SettledPacket& packet_before) {
+    for (std::size_t i = count; i < SettledPacket::kMost; ++i) points[i] = 0;
+    packet_before.squared_limit = squared_limit;
+    std::copy_n(leaves.begin(), SettledPacket::kMost, packet_before.leaves.begin());
+    std::copy_n(points.begin(), SettledPacket::kMost, packet_before.points.begin());
   }
 };
 
 // Points of packet i that an earlier mesh's triangles settle on this mesh, too.
-HWY_INLINE std::uint32_t still_settled(const Certified& certified, std::size_t i, float limit,
+HWY_INLINE std::uint32_t still_settled(const Settled& known, std::size_t i, float limit,
                                        Witnesses& witnesses, std::size_t& count) {
-  const Certificate& certificate = certified.certificates[i];
-  const bool is_now = certified.meshes[i] == certified.now;
-  if (!(certificate.squared_limit <= limit)) return 0;
-  if (!is_now && certified.meshes[i] != certified.before) return 0;
+  const SettledPacket& packet_before = known.packets[i];
+  const bool is_now = known.meshes[i] == known.now;
+  if (!(packet_before.squared_limit <= limit)) return 0;
+  if (!is_now && known.meshes[i] != known.before) return 0;
   std::uint32_t settled = 0;
-  for (std::size_t k = 0; k < Certificate::kMost && certificate.points[k] != 0; ++k) {
+  for (std::size_t k = 0; k < SettledPacket::kMost && packet_before.points[k] != 0; ++k) {
     const std::uint32_t leaf =
-        is_now ? certificate.leaves[k] : certified.carried[certificate.leaves[k]];
+        is_now ? packet_before.leaves[k] : known.carried[packet_before.leaves[k]];
     if (leaf == kNoLeaf) continue;
-    count = witnesses.add(count, leaf, certificate.points[k]);
-    settled |= certificate.points[k];
+    count = witnesses.add(count, leaf, packet_before.points[k]);
+    settled |= packet_before.points[k];
   }
   return settled;
 }
@@ -222,9 +222,9 @@ constexpr float kProven = 0.8f;  // of squares
       const Packet& packet = job.cloud.packets[i];
       const float limit = limit_of(job.worst, packet);
       std::size_t found = 0;
-      std::uint32_t open = kAll & ~still_settled(job.certified, i, limit, witnesses, found);
-      Certificate& certificate = job.certified.certificates[i];
-      const float before = open != kAll ? certificate.squared_limit : 0.0f;
+      std::uint32_t open = kAll & ~still_settled(job.settled, i, limit, witnesses, found);
+      SettledPacket& packet_before = job.settled.packets[i];
+      const float before = open != kAll ? packet_before.squared_limit : 0.0f;
       float proven = before;
       if (open != 0) {
         PacketLanes lanes(packet);
@@ -276,8 +276,8 @@ constexpr float kProven = 0.8f;  // of squares
         }
       }
       if (found != 0) hint = witnesses.leaves[found - 1];
-      witnesses.certify(found, proven, certificate);
-      job.certified.meshes[i] = job.certified.now;
+      witnesses.keep(found, proven, packet_before);
+      job.settled.meshes[i] = job.settled.now;
     }
   }
 }

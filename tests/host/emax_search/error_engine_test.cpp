@@ -53,13 +53,13 @@ struct BruteForce {
   EmaxResult worst;
 };
 
-struct Certificates {
-  explicit Certificates(const PacketView& packets)
-      : certificates(packets.packets.size()), meshes(packets.packets.size()) {}
-  Certified certified(std::span<const std::uint32_t> carried, std::uint32_t now) {
-    return {certificates, meshes, carried, now, now - 1};
+struct SettledPackets {
+  explicit SettledPackets(const PacketView& packets)
+      : settled(packets.packets.size()), meshes(packets.packets.size()) {}
+  Settled settled_on(std::span<const std::uint32_t> carried, std::uint32_t now) {
+    return {settled, meshes, carried, now, now - 1};
   }
-  std::vector<Certificate> certificates;
+  std::vector<SettledPacket> settled;
   std::vector<std::uint32_t> meshes;
 };
 
@@ -214,12 +214,13 @@ TEST(ErrorEngine, KeepsWhatStillHolds) {
   }
 }
 
-// Certificates of a mesh for another that lacks its triangles: what the test above would see.
+// What settled packets on a mesh, for another that lacks its triangles: what the test above would
+// see.
 TEST(ErrorEngine, FalselyCarriedTrianglesAreCaught) {
   test::Stimulus s = test::bumpy_sphere(40, 60, 20000, 79);
   const PreparedCloud cloud(s.cloud);
   const PacketView packets = cloud.packets();
-  Certificates certificates(packets);
+  SettledPackets settled(packets);
   std::vector<std::uint32_t> raised, carried(s.triangles.size());
   std::iota(carried.begin(), carried.end(), 0u);
   const auto search = [&](const PreparedMesh& mesh, std::uint32_t number) {
@@ -228,7 +229,7 @@ TEST(ErrorEngine, FalselyCarriedTrianglesAreCaught) {
     const ScopedFlushMode flush;
     engine_targets().front().search_supergroups(
         {packets, mesh.tree(), Strategy::kPackets, worst, std::numeric_limits<std::uint32_t>::max(),
-         raised, certificates.certified(carried, number)},
+         raised, settled.settled_on(carried, number)},
         0, packets.supergroups.size());
     return worst.get();
   };
@@ -285,14 +286,14 @@ TEST(ErrorEngine, TooWidePrismsAreCaught) {
     const PacketView packets = expected.cloud.packets();
     RunningMaximum worst;
     std::vector<std::uint32_t> raised;
-    Certificates none(packets);
+    SettledPackets none(packets);
     const SearchJob job = {packets,
                            {right.records, -1e4f, right.levels},
                            Strategy::kPackets,
                            worst,
                            std::numeric_limits<std::uint32_t>::max(),
                            raised,
-                           none.certified({}, 1)};
+                           none.settled_on({}, 1)};
     const std::uint32_t seed = 0;
     const ScopedFlushMode flush;
     engine_targets().front().search_packets(job, {&seed, 1});
