@@ -96,7 +96,11 @@ TEST(LinearStep, SolvesALinearProgramInOneStep) {
     }
     for (int grow = 0; grow < 6; ++grow) step.judge(true);
     Genes at = centre;
-    for (int i = 0; i < 6; ++i) at = *step.propose(at, linear_evaluation(p, at), random);
+    for (int i = 0; i < 6; ++i) {
+      const auto next = step.propose(at, linear_evaluation(p, at), random);
+      if (!next) break;  // nothing left to gain
+      at = *next;
+    }
     EXPECT_NEAR(at[0], best[0], 1e-7);
     EXPECT_NEAR(at[1], best[1], 1e-7);
     EXPECT_TRUE(domain.contains(at));
