@@ -45,7 +45,7 @@ bool normalize(std::span<const Point> vertices, const Normalization& normalizati
 // faces.
 void make_codes(std::span<const NormalizedVertex> vertices, std::span<const Triangle> triangles,
                 std::size_t first, std::size_t last, std::span<LeafKey> keys) {
-  constexpr double kReach = 1.0625, kScale = kCells / (6 * kReach), kShift = kCells / 2;
+  constexpr double kReach = 1.0625, kScale = kCells / (6 * kReach), kShift = kCells * 0.5;
   for (std::size_t i = first; i < last; ++i) {
     const Triangle& t = triangles[i];
     const auto& a = vertices[t[0]].at;
