@@ -35,8 +35,7 @@ class Run {
                                 ? constraint_.measure(mesh.view(), *device_, search_)
                                 : constraint_.measure(mesh.view(), settings_.interrupted);
       settings_.measured(mesh.view(), error);
-      const Evaluation evaluation = {true, static_cast<double>(mesh.triangles.size()),
-                                     error.violation};
+      Evaluation evaluation = {true, static_cast<double>(mesh.triangles.size()), error.violation};
       offer({completed.ticket, std::move(mesh), std::move(error), std::move(parameters),
              result.reconstruction_triangles, result.unmeshed_points});
       return evaluation;

@@ -28,10 +28,11 @@ TEST(Sobol, EveryDimensionHasOnePointInEachSlice) {
 // shape. A wrong direction number would put two into one.
 TEST(Sobol, TheFirstTwoDimensionsFillEveryBox) {
   for (int wide : {1, 2, 4, 8, 16, 32, 64}) {
+    const int high = 64 / wide;
     std::set<std::pair<int, int>> boxes;
     for (std::uint32_t i = 0; i < 64; ++i) {
       const auto p = sobol_point(6, i, 2);
-      boxes.emplace(static_cast<int>(p[0] * wide), static_cast<int>(p[1] * (64 / wide)));
+      boxes.emplace(static_cast<int>(p[0] * wide), static_cast<int>(p[1] * high));
     }
     EXPECT_EQ(boxes.size(), 64u) << wide;
   }
