@@ -51,7 +51,7 @@ class ErrorEngine {
  private:
   SearchJob job(const PreparedMesh& mesh, RunningMaximum& worst, std::uint32_t enough,
                 std::vector<std::uint32_t>& raised);
-  // Finds the last mesh's triangles in this one.
+  // Notes where the last mesh's triangles are in this one.
   void begin(const PreparedMesh& mesh);
   // work(thread, first, last) with flushing on.
   void in_supergroups(const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const;
@@ -63,9 +63,9 @@ class ErrorEngine {
   std::vector<std::uint32_t> remembered_;  // packets that were worst, the latest last
   std::vector<SettledPacket> settled_;     // of packets
   std::vector<std::uint32_t> settled_meshes_;
-  std::shared_ptr<const MeshLeaves> last_mesh_;
-  std::vector<std::uint32_t> carried_;  // its leaves to those of the present one
+  std::shared_ptr<const MeshLeaves> mesh_, mesh_before_;
   std::uint32_t mesh_number_ = 0;
+  std::vector<std::uint32_t> places_;  // of the mesh before, in the present one
 };
 
 }  // namespace emax

@@ -1,136 +1,45 @@
 #include "host/emax_search/mesh_leaves.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <bit>
-#include <cmath>
 #include <utility>
 
+#include "host/emax_search/curve_order.h"
 #include "host/emax_search/parallel.h"
-#include "sw_model/triangle_frame.h"
 
 namespace emax {
 namespace {
 
-constexpr std::uint32_t kCells = 1024;
-constexpr std::size_t kPiece = 4096;    // of what threads share
-constexpr std::size_t kMostInCell = 8;  // that are compared
-
-// Every third bit of ten.
-constexpr auto kSpread = [] {
-  std::array<std::uint32_t, kCells> table{};
-  for (std::uint32_t value = 0; value < kCells; ++value) {
-    for (std::uint32_t bit = 0; bit < 10; ++bit) table[value] |= (value >> bit & 1) << 3 * bit;
-  }
-  return table;
-}();
-
-// Whether all from `first` to `last` are in range.
-bool normalize(std::span<const Point> vertices, const Normalization& normalization,
-               std::size_t first, std::size_t last, std::span<NormalizedVertex> normalized) {
-  bool in_range = true;
-  for (std::size_t i = first; i < last; ++i) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double x = (vertices[i][axis] - normalization.origin[axis]) * normalization.scale;
-      in_range &= std::abs(x) <= kMaxNormalizedCoordinate;
-      normalized[i].at[static_cast<std::size_t>(axis)] = x;
-    }
-    normalized[i].at[3] = 0;
-  }
-  return in_range;
-}
-
-// Cells of a cube a little larger than the cloud's; what lies outside falls into the cells at its
-// faces.
-void make_codes(std::span<const NormalizedVertex> vertices, std::span<const Triangle> triangles,
-                std::size_t first, std::size_t last, std::span<LeafKey> keys) {
-  constexpr double kReach = 1.0625, kScale = kCells / (6 * kReach), kShift = kCells * 0.5;
-  for (std::size_t i = first; i < last; ++i) {
-    const Triangle& t = triangles[i];
-    const auto& a = vertices[t[0]].at;
-    const auto& b = vertices[t[1]].at;
-    const auto& c = vertices[t[2]].at;
-    const auto cell = [&](std::size_t axis) {
-      const double at = (a[axis] + b[axis] + c[axis]) * kScale + kShift;
-      return kSpread[static_cast<std::size_t>(
-          static_cast<std::int32_t>(std::max(0.0, std::min(kCells - 1.0, at))))];
-    };
-    keys[i] = {cell(0) << 2 | cell(1) << 1 | cell(2), static_cast<std::uint32_t>(i)};
-  }
-}
-
-// Stable, least significant digit first. The result is in `sorted`; both are overwritten.
-void radix_sort(std::span<LeafKey> keys, std::span<LeafKey> sorted) {
-  constexpr int kDigitBits = 10, kDigits = 3;
-  constexpr std::uint32_t kValues = 1u << kDigitBits;
-  static_assert(kDigits % 2 == 1, "the last pass ends in `sorted`");
-  const auto digit = [](const LeafKey& key, int d) {
-    return key.code >> (kDigitBits * d) & (kValues - 1);
-  };
-  std::array<std::array<std::uint32_t, kValues>, kDigits> starts{};
-  for (const LeafKey& key : keys) {
-    for (int d = 0; d < kDigits; ++d) ++starts[static_cast<std::size_t>(d)][digit(key, d)];
-  }
-  for (int d = 0; d < kDigits; ++d) {
-    auto& start = starts[static_cast<std::size_t>(d)];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& value : start) sum += std::exchange(value, sum);
-    for (const LeafKey& key : keys) sorted[start[digit(key, d)]++] = key;
-    std::swap(keys, sorted);
-  }
-}
+constexpr std::size_t kPiece = 4096;  // triangles
+static_assert(kPiece % kTreeWidth == 0);
 
 }  // namespace
 
-MeshLeaves::MeshLeaves(MeshView mesh, const Normalization& normalization, std::size_t threads)
-    : vertex_count_(mesh.vertices.size()),
-      leaf_count_(mesh.triangles.size()),
-      vertices_(std::make_unique_for_overwrite<NormalizedVertex[]>(vertex_count_)),
-      keys_(std::make_unique_for_overwrite<LeafKey[]>(leaf_count_)),
-      corners_(std::make_unique_for_overwrite<Triangle[]>(leaf_count_)) {
-  const std::span<NormalizedVertex> vertices(vertices_.get(), vertex_count_);
-  std::atomic<bool> in_range = true;
-  in_pieces(threads, vertex_count_, kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
-    if (!normalize(mesh.vertices, normalization, first, last, vertices)) in_range = false;
+MeshLeaves::MeshLeaves(MeshView mesh, const Normalization& normalization,
+                       const EngineTarget& target, std::size_t threads, std::span<BoxBlock> blocks)
+    : count_(mesh.triangles.size()) {
+  CurveOrder order(mesh, normalization, threads);
+  records_ = std::make_unique_for_overwrite<TriangleRecord<float>[]>(count_);
+  const std::span<TriangleRecord<float>> records(records_.get(), count_);
+  std::vector<float> reach((count_ + kPiece - 1) / kPiece);
+  in_pieces(threads, count_, kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
+    const std::size_t count = last - first;
+    reach[first / kPiece] = target.make_leaves(
+        order.vertices(), order.corners().subspan(first, count), order.keys().subspan(first, count),
+        records.subspan(first, count),
+        blocks.subspan(first / kTreeWidth, (count + kTreeWidth - 1) / kTreeWidth));
   });
-  if (!in_range) make_records(mesh, normalization);  // names the triangle, if it is one's
-
-  const auto memory = std::make_unique_for_overwrite<LeafKey[]>(leaf_count_);
-  const std::span<LeafKey> unsorted(memory.get(), leaf_count_);
-  in_pieces(threads, leaf_count_, kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
-    make_codes(vertices, mesh.triangles, first, last, unsorted);
-  });
-  radix_sort(unsorted, {keys_.get(), leaf_count_});
-  for (std::size_t i = 0; i < leaf_count_; ++i) corners_[i] = mesh.triangles[keys_[i].triangle];
+  reach_ = *std::ranges::max_element(reach);
+  keys_ = order.take_keys();
 }
 
-bool MeshLeaves::same_corners(std::size_t leaf, const MeshLeaves& now, std::size_t other) const {
-  std::uint64_t differences = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    using Bits = std::array<std::uint64_t, 4>;
-    const auto a = std::bit_cast<Bits>(vertices_[corners_[leaf][i]]);
-    const auto b = std::bit_cast<Bits>(now.vertices_[now.corners_[other][i]]);
-    for (std::size_t axis = 0; axis < 3; ++axis) differences |= a[axis] ^ b[axis];
+std::vector<std::uint32_t> MeshLeaves::places_in(const MeshLeaves& now) const {
+  std::vector<std::uint32_t> places(count_);
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    while (place < now.count_ && now.keys_[place].code < keys_[i].code) ++place;
+    places[i] = static_cast<std::uint32_t>(place);
   }
-  return differences == 0;
-}
-
-std::vector<std::uint32_t> MeshLeaves::carried_to(const MeshLeaves& now) const {
-  std::vector<std::uint32_t> carried(leaf_count_, kNoLeaf);
-  std::size_t cell = 0;  // the first of now's that does not come before this one
-  for (std::size_t i = 0; i < leaf_count_; ++i) {
-    const std::uint32_t code = keys_[i].code;
-    while (cell < now.leaf_count_ && now.keys_[cell].code < code) ++cell;
-    const std::size_t end = std::min(cell + kMostInCell, now.leaf_count_);
-    for (std::size_t j = cell; j < end && now.keys_[j].code == code; ++j) {
-      if (same_corners(i, now, j)) {
-        carried[i] = static_cast<std::uint32_t>(j);
-        break;
-      }
-    }
-  }
-  return carried;
+  return places;
 }
 
 }  // namespace emax

@@ -1,38 +1,38 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "host/emax_search/packets.h"
+#include "host/emax_search/engine_target.h"
 #include "sw_model/normalization.h"
 
 namespace emax {
 
-// A mesh's triangles in the order of the engine's tree, along a Morton curve of their middles, with
-// their corners as the frames read them. 20 bytes a triangle, 32 a vertex.
+// The leaves of the engine's tree: a mesh's records along a Morton curve of the triangles' middles.
+// 88 bytes a triangle; while they are made 12 more, and 32 a vertex.
 class MeshLeaves {
  public:
-  // Throws Error where a triangle has a vertex that is not finite or too far, as make_records does.
-  // O(n), the same with any number of threads.
-  MeshLeaves(MeshView mesh, const Normalization& normalization, std::size_t threads);
+  // `blocks`, one for each kTreeWidth triangles, become their boxes. Throws Error where a triangle
+  // has a vertex that is not finite or too far, as make_records does. O(n), the same with any
+  // number of threads.
+  MeshLeaves(MeshView mesh, const Normalization& normalization, const EngineTarget& target,
+             std::size_t threads, std::span<BoxBlock> blocks);
 
-  std::span<const NormalizedVertex> vertices() const { return {vertices_.get(), vertex_count_}; }
-  std::span<const LeafKey> keys() const { return {keys_.get(), leaf_count_}; }
-  std::span<const Triangle> corners() const { return {corners_.get(), leaf_count_}; }
+  // A record's tag holds the triangle's index in the mesh.
+  std::span<const TriangleRecord<float>> records() const { return {records_.get(), count_}; }
+  float reach() const { return reach_; }
+  std::size_t memory_bytes() const { return count_ * (sizeof keys_[0] + sizeof records_[0]); }
 
-  // For each leaf, one of `now` with the same corners in the same order, to the bit, or kNoLeaf.
-  // O(n); of triangles that share a cell of the curve only the first few are compared.
-  std::vector<std::uint32_t> carried_to(const MeshLeaves& now) const;
+  // Where this mesh's triangles are in `now`, if they are there: for each leaf, the first of now's
+  // in the same cell of the curve or behind it. O(n).
+  std::vector<std::uint32_t> places_in(const MeshLeaves& now) const;
 
  private:
-  bool same_corners(std::size_t leaf, const MeshLeaves& now, std::size_t other) const;
-
-  std::size_t vertex_count_, leaf_count_;
-  std::unique_ptr<NormalizedVertex[]> vertices_;
+  std::size_t count_;
   std::unique_ptr<LeafKey[]> keys_;
-  std::unique_ptr<Triangle[]> corners_;
+  std::unique_ptr<TriangleRecord<float>[]> records_;
+  float reach_ = 0;
 };
 
 }  // namespace emax

@@ -42,28 +42,29 @@ struct Witnesses {
     return count + HWY_MIN(settled, 1u);  // not a branch that GCC would find
   }
   // What is left where there were more than a settled packet holds is searched again.
-  HWY_INLINE void keep(std::size_t count, float squared_limit, SettledPacket& packet_before) {
+  HWY_INLINE void keep(std::size_t count, float squared_limit, SettledPacket& packet) {
     for (std::size_t i = count; i < SettledPacket::kMost; ++i) points[i] = 0;
-    packet_before.squared_limit = squared_limit;
-    std::copy_n(leaves.begin(), SettledPacket::kMost, packet_before.leaves.begin());
-    std::copy_n(points.begin(), SettledPacket::kMost, packet_before.points.begin());
+    packet.squared_limit = squared_limit;
+    std::copy_n(leaves.begin(), SettledPacket::kMost, packet.leaves.begin());
+    std::copy_n(points.begin(), SettledPacket::kMost, packet.points.begin());
   }
 };
 
 // Points of packet i that an earlier mesh's triangles settle on this mesh, too.
-HWY_INLINE std::uint32_t still_settled(const Settled& known, std::size_t i, float limit,
+HWY_INLINE std::uint32_t still_settled(const SearchJob& job, std::size_t i, float limit,
                                        Witnesses& witnesses, std::size_t& count) {
-  const SettledPacket& packet_before = known.packets[i];
+  const Settled& known = job.settled;
+  const SettledPacket& packet = known.packets[i];
   const bool is_now = known.meshes[i] == known.now;
-  if (!(packet_before.squared_limit <= limit)) return 0;
+  if (!(packet.squared_limit <= limit)) return 0;
   if (!is_now && known.meshes[i] != known.before) return 0;
   std::uint32_t settled = 0;
-  for (std::size_t k = 0; k < SettledPacket::kMost && packet_before.points[k] != 0; ++k) {
+  for (std::size_t k = 0; k < SettledPacket::kMost && packet.points[k] != 0; ++k) {
     const std::uint32_t leaf =
-        is_now ? packet_before.leaves[k] : known.carried[packet_before.leaves[k]];
+        is_now ? packet.leaves[k] : known.leaf_now(job.mesh, packet.leaves[k]);
     if (leaf == kNoLeaf) continue;
-    count = witnesses.add(count, leaf, packet_before.points[k]);
-    settled |= packet_before.points[k];
+    count = witnesses.add(count, leaf, packet.points[k]);
+    settled |= packet.points[k];
   }
   return settled;
 }
@@ -222,10 +223,10 @@ constexpr float kProven = 0.8f;  // of squares
       const Packet& packet = job.cloud.packets[i];
       const float limit = limit_of(job.worst, packet);
       std::size_t found = 0;
-      std::uint32_t open = kAll & ~still_settled(job.settled, i, limit, witnesses, found);
-      SettledPacket& packet_before = job.settled.packets[i];
-      const float before = open != kAll ? packet_before.squared_limit : 0.0f;
-      float proven = before;
+      std::uint32_t open = kAll & ~still_settled(job, i, limit, witnesses, found);
+      SettledPacket& settled = job.settled.packets[i];
+      const float proven_before = open != kAll ? settled.squared_limit : 0.0f;
+      float proven = proven_before;
       if (open != 0) {
         PacketLanes lanes(packet);
         if (in_packets++ == 0) {
@@ -251,7 +252,7 @@ constexpr float kProven = 0.8f;  // of squares
             open &= ~more;
           }
           inside_prisms += kPacketPoints - hwy::PopCount(open);
-          if (open == 0) proven = HWY_MAX(before, limit * kProven);
+          if (open == 0) proven = HWY_MAX(proven_before, limit * kProven);
         } else {
           lanes.meet(job.mesh.records[hint]);
           const std::uint32_t left = open & lanes.above(limit);
@@ -276,7 +277,7 @@ constexpr float kProven = 0.8f;  // of squares
         }
       }
       if (found != 0) hint = witnesses.leaves[found - 1];
-      witnesses.keep(found, proven, packet_before);
+      witnesses.keep(found, proven, settled);
       job.settled.meshes[i] = job.settled.now;
     }
   }

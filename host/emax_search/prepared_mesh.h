@@ -10,7 +10,7 @@ namespace emax {
 
 // A mesh as the engine needs it: records along a Morton curve and over them a tree of kTreeWidth
 // children a node, which is implicit: only boxes are stored. Made anew for every mesh, so it is
-// made fast: O(n), 126 bytes a triangle and 32 a vertex. The same bits with any number of threads.
+// made fast: O(n), 116 bytes a triangle. The same bits with any number of threads.
 class PreparedMesh {
  public:
   // Throws Error for no triangles, and as MeshLeaves does.
@@ -18,18 +18,15 @@ class PreparedMesh {
                const EngineTarget& target = engine_targets().front(), std::size_t threads = 1);
 
   // In the order of the leaves; a record's tag holds the triangle's index in the mesh.
-  std::span<const TriangleRecord<float>> records() const { return {records_.get(), triangles_}; }
-  TreeView tree() const { return {records(), reach_, levels_}; }
+  std::span<const TriangleRecord<float>> records() const { return leaves_->records(); }
+  TreeView tree() const { return {records(), leaves_->reach(), levels_}; }
   const std::shared_ptr<const MeshLeaves>& leaves() const { return leaves_; }
   std::size_t memory_bytes() const;
 
  private:
-  std::shared_ptr<const MeshLeaves> leaves_;
-  std::size_t triangles_;
-  std::unique_ptr<TriangleRecord<float>[]> records_;
-  float reach_ = 0;
   std::unique_ptr<BoxBlock[]> blocks_;
   std::vector<std::span<const BoxBlock>> levels_;
+  std::shared_ptr<const MeshLeaves> leaves_;
 };
 
 }  // namespace emax

@@ -56,8 +56,9 @@ struct BruteForce {
 struct SettledPackets {
   explicit SettledPackets(const PacketView& packets)
       : settled(packets.packets.size()), meshes(packets.packets.size()) {}
-  Settled settled_on(std::span<const std::uint32_t> carried, std::uint32_t now) {
-    return {settled, meshes, carried, now, now - 1};
+  Settled settled_on(std::uint32_t now, std::span<const TriangleRecord<float>> records_before = {},
+                     std::span<const std::uint32_t> places = {}) {
+    return {settled, meshes, now, now - 1, records_before, places};
   }
   std::vector<SettledPacket> settled;
   std::vector<std::uint32_t> meshes;
@@ -214,22 +215,22 @@ TEST(ErrorEngine, KeepsWhatStillHolds) {
   }
 }
 
-// What settled packets on a mesh, for another that lacks its triangles: what the test above would
+// A mesh that passes for the one before without having its triangles: what the test above would
 // see.
 TEST(ErrorEngine, FalselyCarriedTrianglesAreCaught) {
   test::Stimulus s = test::bumpy_sphere(40, 60, 20000, 79);
   const PreparedCloud cloud(s.cloud);
   const PacketView packets = cloud.packets();
   SettledPackets settled(packets);
-  std::vector<std::uint32_t> raised, carried(s.triangles.size());
-  std::iota(carried.begin(), carried.end(), 0u);
+  std::vector<std::uint32_t> raised, places(s.triangles.size());
+  std::iota(places.begin(), places.end(), 0u);
   const auto search = [&](const PreparedMesh& mesh, std::uint32_t number) {
     RunningMaximum worst;
     worst.raise({float_bits(1.0f), 0});
     const ScopedFlushMode flush;
     engine_targets().front().search_supergroups(
         {packets, mesh.tree(), Strategy::kPackets, worst, std::numeric_limits<std::uint32_t>::max(),
-         raised, settled.settled_on(carried, number)},
+         raised, settled.settled_on(number, mesh.records(), places)},
         0, packets.supergroups.size());
     return worst.get();
   };
@@ -293,7 +294,7 @@ TEST(ErrorEngine, TooWidePrismsAreCaught) {
                            worst,
                            std::numeric_limits<std::uint32_t>::max(),
                            raised,
-                           none.settled_on({}, 1)};
+                           none.settled_on(1)};
     const std::uint32_t seed = 0;
     const ScopedFlushMode flush;
     engine_targets().front().search_packets(job, {&seed, 1});

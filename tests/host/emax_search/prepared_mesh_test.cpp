@@ -55,40 +55,37 @@ TEST(PreparedMesh, IsTheSameFromAnyNumberOfThreads) {
   }
 }
 
-using Corners = std::array<Point, 3>;
-
-Corners corners_of(const MeshLeaves& leaves, std::size_t leaf, const MeshView& mesh) {
-  return mesh.corners(leaves.keys()[leaf].triangle);
-}
-
 // Against every pair.
-TEST(MeshLeaves, CarriesWhatHasTheSameCorners) {
+TEST(Settled, FindsTheTrianglesThatStayed) {
   test::Random random(81);
   const test::Stimulus before = test::bumpy_sphere(15, 20, 100, 81);
   test::Stimulus now = before;
   for (int i = 0; i < 30; ++i) {
-    now.vertices[pick(random, now.vertices.size())] += Point(0, 0, 1e-12);
+    now.vertices[pick(random, now.vertices.size())] += Point(0, 0, 1e-5);
   }
   std::ranges::reverse(now.triangles);
   for (std::size_t i = 0; i < now.triangles.size(); i += 7) {
     std::swap(now.triangles[i][0], now.triangles[i][1]);  // turned over: another triangle
   }
   const Normalization normalization = normalization_of(before.cloud);
-  const MeshLeaves old_leaves(before.mesh(), normalization, 1);
-  const MeshLeaves new_leaves(now.mesh(), normalization, 1);
-  const auto carried = old_leaves.carried_to(new_leaves);
-  ASSERT_EQ(carried.size(), before.triangles.size());
+  const PreparedMesh old_mesh(before.mesh(), normalization), new_mesh(now.mesh(), normalization);
+  const std::vector<std::uint32_t> places = old_mesh.leaves()->places_in(*new_mesh.leaves());
+  const Settled settled = {{}, {}, 2, 1, old_mesh.records(), places};
+  const auto corners_of = [](const TriangleRecord<float>& record, const test::Stimulus& s) {
+    return s.mesh().corners(record.tag & ~kSegmentFlag);
+  };
   std::size_t stayed = 0;
-  for (std::size_t i = 0; i < carried.size(); ++i) {
-    const Corners corners = corners_of(old_leaves, i, before.mesh());
+  for (std::uint32_t i = 0; i < before.triangles.size(); ++i) {
+    const auto corners = corners_of(old_mesh.records()[i], before);
     std::vector<std::uint32_t> same;
     for (std::uint32_t j = 0; j < now.triangles.size(); ++j) {
-      if (corners_of(new_leaves, j, now.mesh()) == corners) same.push_back(j);
+      if (corners_of(new_mesh.records()[j], now) == corners) same.push_back(j);
     }
+    const std::uint32_t leaf = settled.leaf_now(new_mesh.tree(), i);
     if (same.empty()) {
-      EXPECT_EQ(carried[i], kNoLeaf) << i;
+      EXPECT_EQ(leaf, kNoLeaf) << i;
     } else {
-      EXPECT_NE(std::ranges::find(same, carried[i]), same.end()) << i;
+      EXPECT_NE(std::ranges::find(same, leaf), same.end()) << i;
       ++stayed;
     }
   }
