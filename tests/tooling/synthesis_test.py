@@ -204,7 +204,8 @@ class DocumentTest(unittest.TestCase):
 class BitstreamTest(unittest.TestCase):
     def tried(self, clocks, at_once, target=120.0):
         route = lambda seed: {"seed": seed, "figures": {"fmax": clocks[seed - 1]}}
-        return [result["seed"] for result in bitstream.first_that_meets(route, len(clocks), at_once, target)]
+        seeds = range(1, len(clocks) + 1)
+        return [result["seed"] for result in bitstream.first_that_meets(route, seeds, at_once, target)]
 
     def test_seeds_are_tried_until_one_meets_the_clock(self):
         self.assertEqual(self.tried([110.0, 120.0, 130.0], 1), [1, 2])
