@@ -42,6 +42,7 @@ class ErrorEngine {
   // 0 < share <= 1, else std::invalid_argument.
   Quantile quantile(const PreparedMesh& mesh, double share);
 
+  const EngineTarget& target() const { return target_; }
   void interrupt_with(std::function<bool()> interrupted) {
     options_.interrupted = std::move(interrupted);
   }

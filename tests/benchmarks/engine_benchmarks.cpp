@@ -3,6 +3,7 @@
 #include <deque>
 #include <memory>
 
+#include "host/emax_search/mesh_batch.h"
 #include "tests/benchmarks/embree_peer.h"
 #include "tests/benchmarks/engine.h"
 #include "tests/benchmarks/groups.h"
@@ -13,6 +14,7 @@ namespace {
 struct Sequence {
   explicit Sequence(SequenceCase made) : given(std::move(made)), cloud(given.cloud), engine(cloud) {
     for (const TriangleMesh& mesh : given.meshes) {
+      views.push_back(mesh.view());
       meshes.push_back(std::make_unique<EngineMesh>(engine_mesh(mesh.view(), cloud)));
     }
   }
@@ -20,6 +22,7 @@ struct Sequence {
   SequenceCase given;
   PreparedCloud cloud;
   Engine engine;
+  std::vector<MeshView> views;
   std::vector<std::unique_ptr<EngineMesh>> meshes;
 };
 
@@ -69,6 +72,21 @@ Curve make_curve(Groups& groups, Curve curve, const std::string& text, double un
   return curve;
 }
 
+void add_batch_group(Groups& groups, const Sequence& s) {
+  Group& group =
+      groups.emplace_back("The same meshes as a batch, " + s.given.name, "ms a mesh", 1e3);
+  group.describe(
+      "Prepared and queried, a mesh a thread. By the clock on the wall, so that other work on the "
+      "machine shows.");
+  for (const std::size_t threads : {1u, 2u}) {
+    EngineOptions options;
+    options.threads = threads;
+    group.add(threads == 1 ? "one thread" : "two threads", static_cast<double>(s.views.size()),
+              repeat([&s, options] { return e_max_of_each(s.cloud, s.views, options).size(); }),
+              Group::Clock::kWall);
+  }
+}
+
 }  // namespace
 
 void add_sequence_groups(Groups& groups, const CaseFolders& folders, bool quick) {
@@ -110,6 +128,7 @@ void add_sequence_groups(Groups& groups, const CaseFolders& folders, bool quick)
                 }
                 return records;
               }));
+    add_batch_group(groups, s);
   }
 }
 
