@@ -58,7 +58,7 @@ class Finish {
   LocalModel fit(const std::vector<std::size_t>& chosen);
   void shrink(double factor);
 
-  LocalFrame frame_;
+  LocalSpace space_;
   bool running_ = false;
   double radius_ = 0;
   double penalty_ = 0;

@@ -18,29 +18,29 @@ constexpr double kLeastRadius = 0.01;  // then the search begins anew with the f
 
 LinearStep::LinearStep(const LinearDomain& domain, const Problem& problem,
                        std::vector<std::size_t> coordinates)
-    : frame_(domain, problem, std::move(coordinates)), radius_(kFirstRadius) {}
+    : space_(domain, problem, std::move(coordinates)), radius_(kFirstRadius) {}
 
 void LinearStep::told(const Genes& free, const Evaluation& evaluation) {
   if (!evaluation.evaluated_ok) return;
-  Point point{free, frame_.position(free), frame_.responses(evaluation)};
+  Point point{free, space_.position(free), space_.responses(evaluation)};
   if (point.responses.allFinite()) points_.push_back(std::move(point));
 }
 
 std::optional<Genes> LinearStep::propose(const Genes& centre, const Evaluation& evaluation,
                                          RandomStream& random) const {
-  const Vector at = frame_.position(centre);
+  const Vector at = space_.position(centre);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double distance = (points_[i].at - at).squaredNorm();
-    if (distance > 0 && frame_.same_rest(points_[i].free, centre)) order.emplace_back(distance, i);
+    if (distance > 0 && space_.same_rest(points_[i].free, centre)) order.emplace_back(distance, i);
   }
-  const auto n = static_cast<std::size_t>(frame_.size());
+  const auto n = static_cast<std::size_t>(space_.size());
   if (order.size() < n + 1) return std::nullopt;
   const std::size_t count = std::min(order.size(), 2 * n + 3);
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
   order.resize(count);
-  const Vector responses = frame_.responses(evaluation);
-  Matrix steps(static_cast<Eigen::Index>(count), frame_.size());
+  const Vector responses = space_.responses(evaluation);
+  Matrix steps(static_cast<Eigen::Index>(count), space_.size());
   Matrix values(static_cast<Eigen::Index>(count), responses.size());
   Vector weights(static_cast<Eigen::Index>(count));
   const double reach = order[count / 2].first;
@@ -54,9 +54,9 @@ std::optional<Genes> LinearStep::propose(const Genes& centre, const Evaluation& 
   const LocalModel model = fit_linear(steps, values, responses, weights);
   double penalty = 0;
   const double radius = radius_ * random.uniform(0.5, 1.5);
-  const LocalStep step = best_step(frame_, centre, model, radius, penalty);
+  const LocalStep step = best_step(space_, centre, model, radius, penalty);
   if (!(step.reduction > 0)) return std::nullopt;
-  return frame_.moved(centre, step.step);
+  return space_.moved(centre, step.step);
 }
 
 void LinearStep::judge(bool improved) {

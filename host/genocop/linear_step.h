@@ -34,7 +34,7 @@ class LinearStep {
     Eigen::VectorXd responses;
   };
 
-  LocalFrame frame_;
+  LocalSpace space_;
   std::vector<Point> points_;
   double radius_;
 };

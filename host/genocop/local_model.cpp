@@ -33,7 +33,7 @@ Matrix convex(const Matrix& symmetric) {
 
 }  // namespace
 
-LocalFrame::LocalFrame(const LinearDomain& domain, const Problem& problem,
+LocalSpace::LocalSpace(const LinearDomain& domain, const Problem& problem,
                        std::vector<std::size_t> coordinates)
     : domain_(domain),
       coordinates_(std::move(coordinates)),
@@ -49,7 +49,7 @@ LocalFrame::LocalFrame(const LinearDomain& domain, const Problem& problem,
   if (single_) constraints_.emplace_back();
 }
 
-Vector LocalFrame::position(const Genes& free) const {
+Vector LocalSpace::position(const Genes& free) const {
   Vector at(size());
   for (Eigen::Index i = 0; i < size(); ++i) {
     const std::size_t k = coordinates_[static_cast<std::size_t>(i)];
@@ -58,7 +58,7 @@ Vector LocalFrame::position(const Genes& free) const {
   return at;
 }
 
-Genes LocalFrame::moved(const Genes& centre, const Vector& step) const {
+Genes LocalSpace::moved(const Genes& centre, const Vector& step) const {
   constexpr double kSnap = 1e-10;  // of the width: an interior point method ends short of a bound
   Genes free = centre;
   for (Eigen::Index i = 0; i < size(); ++i) {
@@ -72,14 +72,14 @@ Genes LocalFrame::moved(const Genes& centre, const Vector& step) const {
   return domain_.pull_inside(free, centre);
 }
 
-bool LocalFrame::same_rest(const Genes& a, const Genes& b) const {
+bool LocalSpace::same_rest(const Genes& a, const Genes& b) const {
   for (std::size_t k = 0; k < is_rest_.size(); ++k) {
     if (is_rest_[k] && a[k] != b[k]) return false;
   }
   return true;
 }
 
-Vector LocalFrame::responses(const Evaluation& evaluation) const {
+Vector LocalSpace::responses(const Evaluation& evaluation) const {
   Vector result(1 + static_cast<Eigen::Index>(constraints_.size()));
   result[0] = evaluation.objective;
   for (std::size_t c = 0; c < constraints_.size(); ++c) {
@@ -89,7 +89,7 @@ Vector LocalFrame::responses(const Evaluation& evaluation) const {
   return result;
 }
 
-double LocalFrame::violation(const Vector& responses) const {
+double LocalSpace::violation(const Vector& responses) const {
   double worst = -HUGE_VAL;
   for (std::size_t c = 0; c < constraints_.size(); ++c) {
     worst = std::max(worst, constraints_[c].violation(responses[static_cast<Eigen::Index>(c) + 1]));
@@ -97,7 +97,7 @@ double LocalFrame::violation(const Vector& responses) const {
   return worst;
 }
 
-void LocalFrame::linear_rows(const Genes& centre, double radius, Matrix& rows,
+void LocalSpace::linear_rows(const Genes& centre, double radius, Matrix& rows,
                              Vector& bounds) const {
   const Eigen::Index n = size();
   const auto& given = domain_.rows();
@@ -185,20 +185,20 @@ LocalModel fit_quadratic(const Matrix& steps, const Matrix& values, const Vector
   return model;
 }
 
-LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalModel& model,
+LocalStep best_step(const LocalSpace& space, const Genes& centre, const LocalModel& model,
                     double radius, double& penalty) {
-  const Eigen::Index n = frame.size();
-  const auto nonlinear = static_cast<Eigen::Index>(row_count(frame.constraints()));
+  const Eigen::Index n = space.size();
+  const auto nonlinear = static_cast<Eigen::Index>(row_count(space.constraints()));
   Matrix linear_rows;
   Vector linear_bounds;
-  frame.linear_rows(centre, radius, linear_rows, linear_bounds);
+  space.linear_rows(centre, radius, linear_rows, linear_bounds);
   // In units of the radius, so that the solver's tolerances are relative to it.
   linear_bounds /= radius;
   constexpr double kInside = 1e-9;  // where rounding cannot make a step leave the linear domain
   linear_bounds.head(linear_bounds.size() - 2 * n).array() -= kInside;
 
   const auto merit = [&](const Vector& responses) {
-    return responses[0] + penalty * std::max(0.0, frame.violation(responses) + kMargin);
+    return responses[0] + penalty * std::max(0.0, space.violation(responses) + kMargin);
   };
   ConvexProgram program;
   program.rows.resize(nonlinear + linear_rows.rows(), n);
@@ -224,8 +224,8 @@ LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalMod
       if (!model.hessians.empty()) curvature += sign * multipliers[r] * model.hessians[c + 1];
       ++r;
     };
-    for (std::size_t c = 0; c < frame.constraints().size(); ++c) {
-      const NonlinearConstraint& constraint = frame.constraints()[c];
+    for (std::size_t c = 0; c < space.constraints().size(); ++c) {
+      const NonlinearConstraint& constraint = space.constraints()[c];
       add_row(1, c, constraint.tolerance);
       if (constraint.relation == Relation::kEqual) add_row(-1, c, constraint.tolerance);
     }
@@ -239,7 +239,7 @@ LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalMod
     ConvexSolution solution = solve(program);
 
     // The penalty must be worth it: most of what can be had of feasibility is taken.
-    const double now = std::max(0.0, frame.violation(responses));
+    const double now = std::max(0.0, space.violation(responses));
     if (solution.converged && solution.excess > kMargin) {
       ConvexProgram feasibility = program;
       feasibility.hessian.setZero();

@@ -13,9 +13,9 @@ namespace emax {
 
 // Some coordinates of the domain as a space of its own, each scaled by its gene's width; the other
 // coordinates stay as they are at the centre of a local search.
-class LocalFrame {
+class LocalSpace {
  public:
-  LocalFrame(const LinearDomain& domain, const Problem& problem,
+  LocalSpace(const LinearDomain& domain, const Problem& problem,
              std::vector<std::size_t> coordinates);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
@@ -73,7 +73,7 @@ struct LocalStep {
 // program for a linear model, a few steps of sequential quadratic programming on the model
 // otherwise. `penalty` is raised where the constraints need it (an exact penalty on the greatest
 // violation; Byrd, Nocedal & Waltz 2008).
-LocalStep best_step(const LocalFrame& frame, const Genes& centre, const LocalModel& model,
+LocalStep best_step(const LocalSpace& space, const Genes& centre, const LocalModel& model,
                     double radius, double& penalty);
 
 }  // namespace emax
