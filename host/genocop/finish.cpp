@@ -42,7 +42,7 @@ void Finish::stop() {
   centre_ = 0;
 }
 
-double Finish::merit(const Point& point) const {
+double Finish::merit(const LocalPoint& point) const {
   return point.responses[0] + penalty_ * std::max(0.0, point.violation);
 }
 
@@ -62,18 +62,13 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
   const auto found = std::find_if(trials_.begin(), trials_.end(),
                                   [&](const Trial& trial) { return trial.free == free; });
   const bool own = found != trials_.end();
-  const Point* added = nullptr;
-  if (evaluation.evaluated_ok && (points_.empty() || space_.same_rest(free, *centre()))) {
-    const Vector at = space_.position(free);
-    const bool near =
-        points_.empty() || (at - points_[centre_].at).cwiseAbs().maxCoeff() <= kNear * radius_;
-    if (own || near) {
-      Point point{free, at, space_.responses(evaluation), 0};
-      point.violation = space_.violation(point.responses);
-      if (point.responses.allFinite()) {
-        points_.push_back(std::move(point));
-        added = &points_.back();
-      }
+  const LocalPoint* added = nullptr;
+  if (points_.empty() || space_.same_rest(free, *centre())) {
+    std::optional<LocalPoint> point = space_.point(free, evaluation);
+    if (point && (own || points_.empty() ||
+                  (point->at - points_[centre_].at).cwiseAbs().maxCoeff() <= kNear * radius_)) {
+      points_.push_back(std::move(*point));
+      added = &points_.back();
     }
   }
   if (own) {
@@ -88,7 +83,7 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
   if (added != nullptr) choose_centre();
 }
 
-void Finish::judge_step(const Trial& trial, const Point* point) {
+void Finish::judge_step(const Trial& trial, const LocalPoint* point) {
   const double length = (trial.at - points_[centre_].at).cwiseAbs().maxCoeff();
   const double gained = point == nullptr ? -1 : merit(points_[centre_]) - merit(*point);
   const double ratio = gained / *trial.reduction;
@@ -177,12 +172,12 @@ Finish::Selection Finish::select() const {
 }
 
 LocalModel Finish::fit(const std::vector<std::size_t>& chosen) {
-  const Point& centre = points_[centre_];
+  const LocalPoint& centre = points_[centre_];
   const auto rows = static_cast<Eigen::Index>(chosen.size());
   Matrix steps(rows, space_.size());
   Matrix values(rows, centre.responses.size());
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Point& point = points_[chosen[static_cast<std::size_t>(i)]];
+    const LocalPoint& point = points_[chosen[static_cast<std::size_t>(i)]];
     steps.row(i) = (point.at - centre.at).transpose();
     values.row(i) = point.responses.transpose();
   }

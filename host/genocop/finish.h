@@ -35,12 +35,6 @@ class Finish {
   double radius() const { return radius_; }
 
  private:
-  struct Point {
-    Genes free;
-    Eigen::VectorXd at;
-    Eigen::VectorXd responses;
-    double violation;
-  };
   struct Trial {
     Genes free;
     Eigen::VectorXd at;
@@ -51,9 +45,9 @@ class Finish {
     std::optional<Genes> missing;     // a point that the models need
   };
 
-  double merit(const Point& point) const;
+  double merit(const LocalPoint& point) const;
   void choose_centre();
-  void judge_step(const Trial& trial, const Point* point);
+  void judge_step(const Trial& trial, const LocalPoint* point);
   Selection select() const;
   LocalModel fit(const std::vector<std::size_t>& chosen);
   void shrink(double factor);
@@ -62,7 +56,7 @@ class Finish {
   bool running_ = false;
   double radius_ = 0;
   double penalty_ = 0;
-  std::vector<Point> points_;
+  std::vector<LocalPoint> points_;
   std::size_t centre_ = 0;
   std::vector<Eigen::MatrixXd> hessians_;  // of the last models
   int failures_ = 0;                       // steps in a row that kept little of their promise

@@ -21,17 +21,16 @@ LinearStep::LinearStep(const LinearDomain& domain, const Problem& problem,
     : space_(domain, problem, std::move(coordinates)), radius_(kFirstRadius) {}
 
 void LinearStep::told(const Genes& free, const Evaluation& evaluation) {
-  if (!evaluation.evaluated_ok) return;
-  Point point{free, space_.position(free), space_.responses(evaluation)};
-  if (point.responses.allFinite()) points_.push_back(std::move(point));
+  if (auto point = space_.point(free, evaluation)) points_.push_back(std::move(*point));
 }
 
 std::optional<Genes> LinearStep::propose(const Genes& centre, const Evaluation& evaluation,
                                          RandomStream& random) const {
-  const Vector at = space_.position(centre);
+  const std::optional<LocalPoint> origin = space_.point(centre, evaluation);
+  if (!origin) return std::nullopt;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double distance = (points_[i].at - at).squaredNorm();
+    const double distance = (points_[i].at - origin->at).squaredNorm();
     if (distance > 0 && space_.same_rest(points_[i].free, centre)) order.emplace_back(distance, i);
   }
   const auto n = static_cast<std::size_t>(space_.size());
@@ -39,19 +38,18 @@ std::optional<Genes> LinearStep::propose(const Genes& centre, const Evaluation& 
   const std::size_t count = std::min(order.size(), 2 * n + 3);
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
   order.resize(count);
-  const Vector responses = space_.responses(evaluation);
   Matrix steps(static_cast<Eigen::Index>(count), space_.size());
-  Matrix values(static_cast<Eigen::Index>(count), responses.size());
+  Matrix values(static_cast<Eigen::Index>(count), origin->responses.size());
   Vector weights(static_cast<Eigen::Index>(count));
   const double reach = order[count / 2].first;
   for (std::size_t i = 0; i < count; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const Point& point = points_[order[i].second];
-    steps.row(row) = (point.at - at).transpose();
+    const LocalPoint& point = points_[order[i].second];
+    steps.row(row) = (point.at - origin->at).transpose();
     values.row(row) = point.responses.transpose();
     weights[row] = 1 / (reach + order[i].first);
   }
-  const LocalModel model = fit_linear(steps, values, responses, weights);
+  const LocalModel model = fit_linear(steps, values, origin->responses, weights);
   double penalty = 0;
   const double radius = radius_ * random.uniform(0.5, 1.5);
   const LocalStep step = best_step(space_, centre, model, radius, penalty);

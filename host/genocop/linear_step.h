@@ -28,14 +28,8 @@ class LinearStep {
   double radius() const { return radius_; }
 
  private:
-  struct Point {
-    Genes free;
-    Eigen::VectorXd at;
-    Eigen::VectorXd responses;
-  };
-
   LocalSpace space_;
-  std::vector<Point> points_;
+  std::vector<LocalPoint> points_;
   double radius_;
 };
 

@@ -79,14 +79,17 @@ bool LocalSpace::same_rest(const Genes& a, const Genes& b) const {
   return true;
 }
 
-Vector LocalSpace::responses(const Evaluation& evaluation) const {
-  Vector result(1 + static_cast<Eigen::Index>(constraints_.size()));
-  result[0] = evaluation.objective;
+std::optional<LocalPoint> LocalSpace::point(const Genes& free, const Evaluation& evaluation) const {
+  if (!evaluation.evaluated_ok) return std::nullopt;
+  Vector responses(1 + static_cast<Eigen::Index>(constraints_.size()));
+  responses[0] = evaluation.objective;
   for (std::size_t c = 0; c < constraints_.size(); ++c) {
-    result[static_cast<Eigen::Index>(c) + 1] =
+    responses[static_cast<Eigen::Index>(c) + 1] =
         single_ ? evaluation.violation : evaluation.constraints[c];
   }
-  return result;
+  if (!responses.allFinite()) return std::nullopt;
+  const double worst = violation(responses);
+  return LocalPoint{free, position(free), std::move(responses), worst};
 }
 
 double LocalSpace::violation(const Vector& responses) const {

@@ -11,6 +11,14 @@
 
 namespace emax {
 
+// An evaluated point as a local search sees it.
+struct LocalPoint {
+  Genes free;
+  Eigen::VectorXd at;
+  Eigen::VectorXd responses;
+  double violation;
+};
+
 // Some coordinates of the domain as a space of its own, each scaled by its gene's width; the other
 // coordinates stay as they are at the centre of a local search.
 class LocalSpace {
@@ -22,10 +30,10 @@ class LocalSpace {
   Eigen::VectorXd position(const Genes& free) const;
   Genes moved(const Genes& centre, const Eigen::VectorXd& step) const;  // pulled inside
   bool same_rest(const Genes& a, const Genes& b) const;
-
-  // Objective, then the values of the nonlinear constraints, or the violation where they are not
+  // Nothing where the evaluation failed or a response is not finite. The responses are the
+  // objective, then the values of the nonlinear constraints, or the violation where they are not
   // told one by one.
-  Eigen::VectorXd responses(const Evaluation& evaluation) const;
+  std::optional<LocalPoint> point(const Genes& free, const Evaluation& evaluation) const;
   double violation(const Eigen::VectorXd& responses) const;
 
   // Domain and linear constraints as rows * step <= bounds, within `radius` of the centre.
