@@ -187,8 +187,6 @@ LocalModel Finish::fit(const std::vector<std::size_t>& chosen) {
 }
 
 std::optional<Genes> Finish::propose() {
-  const bool step_in_flight = std::any_of(trials_.begin(), trials_.end(),
-                                          [](const Trial& trial) { return trial.reduction; });
   constexpr int kMostRounds = 100;
   for (int round = 0; running_; ++round) {
     if (round == kMostRounds) {
@@ -201,7 +199,7 @@ std::optional<Genes> Finish::propose() {
       next_ = Trial{*selection.missing, at, std::nullopt};
       return std::move(*selection.missing);
     }
-    if (step_in_flight || !trials_.empty()) return std::nullopt;
+    if (!trials_.empty()) return std::nullopt;
     if (selection.points.empty()) {
       running_ = false;
       break;

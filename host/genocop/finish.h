@@ -24,7 +24,8 @@ class Finish {
   bool running() const { return running_; }
   void stop();
 
-  // The next trial; none while one that decides is in flight, or when the search has ended.
+  // The next trial; none when the search has ended, or when the models lack no point but wait for
+  // one in flight.
   std::optional<Genes> propose();
   void asked(const Genes& free);  // what propose() gave is in flight
   // Any result, of a trial or not.
