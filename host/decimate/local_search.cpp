@@ -20,12 +20,34 @@ Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
   return t;
 }
 
+Point normal_of(const EditableMesh& mesh, std::uint32_t slot) {
+  const auto [p, q, r] = mesh.corners(slot);
+  return (q - p).cross(r - p).normalized();
+}
+
 }  // namespace
 
-void LocalSearch::take_triangles(const std::vector<std::uint32_t>& slots) {
+void LocalSearch::begin(std::uint32_t vertex, std::uint32_t other) {
+  vertex_ = vertex;
+  other_ = other;
+  sight_ = state_.sight(vertex);
+  removed_.clear();
+  added_.clear();
+  normals_.clear();
+}
+
+void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
+  Triangle t = rotated_to(state_.mesh().triangle(slot), corner);
+  t[0] = vertex_;
+  removed_.push_back(slot);
+  added_.push_back(t);
+  normals_.push_back(normal_of(state_.mesh(), slot));
+}
+
+void LocalSearch::take_points() {
   ids_.clear();
   points_.clear();
-  for (const std::uint32_t slot : slots) {
+  for (const std::uint32_t slot : removed_) {
     state_.assigned().for_each(slot, [&](std::uint32_t p) {
       ids_.push_back(p);
       points_.push_back(state_.point(p));
@@ -37,46 +59,24 @@ void LocalSearch::take_triangles(const std::vector<std::uint32_t>& slots) {
 bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
   const EditableMesh& mesh = state_.mesh();
   if (!mesh.collapsible(a, b)) return false;
-  vertex_ = a;
-  other_ = b;
-  sight_ = state_.sight(a);
-  removed_.clear();
-  added_.clear();
-  normals_.clear();
+  begin(a, b);
   const auto gone = mesh.slots_at_edge(a, b);
-  const auto take = [&](std::uint32_t slot, std::uint32_t from) {
-    if (slot == gone[0] || slot == gone[1]) return;
-    Triangle t = rotated_to(mesh.triangle(slot), from);
-    t[0] = a;
-    const auto [p, q, r] = mesh.corners(slot);
-    removed_.push_back(slot);
-    added_.push_back(t);
-    normals_.push_back((q - p).cross(r - p).normalized());
-  };
-  mesh.for_each_slot_at(a, [&](std::uint32_t slot) { take(slot, a); });
-  mesh.for_each_slot_at(b, [&](std::uint32_t slot) { take(slot, b); });
+  for (const std::uint32_t v : {a, b}) {
+    mesh.for_each_slot_at(v, [&](std::uint32_t slot) {
+      if (slot != gone[0] && slot != gone[1]) replace(slot, v);
+    });
+  }
   for (const std::uint32_t slot : gone) {
     if (slot != kNoIndex) removed_.push_back(slot);
   }
-  take_triangles(removed_);
+  take_points();
   return true;
 }
 
 bool LocalSearch::prepare_relocation(std::uint32_t vertex) {
-  const EditableMesh& mesh = state_.mesh();
-  vertex_ = vertex;
-  other_ = kNoIndex;
-  sight_ = state_.sight(vertex);
-  removed_.clear();
-  added_.clear();
-  normals_.clear();
-  mesh.for_each_slot_at(vertex, [&](std::uint32_t slot) {
-    const auto [p, q, r] = mesh.corners(slot);
-    removed_.push_back(slot);
-    added_.push_back(rotated_to(mesh.triangle(slot), vertex));
-    normals_.push_back((q - p).cross(r - p).normalized());
-  });
-  take_triangles(removed_);
+  begin(vertex, kNoIndex);
+  state_.mesh().for_each_slot_at(vertex, [&](std::uint32_t slot) { replace(slot, vertex); });
+  take_points();
   return !removed_.empty();
 }
 
@@ -94,15 +94,9 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   vertex_ = other_ = kNoIndex;
   removed_.assign({first, second});
   added_.assign({{a, d, c}, {d, b, c}});
-  normals_.clear();
-  for (const std::uint32_t slot : removed_) {
-    const auto [p, q, r] = mesh.corners(slot);
-    normals_.push_back((q - p).cross(r - p).normalized());
-  }
   // Either new triangle replaces a part of both: judged by the mean.
-  const Point mean = (normals_[0] + normals_[1]).normalized();
-  normals_.assign(2, mean);
-  take_triangles(removed_);
+  normals_.assign(2, (normal_of(mesh, first) + normal_of(mesh, second)).normalized());
+  take_points();
   return true;
 }
 

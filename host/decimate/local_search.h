@@ -54,7 +54,9 @@ class LocalSearch {
   bool fine() const { return ids_.size() < 3 * added_.size(); }
 
  private:
-  void take_triangles(const std::vector<std::uint32_t>& slots);
+  void begin(std::uint32_t vertex, std::uint32_t other);
+  void replace(std::uint32_t slot, std::uint32_t corner);  // which becomes the moving vertex
+  void take_points();
   bool shape(const Point& position);
   Fit measured(const Point& position, int power);
   bool step(const Options& options, Fit& at) const;
