@@ -13,6 +13,10 @@ double farthest(const std::array<Point, 3>& corners, const ExactMesh& reference)
   return surface_distance({corners, one}, reference).upper / 1.01;
 }
 
+const Point& any_vertex(const TriangleMesh& mesh, Random& random) {
+  return mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+}
+
 class BackBoundTwin : public testing::Test {
  protected:
   // Whether what is proven is so, and how much that is so is proven.
@@ -42,8 +46,7 @@ TEST_F(BackBoundTwin, TrianglesOfTheReferencesOwnVertices) {
   for (const TriangleMesh& mesh : references()) {
     std::vector<std::array<Point, 3>> triangles;
     for (int i = 0; i < 400; ++i) {
-      const Point& a =
-          mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+      const Point& a = any_vertex(mesh, random);
       std::vector<Point> near;
       const double reach = random.uniform(0.1, 0.8);
       for (const Point& p : mesh.vertices) {
@@ -66,8 +69,7 @@ TEST_F(BackBoundTwin, TrianglesNearTheReference) {
   for (const TriangleMesh& mesh : references()) {
     std::vector<std::array<Point, 3>> triangles;
     for (int i = 0; i < 400; ++i) {
-      const Point& a =
-          mesh.vertices[random.below(static_cast<std::uint32_t>(mesh.vertices.size()))];
+      const Point& a = any_vertex(mesh, random);
       const double size = random.uniform(0.02, 0.4);
       triangles.push_back({a + 0.01 * random.point(-1, 1), a + size * random.point(-1, 1),
                            a + size * random.point(-1, 1)});
