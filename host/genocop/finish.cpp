@@ -30,7 +30,7 @@ void Finish::start(const Genes& free, const Evaluation& evaluation, double radiu
   penalty_ = 0;
   failures_ = 0;
   told(free, evaluation);
-  centre_ = 0;
+  running_ = !points_.empty();
 }
 
 void Finish::stop() {

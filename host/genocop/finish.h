@@ -19,7 +19,7 @@ class Finish {
   // `coordinates`: continuous and movable ones of the domain, at least one.
   Finish(const LinearDomain& domain, const Problem& problem, std::vector<std::size_t> coordinates);
 
-  // `known` are evaluated points that may serve the first models.
+  // Runs unless the evaluation is one that no model can start from (LocalSpace::point).
   void start(const Genes& free, const Evaluation& evaluation, double radius);
   bool running() const { return running_; }
   void stop();

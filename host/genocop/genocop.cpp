@@ -13,7 +13,7 @@
 namespace emax {
 namespace {
 
-void check(const Settings& settings) {
+const Settings& checked(const Settings& settings) {
   const auto check_number = [](const SettingInfo& info, double value) {
     if (value >= info.least && value <= info.greatest) return;
     throw Error(fmt::format("search setting {} is {}: it must be {} to {}", info.name, value,
@@ -34,6 +34,19 @@ void check(const Settings& settings) {
   if (!(sum > 0) || !std::isfinite(sum)) {
     throw Error("operator frequencies: give at least one operator a frequency above 0");
   }
+  return settings;
+}
+
+// Numbers that say nothing are those of a failed evaluation.
+Evaluation checked(Evaluation evaluation) {
+  if (!std::isfinite(evaluation.objective) || std::isnan(evaluation.violation)) {
+    evaluation.evaluated_ok = false;
+  }
+  return evaluation;
+}
+
+bool fits(const Evaluation& evaluation, const Problem& problem) {
+  return !evaluation.evaluated_ok || evaluation.constraints.size() == problem.nonlinear.size();
 }
 
 // The movable coordinates of continuous and, if wanted, integer genes.
@@ -51,12 +64,12 @@ std::vector<std::size_t> coordinates(const LinearDomain& domain, bool whole_ones
 }  // namespace
 
 Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
-    : settings_(settings),
+    : settings_(checked(settings)),
       seed_(seed),
       problem_(std::move(problem)),
       domain_(problem_),
-      frequencies_((check(settings), settings.operator_frequencies),
-                   settings.adaptive_frequencies ? settings.frequency_floor : 0) {
+      frequencies_(settings_.operator_frequencies,
+                   settings_.adaptive_frequencies ? settings_.frequency_floor : 0) {
   if (problem_.monotone_gene && settings_.monotone_step) {
     const std::size_t k = domain_.coordinate(*problem_.monotone_gene);
     monotone_.emplace(domain_, k, settings_);
@@ -75,11 +88,17 @@ Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
 // Earlier results enter as if told, in their order.
 void Genocop::take_known() {
   for (std::size_t i = 0; i < problem_.known.size(); ++i) {
-    const auto& [genes, evaluation] = problem_.known[i];
+    const Genes& genes = problem_.known[i].first;
+    const Evaluation evaluation = checked(problem_.known[i].second);
     const Genes free = genes.size() == problem_.genes.size() ? domain_.reduce(genes) : Genes{};
     if (free.size() != domain_.size() || !domain_.contains(free)) {
       throw Error(fmt::format(
           "known result {}: outside a domain or a linear constraint; leave it out", i + 1));
+    }
+    if (!fits(evaluation, problem_)) {
+      throw Error(
+          fmt::format("known result {}: {} constraint values, the problem has {}; leave it out",
+                      i + 1, evaluation.constraints.size(), problem_.nonlinear.size()));
     }
     if (!known_.try_emplace(cache_key(free), evaluation).second) continue;
     learn(free, evaluation);
@@ -117,10 +136,8 @@ void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
   if (index != told_ || index >= asked()) {
     throw std::logic_error(fmt::format("result {} told where {} is next", index, told_));
   }
-  if (!std::isfinite(evaluation.objective) || std::isnan(evaluation.violation)) {
-    evaluation.evaluated_ok = false;
-  }
-  if (evaluation.evaluated_ok && evaluation.constraints.size() != problem_.nonlinear.size()) {
+  evaluation = checked(std::move(evaluation));
+  if (!fits(evaluation, problem_)) {
     throw std::logic_error(fmt::format("result {} has {} constraint values, the problem {}", index,
                                        evaluation.constraints.size(), problem_.nonlinear.size()));
   }

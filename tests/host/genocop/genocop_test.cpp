@@ -345,6 +345,28 @@ TEST(Genocop, KnownResultsAreAWarmStart) {
   EXPECT_THROW(Genocop(bench.problem, settings, 1), Error);
 }
 
+TEST(Genocop, KnownResultsAreCheckedLikeThoseThatAreTold) {
+  BenchmarkProblem bench = benchmark::g04();
+  const Genes genes = LinearDomain(bench.problem).inside();
+  Evaluation evaluation = bench.evaluate(genes);
+  evaluation.objective = -HUGE_VAL;
+  bench.problem.known = {{genes, evaluation}};
+  EXPECT_FALSE(Genocop(bench.problem, {}, 1).best());
+  bench.problem.known = {{genes, {true, 1, -1}}};  // no value of a constraint
+  EXPECT_THROW(Genocop(bench.problem, {}, 1), Error);
+}
+
+// Nothing can be modelled there, so no local search starts.
+TEST(Genocop, ViolationsMayBeInfinite) {
+  BenchmarkProblem bench;
+  bench.problem.genes = benchmark::continuous_genes(2, 0, 1);
+  bench.evaluate = [](const Genes& g) { return Evaluation{true, g[0], HUGE_VAL}; };
+  Settings settings;
+  settings.budget = 60;
+  const auto best = run(bench, settings, 74);
+  EXPECT_EQ(best->evaluation.violation, HUGE_VAL);
+}
+
 // Two methods with a parameter each: points that differ in the other method's parameter alone are
 // one, and one evaluation serves them.
 TEST(Genocop, ParametersOfAnotherMethodDoNotCount) {
