@@ -33,7 +33,9 @@ Genes RepairChain::next(const LinearDomain& domain, RandomStream& random) {
   }
   Genes point(search_.size());
   for (std::size_t k = 0; k < point.size(); ++k) {
-    point[k] = share_ * search_[k] + (1 - share_) * reference_[k];
+    const bool ordered = domain.gene(k).kind != Gene::Kind::kCategorical;
+    const double share = ordered ? share_ : share_ > 0.5 ? 1 : 0;
+    point[k] = share * search_[k] + (1 - share) * reference_[k];
   }
   return domain.pull_inside(point, reference_);
 }

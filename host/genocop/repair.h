@@ -10,7 +10,8 @@
 namespace emax {
 
 // The repair of one infeasible search point s towards a feasible reference point r: trials
-// z = a s + (1-a) r (Michalewicz & Nazhiyath 1995), one after another, until one is feasible.
+// z = a s + (1-a) r (Michalewicz & Nazhiyath 1995), one after another, until one is feasible. A
+// category is that of the nearer one.
 class RepairChain {
  public:
   RepairChain(RepairMethod method, Genes search, double search_violation, Genes reference,

@@ -75,6 +75,19 @@ TEST(Repair, AFailedTrialMovesTowardsTheReference) {
   EXPECT_LT(second, first);
 }
 
+// From category 7 towards 2: no trial has one between them.
+TEST(Repair, CategoriesAreThoseOfTheEnds) {
+  Problem p;
+  p.genes = {{"method", Gene::Kind::kCategorical, 0, 9}, {"x", Gene::Kind::kContinuous, 0, 1}};
+  const LinearDomain domain(p);
+  RepairChain chain(RepairMethod::kRandom, {7, 1}, 1, {2, 0}, -1);
+  RandomStream random(45, 0, RandomStream::Purpose::kTest);
+  for (int i = 0; i < 100; ++i) {
+    const Genes point = chain.next(domain, random);
+    EXPECT_EQ(point[0], point[1] > 0.5 ? 7 : 2);
+  }
+}
+
 TEST(Repair, TrialsStayInsideDomainAndLinearConstraints) {
   constexpr std::uint64_t kSeed = 43;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
