@@ -136,6 +136,8 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
   ++search_;
   front_.assign(1, start);
   seen_[start] = search_;
+  sheet_.clear();
+  bool ends = false;
   double covered = 0, worst = 0;
   while (!front_.empty()) {
     const std::uint32_t t = front_.back();
@@ -167,34 +169,68 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
       }
       part_.swap(clipped_);
     }
+    if (part_.empty()) continue;
     double overlap = 0;
     for (std::size_t i = 2; i < part_.size(); ++i) {
       overlap += 0.5 * ((part_[i - 1].y - part_[0].y) * (part_[i].z - part_[0].z) -
                         (part_[i - 1].z - part_[0].z) * (part_[i].y - part_[0].y));
     }
-    // What only touches T says nothing of it, whichever way it faces.
-    if (std::abs(overlap) < kTouch * plane.area) continue;
     const double u = r[1].y - r[0].y, v = r[1].z - r[0].z;
     const double x = r[2].y - r[0].y, y = r[2].z - r[0].z;
     const double area = u * y - v * x;
-    // Over a ridge of the reference the sheet ends.
-    if (!(area > kSteep * (u * u + v * v + x * x + y * y))) continue;
+    // What only touches T says nothing of it, whichever way it faces; over a ridge the sheet ends.
+    if (std::abs(overlap) < kTouch * plane.area ||
+        !(area > kSteep * (u * u + v * v + x * x + y * y))) {
+      ends = true;
+      continue;
+    }
+    sheet_.push_back(r);
     covered += overlap;
     worst = std::max(worst, part_distance(plane, part_, t));
     if (!(worst <= limit_)) return Sheet::kBeyond;
     for (std::size_t i = 0; i < 3; ++i) {
       if ((beyond[i] & beyond[(i + 1) % 3]) != 0) continue;
       const std::uint32_t next = neighbours_[t][i];
+      ends = ends || next == kNoIndex;
       if (next == kNoIndex || seen_[next] == search_) continue;
       seen_[next] = search_;
       front_.push_back(next);
     }
   }
+  if (sheet_.empty() || (ends && covers_itself())) return Sheet::kNoSheet;
   // The rest of T is no farther from what is covered than the radius of the greatest sector of a
   // disc about it, in T, that the uncovered area could fill.
   const double rest = std::max(plane.area - covered, 0.0) + kRoundings * plane.area;
   const double reach = std::sqrt(2 * rest / plane.least_angle());
   return worst + reach <= limit_ ? Sheet::kWithin : Sheet::kNoSheet;
+}
+
+// Whether two triangles of the sheet overlap in the projection. Those with a common vertex have
+// the same numbers for it, so what only touches is told exactly.
+bool BackBound::covers_itself() const {
+  using Shape = std::array<Corner, 3>;
+  const auto separates = [](const Shape& s, const Shape& t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner &a = s[i], &b = s[(i + 1) % 3];
+      if (std::all_of(t.begin(), t.end(), [&](const Corner& c) {
+            return (b.y - a.y) * (c.z - a.z) <= (b.z - a.z) * (c.y - a.y);
+          })) {
+        return true;
+      }
+    }
+    return false;
+  };
+  const auto left = [](const Shape& s) { return std::min({s[0].y, s[1].y, s[2].y}); };
+  std::sort(sheet_.begin(), sheet_.end(),
+            [&](const Shape& s, const Shape& t) { return left(s) < left(t); });
+  for (std::size_t i = 0; i < sheet_.size(); ++i) {
+    const Shape& s = sheet_[i];
+    const double right = std::max({s[0].y, s[1].y, s[2].y});
+    for (std::size_t j = i + 1; j < sheet_.size() && left(sheet_[j]) < right; ++j) {
+      if (!separates(s, sheet_[j]) && !separates(sheet_[j], s)) return true;
+    }
+  }
+  return false;
 }
 
 // At most the limit, or infinite.

@@ -16,12 +16,13 @@ namespace emax {
 // under the middle of T the sheet is followed through its edges as far as it overlaps T in T's
 // projection and faces the same way. The distance to one triangle of the reference is convex, so
 // the part of T that is covered by it is as near as the farthest corner of that part. Where the
-// areas of the parts add up to that of T, all of T is covered; what is left at ridges and borders
-// of the reference is as near as its area allows it to be from the rest. Parts beyond the limit,
-// and all of T where that does not do, are halved until each is within the limit of one triangle of
-// the reference.
+// sheet does not end over T, all of T is covered. At ridges and borders of the reference the parts
+// must not cover each other, as they do at a pleat or along a ramp; then what their areas leave of
+// T is as near as it allows to be from the rest. Parts beyond the limit, and all of T where that
+// does not do, are halved until each is within the limit of one triangle of the reference.
 //
-// O(triangles of the reference over T). Not for concurrent use.
+// O(triangles of the reference over T), their square at worst where it ends. Not for concurrent
+// use.
 class BackBound {
  public:
   // `reference` is manifold, consistently oriented and without degenerate triangles.
@@ -52,6 +53,7 @@ class BackBound {
 
   Sheet follow_sheet(const Plane& plane, std::uint32_t near) const;
   std::uint32_t under_centroid(const Plane& plane, std::uint32_t from) const;
+  bool covers_itself() const;
   double part_distance(const Plane& plane, const std::vector<Corner>& part,
                        std::uint32_t triangle) const;
   bool halve(const std::array<Point, 3>& corners) const;
@@ -65,6 +67,7 @@ class BackBound {
   mutable std::uint32_t search_ = 0;
   mutable std::vector<std::uint32_t> front_;
   mutable std::vector<Corner> part_, clipped_;
+  mutable std::vector<std::array<Corner, 3>> sheet_;  // what was followed
   mutable std::vector<std::array<Point, 3>> pieces_;
   mutable int budget_ = 0;
 };

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "surfaces.h"
 #include "sw_model/surface_distance.h"
 
@@ -80,6 +83,32 @@ TEST_F(BackBoundTwin, TrianglesNearTheReference) {
   EXPECT_GT(beyond_, 500u);
   EXPECT_GT(within_, 200u);
   EXPECT_GT(proven_, within_ * 8 / 10);
+}
+
+// Three turns of a ramp between two circles, all within the limit of the plane.
+TriangleMesh ramp(const Point& centre, double inner, double outer) {
+  constexpr std::uint32_t kSteps = 72;
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i <= kSteps; ++i) {
+    const double angle = i * std::numbers::pi / 12, height = 0.04 * i / kSteps - 0.02;
+    for (const double radius : {inner, outer}) {
+      mesh.vertices.push_back(centre +
+                              Point(radius * std::cos(angle), radius * std::sin(angle), height));
+    }
+  }
+  for (std::uint32_t v = 0; v < 2 * kSteps; v += 2) {
+    mesh.triangles.push_back({v, v + 1, v + 3});
+    mesh.triangles.push_back({v, v + 3, v + 2});
+  }
+  return mesh;
+}
+
+// What is covered three times makes up in area for what is not covered at all.
+TEST_F(BackBoundTwin, ASheetThatCoversItselfDoesNotCoverTheRest) {
+  const std::vector<std::array<Point, 3>> triangle = {
+      {Point(0, 0, 0), Point(-0.78, -0.45, 0), Point(0.78, -0.45, 0)}};
+  compare(ramp({0, -0.23, 0}, 0.03, 0.2), 0.05, triangle);
+  EXPECT_EQ(beyond_, 1u);
 }
 
 // Far from everything, out of sight of the hint.
