@@ -27,7 +27,8 @@ struct Quantile {
 // (docs/numerics.md): the kernel's d^2, whatever is culled, hinted at or remembered, with any
 // number of threads. A mesh is prepared with the cloud's normalization. An engine serves one
 // caller at a time. What settled 16 points on one mesh is kept, 4 bytes a point, and settles them
-// on the next if that has the same triangles. O(n log m) in practice for n points and m triangles.
+// on the next if that has the same triangles; for that the engine holds the last two meshes'
+// records (MeshLeaves). O(n log m) in practice for n points and m triangles.
 class ErrorEngine {
  public:
   // The cloud must outlive the engine. Throws std::invalid_argument for no threads.

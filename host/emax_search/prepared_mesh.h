@@ -10,7 +10,7 @@ namespace emax {
 
 // A mesh as the engine needs it: records along a Morton curve and over them a tree of kTreeWidth
 // children a node, which is implicit: only boxes are stored. Made anew for every mesh, so it is
-// made fast: O(n), 116 bytes a triangle. The same bits with any number of threads.
+// made fast: O(n), 114 bytes a triangle. The same bits with any number of threads.
 class PreparedMesh {
  public:
   // Throws Error for no triangles, and as MeshLeaves does.
