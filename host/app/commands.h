@@ -24,6 +24,21 @@ struct OptimizeOptions {
 };
 int run_optimize(const OptimizeOptions& options);
 
+struct DecimateOptions {
+  std::string mesh;
+  std::string cloud;  // empty: the mesh's own vertices, and all of its surface
+  std::string max_error;
+  std::string back_error;  // empty: max_error
+  std::string output;
+  std::string effort = "normal";  // or quick, deep
+  std::string json;
+  std::string excluded_share = "0";
+  std::optional<double> seconds;
+  bool two_sided = true;
+  bool skip_invalid = false;
+};
+int run_decimate(const DecimateOptions& options);
+
 struct ErrorOptions {
   CommonOptions common;
   std::string mesh;
@@ -38,7 +53,7 @@ int run_error(const ErrorOptions& options);
 
 struct VerifyOptions {
   std::string certificate;
-  std::string cloud, mesh;  // empty: looked for by the names in the certificate
+  std::string cloud, mesh, reference;  // empty: looked for by the names in the certificate
 };
 int run_verify(const VerifyOptions& options);
 

@@ -83,6 +83,55 @@ int run(int argc, char** argv) {
                               "settings and domains; `emax config` prints the defaults");
   optimize_command.callback([&] { chosen = [&optimize] { return run_optimize(optimize); }; });
 
+  DecimateOptions decimate;
+  CLI::App& decimate_command = *app.add_subcommand(
+      "decimate", "the fewest triangles within a certified bound of a mesh or of its cloud");
+  decimate_command.add_option("MESH", decimate.mesh, "mesh: .ply .obj .stl .off")->required();
+  decimate_command.add_option(
+      "--cloud", decimate.cloud,
+      "its points have to lie within the tolerance of the result (default: "
+      "the vertices of MESH, and with a two-sided bound all of its surface)");
+  decimate_command
+      .add_option("--max-error", decimate.max_error,
+                  "tolerance: N in the unit of the points, or N% of their width")
+      ->required();
+  std::string decimate_bound = "two-sided";
+  decimate_command
+      .add_option("--bound", decimate_bound,
+                  "two-sided: also all of the result within the tolerance of MESH; one-sided: only "
+                  "the points within it of the result")
+      ->check(CLI::IsMember({"two-sided", "one-sided"}))
+      ->capture_default_str();
+  decimate_command.add_option(
+      "--back-error", decimate.back_error,
+      "how far the result may be from MESH, N or N% (default: --max-error)");
+  decimate_command.add_option("-o,--output", decimate.output, "mesh: .ply .obj .stl .off")
+      ->required();
+  decimate_command
+      .add_option("--effort", decimate.effort,
+                  "quick: collapses alone; deep: until nothing is gained")
+      ->check(CLI::IsMember({"quick", "normal", "deep"}))
+      ->capture_default_str();
+  decimate_command
+      .add_option("--exclude-outliers", decimate.excluded_share,
+                  "share of the points (N or N%) that may lie beyond the tolerance; they are named")
+      ->capture_default_str();
+  decimate_command.add_flag("--skip-invalid", decimate.skip_invalid,
+                            "leave out points of the cloud with NaN or infinite coordinates");
+  decimate_command
+      .add_option("--time", decimate.seconds,
+                  "stop after this many seconds, with the mesh reached by then")
+      ->check(CLI::PositiveNumber);
+  decimate_command.add_option("--json", decimate.json, "also write the result to this file");
+  decimate_command.callback([&] {
+    decimate.two_sided = decimate_bound == "two-sided";
+    if (!decimate.two_sided && !decimate.back_error.empty()) {
+      throw CLI::ValidationError(
+          "--back-error bounds the other direction: it needs --bound two-sided");
+    }
+    chosen = [&decimate] { return run_decimate(decimate); };
+  });
+
   ErrorOptions error;
   CLI::App& error_command =
       *app.add_subcommand("error", "measure and certify the maximum error of a mesh");
@@ -124,6 +173,9 @@ int run(int argc, char** argv) {
   verify_command.add_option("--cloud", verify.cloud,
                             "the cloud, if it is neither beside the certificate nor here");
   verify_command.add_option("--mesh", verify.mesh, "the mesh, if it is not beside the certificate");
+  verify_command.add_option("--reference", verify.reference,
+                            "the reference of a two-sided bound, if it is neither beside the "
+                            "certificate nor here");
   verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
 
   std::string config_method = "gp3", config_decimator = "schroeder";

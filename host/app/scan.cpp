@@ -19,6 +19,32 @@ Scan read_scan(const std::filesystem::path& path, bool skip_invalid) {
   return scan;
 }
 
+Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) used[v] = true;
+  }
+  Scan scan = {path, {}, 0};
+  for (std::uint32_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    scan.cloud.points.push_back(mesh.vertices[v]);
+    scan.cloud.file_index.push_back(v);
+  }
+  scan.width = bounds_of(scan.cloud.points).width();
+  return scan;
+}
+
+EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded) {
+  const PreparedCloud cloud(scan.cloud.points);
+  const PreparedMesh prepared(mesh, cloud.normalization());
+  ErrorEngine engine(cloud, {.interrupted = nullptr});
+  std::vector<std::uint32_t> bits = engine.squared_distances(prepared);
+  for (const std::uint32_t i : excluded) bits[i] = 0;
+  EmaxResult worst = worst_of(bits);
+  worst.worst_point = scan.cloud.index_in_file(worst.worst_point);
+  return worst;
+}
+
 double parse_share(std::string_view text) {
   const bool percent = text.ends_with('%');
   const std::string_view digits = text.substr(0, text.size() - (percent ? 1 : 0));

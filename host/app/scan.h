@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "host/device/device_address.h"
+#include "host/emax_search/error_engine.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
+#include "host/geometry/triangle_mesh.h"
 #include "sw_model/certificate.h"
 
 namespace emax {
@@ -34,7 +36,13 @@ struct Scan {
   double width;
 };
 
+// The vertices that a mesh uses, as a scan: a mesh may be flat, or of fewer points than a cloud.
+Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh);
+
 Scan read_scan(const std::filesystem::path& path, bool skip_invalid);
+
+// What the kernel says of the points that are not excluded; its worst point is the file's.
+EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded);
 
 // "N" or "N%" of the points, 0 <= N < 1 (100%). Throws Error.
 double parse_share(std::string_view text);

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
-#include "host/emax_search/error_engine.h"
+#include "host/decimate/certified_decimation.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/sha256.h"
 #include "host/report/certificate_file.h"
@@ -43,6 +44,10 @@ class Verification {
       : path_(options.certificate), certificate_(read_certificate(path_)) {
     mesh_path_ = locate(options.mesh, certificate_.mesh_file, "mesh", path_, false);
     cloud_path_ = locate(options.cloud, certificate_.cloud_file, "cloud", path_, true);
+    if (certificate_.reference) {
+      reference_path_ =
+          locate(options.reference, certificate_.reference->file, "reference", path_, true);
+    }
   }
 
   bool run() {
@@ -50,10 +55,17 @@ class Verification {
             fmt::format("{} is not the mesh that was certified (SHA-256)", mesh_path_.string()));
     require(sha256_of_file(cloud_path_) == certificate_.cloud_sha256,
             fmt::format("{} is not the cloud that was certified (SHA-256)", cloud_path_.string()));
+    if (certificate_.reference) {
+      require(sha256_of_file(reference_path_) == certificate_.reference->sha256,
+              fmt::format("{} is not the reference that was certified (SHA-256)",
+                          reference_path_.string()));
+    }
     if (!reasons_.empty()) return report();
 
     const TriangleMesh mesh = read_mesh(mesh_path_);
-    const Scan scan = read_scan(cloud_path_, certificate_.skip_invalid);
+    const Scan scan = certificate_.vertices_of_mesh
+                          ? vertices_of(cloud_path_, read_mesh(cloud_path_))
+                          : read_scan(cloud_path_, certificate_.skip_invalid);
     require(mesh.triangles.size() == certificate_.triangles &&
                 mesh.vertices.size() == certificate_.vertices,
             fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",
@@ -67,6 +79,7 @@ class Verification {
     }
     check_error(mesh, scan, excluded);
     check_kernel(mesh, scan, excluded);
+    if (certificate_.reference) check_reference(mesh, scan, excluded);
     require(check_mesh(mesh.view()) == certificate_.validity, "the mesh's validity differs");
     return report();
   }
@@ -94,17 +107,38 @@ class Verification {
 
   void check_kernel(const TriangleMesh& mesh, const Scan& scan,
                     std::span<const std::uint32_t> excluded) {
-    const PreparedCloud cloud(scan.cloud.points);
-    const PreparedMesh prepared(mesh.view(), cloud.normalization());
-    ErrorEngine engine(cloud, {.interrupted = was_interrupted});
-    std::vector<std::uint32_t> bits = engine.squared_distances(prepared);
-    for (const std::uint32_t i : excluded) bits[i] = 0;
-    const EmaxResult worst = worst_of(bits);
+    const EmaxResult worst = kernel_error(scan, mesh.view(), excluded);
     require(worst.squared_bits == certificate_.kernel.squared_bits &&
-                scan.cloud.index_in_file(worst.worst_point) == certificate_.kernel.worst_point,
+                worst.worst_point == certificate_.kernel.worst_point,
             fmt::format("the kernel gives 0x{:08x} at point {}, not 0x{:08x} at point {}",
-                        worst.squared_bits, scan.cloud.index_in_file(worst.worst_point),
-                        certificate_.kernel.squared_bits, certificate_.kernel.worst_point));
+                        worst.squared_bits, worst.worst_point, certificate_.kernel.squared_bits,
+                        certificate_.kernel.worst_point));
+  }
+
+  void check_reference(const TriangleMesh& mesh, const Scan& scan,
+                       std::span<const std::uint32_t> excluded) {
+    const ReferenceBound& claimed = *certificate_.reference;
+    const TriangleMesh reference = read_mesh(reference_path_);
+    const auto check = [&](const char* what, double lower, double upper, double claim,
+                           double limit) {
+      require(upper <= limit, fmt::format("{} is {:.9g}, more than {:.9g}", what, upper, limit));
+      require(claim >= lower && claim <= limit,
+              fmt::format("it claims {:.9g} for {}, which is {:.9g}", claim, what, upper));
+    };
+    const SurfaceDistance back =
+        decided_distance(mesh.view(), ExactMesh(reference.view()), claimed.epsilon_back);
+    check("the distance of the mesh to the reference", back.lower, back.upper,
+          claimed.mesh_to_reference, claimed.epsilon_back);
+    if (claimed.reference_to_mesh) {
+      const SurfaceDistance forth =
+          decided_distance(reference.view(), ExactMesh(mesh.view()), certificate_.epsilon);
+      check("the distance of the reference to the mesh", forth.lower, forth.upper,
+            *claimed.reference_to_mesh, certificate_.epsilon);
+    }
+    const CertifiedError own = certify(scan.cloud.points, reference.view(), excluded);
+    check("the distance of the points to the reference", own.e_max_lower, own.e_max_upper,
+          claimed.points_to_reference, std::numeric_limits<double>::infinity());
+    back_ = back.upper;
   }
 
   bool report() const {
@@ -113,6 +147,13 @@ class Verification {
                  certificate_.error.excluded.empty() ? "" : "kept ", cloud_path_.string(),
                  certificate_.epsilon, mesh_path_.string(), e_max_,
                  grouped(certificate_.triangles));
+      if (certificate_.reference) {
+        fmt::print("yes: all of it lies within {:.9g} of {} (at most {:.9g}){}\n",
+                   certificate_.reference->epsilon_back, reference_path_.string(), back_,
+                   certificate_.reference->reference_to_mesh
+                       ? fmt::format(", and all of that within {:.9g} of it", certificate_.epsilon)
+                       : "");
+      }
       return true;
     }
     for (const std::string& reason : reasons_) fmt::print("no: {}\n", reason);
@@ -121,8 +162,8 @@ class Verification {
 
   std::filesystem::path path_;
   Certificate certificate_;
-  std::filesystem::path mesh_path_, cloud_path_;
-  double e_max_ = 0;
+  std::filesystem::path mesh_path_, cloud_path_, reference_path_;
+  double e_max_ = 0, back_ = 0;
   std::vector<std::string> reasons_;
 };
 

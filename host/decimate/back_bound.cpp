@@ -31,6 +31,7 @@ struct BackBound::Plane {
       const double length = std::hypot(to.y - from.y, to.z - from.z);
       line[i] = {-(to.z - from.z) / length, (to.y - from.y) / length, 0};
       line[i][2] = -(line[i][0] * from.y + line[i][1] * from.z);
+      longest = std::max(longest, length);
     }
     area = 0.5 * corners[1].y * corners[2].z;
   }
@@ -40,22 +41,13 @@ struct BackBound::Plane {
     return {along.dot(q), across.dot(q), normal.dot(q)};
   }
   Point lift(const Corner& c) const { return origin + c.y * along + c.z * across; }
-  double least_angle() const {
-    double least = 4;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Corner &a = corners[i], &b = corners[(i + 1) % 3], &c = corners[(i + 2) % 3];
-      const double by = b.y - a.y, bz = b.z - a.z, cy = c.y - a.y, cz = c.z - a.z;
-      least = std::min(least, std::atan2(by * cz - bz * cy, by * cy + bz * cz));
-    }
-    return least;
-  }
   double inside(std::size_t side, const Corner& c) const {
     return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
   }
 
   Point origin, along, across, normal;
   std::array<Corner, 3> corners;
-  double area;
+  double area, longest = 0;
   std::array<std::array<double, 3>, 3> line;
 };
 
@@ -198,10 +190,10 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
     }
   }
   if (sheet_.empty() || (ends && covers_itself())) return Sheet::kNoSheet;
-  // The rest of T is no farther from what is covered than the radius of the greatest sector of a
-  // disc about it, in T, that the uncovered area could fill.
+  // About a point of T that is r from what is covered, T scaled by r / its longest side is in T and
+  // not covered.
   const double rest = std::max(plane.area - covered, 0.0) + kRoundings * plane.area;
-  const double reach = std::sqrt(2 * rest / plane.least_angle());
+  const double reach = plane.longest * std::sqrt(rest / plane.area);
   return worst + reach <= limit_ ? Sheet::kWithin : Sheet::kNoSheet;
 }
 

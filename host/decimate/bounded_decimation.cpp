@@ -21,6 +21,9 @@ constexpr double kRoundings = 0x1p-46;
 constexpr double kMargin = 1e-7;
 constexpr double kBelongs = 0.1;  // of the mesh's width
 
+// Of the time that is thought to be left, what the passes take.
+constexpr double kFirstPass = 0.75, kOtherPass = 0.3;
+
 double greatest_coordinate(const TriangleMesh& mesh, std::span<const Point> cloud) {
   double greatest = 0;
   for (const Point& p : mesh.vertices) greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
@@ -48,9 +51,11 @@ void require_belonging(const TriangleMesh& mesh, std::span<const Point> cloud) {
     if (state.assigned().owner(p) == kNoIndex) ++away;
   }
   if (2 * away > cloud.size()) {
-    throw Error("the cloud does not belong to the mesh: " + std::to_string(away) + " of " +
-                std::to_string(cloud.size()) +
-                " points are farther from it than a tenth of its width; give the mesh's own cloud");
+    throw Error(
+        "the cloud does not belong to the mesh: " + std::to_string(away) + " of " +
+        std::to_string(cloud.size()) +
+        " points are farther from it than a tenth of its width; give the mesh's own cloud, in "
+        "its unit");
   }
 }
 
@@ -91,9 +96,15 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start,
   for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
     if (state.assigned().owner(p) == kNoIndex) result.left_out.push_back(p);
   }
-  DecimationPasses passes(state, settings.interrupted);
+  double begun = 0, weight = settings.effort == Effort::kCollapse ? 1 : kFirstPass;
+  DecimationPasses passes(state, [&](double done) {
+    if (settings.advanced) settings.advanced(begun + weight * done, state.mesh().triangles());
+    return settings.interrupted && settings.interrupted();
+  });
   const auto tell = [&](const char* pass, std::size_t edits) {
     if (settings.progress) settings.progress(pass, edits, state.mesh().triangles());
+    begun += weight;
+    weight = (1 - begun) * kOtherPass;
     return edits;
   };
   const auto relax = [&] {

@@ -44,6 +44,9 @@ struct DecimationSettings {
   std::function<bool()> interrupted = nullptr;
   // Called after each pass with its name, how many edits it made and the triangles left.
   std::function<void(const char*, std::size_t, std::size_t)> progress = nullptr;
+  // Called now and then with a guess at the share of the work that is done, from 0 to 1, and the
+  // triangles left; with kDeep, how long the end takes is not known.
+  std::function<void(double, std::size_t)> advanced = nullptr;
 
   // Faults that the tests must catch.
   enum class Fault { kNone, kSkipsPoints, kSkipsBackBound, kSkipsIntersections };

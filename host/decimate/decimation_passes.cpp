@@ -12,12 +12,16 @@ constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit wit
 
 }  // namespace
 
-DecimationPasses::DecimationPasses(DecimationState& state, std::function<bool()> interrupted)
-    : state_(state), interrupted_(std::move(interrupted)), search_(state) {}
+DecimationPasses::DecimationPasses(DecimationState& state, Poll poll)
+    : state_(state), poll_(std::move(poll)), search_(state) {}
 
-bool DecimationPasses::poll() {
-  if (!stopped_ && interrupted_ && ++polls_ % 64 == 0) stopped_ = interrupted_();
+bool DecimationPasses::poll(double done) {
+  if (!stopped_ && poll_ && ++polls_ % 64 == 0) stopped_ = poll_(done);
   return stopped_;
+}
+
+bool DecimationPasses::poll(std::size_t at, std::size_t of) {
+  return poll(static_cast<double>(at) / static_cast<double>(of));
 }
 
 std::vector<std::array<std::uint32_t, 2>> DecimationPasses::edges() const {
@@ -87,12 +91,17 @@ std::size_t DecimationPasses::collapse() {
   queue_ = {};
   touched_.assign(mesh.vertex_slots(), 0);
   edits_ = 0;
-  for (const auto& [a, b] : edges()) {
-    if (poll()) return 0;
-    push(a, b);
+  const auto all = edges();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (poll(i, 2 * all.size())) return 0;
+    push(all[i][0], all[i][1]);
   }
   std::size_t collapses = 0;
-  while (!queue_.empty() && !poll()) {
+  const std::size_t triangles = mesh.triangles();
+  while (!queue_.empty()) {
+    // What is in the queue falls with the triangles, and then, when none can go, to nothing.
+    const double left = static_cast<double>(mesh.triangles()) / static_cast<double>(triangles);
+    if (poll(1 - 0.5 * left)) break;
     const Candidate candidate = queue_.top();
     queue_.pop();
     const std::uint32_t a = candidate.a, b = candidate.b;
@@ -140,7 +149,8 @@ bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, boo
 
 std::size_t DecimationPasses::relocate(int power) {
   std::size_t moved = 0;
-  for (std::uint32_t v = 0; v < state_.mesh().vertex_slots() && !poll(); ++v) {
+  const auto vertices = static_cast<std::uint32_t>(state_.mesh().vertex_slots());
+  for (std::uint32_t v = 0; v < vertices && !poll(v, vertices); ++v) {
     if (!state_.mesh().used(v) || !try_relocation(v, power, true)) continue;
     state_.apply(edit_);
     ++moved;
@@ -150,9 +160,9 @@ std::size_t DecimationPasses::relocate(int power) {
 
 std::size_t DecimationPasses::flip(int power) {
   std::size_t flips = 0;
-  for (const auto& [a, b] : edges()) {
-    if (poll()) break;
-    if (!try_flip(a, b, power, true)) continue;
+  const auto all = edges();
+  for (std::size_t i = 0; i < all.size() && !poll(i, all.size()); ++i) {
+    if (!try_flip(all[i][0], all[i][1], power, true)) continue;
     state_.apply(edit_);
     ++flips;
   }
@@ -237,17 +247,19 @@ std::size_t DecimationPasses::collapse_and_mend() {
     return any && trial.worst <= kMendable;
   };
   std::vector<Trial> trials;
-  for (const auto& [a, b] : edges()) {
-    if (poll()) return 0;
+  const auto all = edges();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (poll(i, 4 * all.size())) return 0;
     Trial trial;
-    if (judge_trial(a, b, trial)) trials.push_back(trial);
+    if (judge_trial(all[i][0], all[i][1], trial)) trials.push_back(trial);
   }
   std::sort(trials.begin(), trials.end(), [](const Trial& s, const Trial& t) {
     return s.worst != t.worst ? s.worst < t.worst : s.a != t.a ? s.a < t.a : s.b < t.b;
   });
   std::size_t collapses = 0;
-  for (Trial trial : trials) {
-    if (poll()) break;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    Trial& trial = trials[i];
+    if (poll(0.25 + 0.75 * static_cast<double>(i) / static_cast<double>(trials.size()))) break;
     if (!mesh.used(trial.a) || !mesh.used(trial.b)) continue;
     if (!judge_trial(trial.a, trial.b, trial)) continue;
     if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_)) continue;

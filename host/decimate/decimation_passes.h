@@ -14,8 +14,10 @@ namespace emax {
 // within it, and each is a pure function of the state; ties go to the lower vertex numbers.
 class DecimationPasses {
  public:
-  // `interrupted` ends a pass after the edit at hand.
-  DecimationPasses(DecimationState& state, std::function<bool()> interrupted);
+  // Told now and then how much of the pass at hand is done, from 0 to 1; true ends the pass after
+  // the edit at hand.
+  using Poll = std::function<bool(double)>;
+  DecimationPasses(DecimationState& state, Poll poll);
 
   // Edge collapses, the one that adds least to the energy first, until none is left that the limit
   // and the guards permit. Returns how many.
@@ -43,7 +45,8 @@ class DecimationPasses {
     }
   };
 
-  bool poll();
+  bool poll(double done);
+  bool poll(std::size_t at, std::size_t of);
   bool judge(std::uint32_t a, std::uint32_t b, Candidate& candidate);
   void push(std::uint32_t a, std::uint32_t b);
   bool apply_collapse(const Candidate& candidate);
@@ -55,7 +58,7 @@ class DecimationPasses {
   std::vector<std::array<std::uint32_t, 2>> edges() const;
 
   DecimationState& state_;
-  std::function<bool()> interrupted_;
+  Poll poll_;
   LocalSearch search_;
   MeshEdit edit_;
   std::priority_queue<Candidate> queue_;

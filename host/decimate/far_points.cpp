@@ -128,8 +128,8 @@ class Insertion {
 }  // namespace
 
 FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
-                            const std::function<bool()>& interrupted) {
-  DecimationState state(mesh, cloud, nullptr, far * far, {});
+                            const std::function<bool()>& interrupted, const BackBound* back) {
+  DecimationState state(mesh, cloud, back, far * far, {});
   Insertion insertion(state, far * far);
   FarPoints result;
   const auto is_far = [&](std::uint32_t p) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "host/decimate/back_bound.h"
 #include "host/geometry/triangle_mesh.h"
 
 namespace emax {
@@ -20,8 +21,9 @@ struct FarPoints {
 // edge of the boundary near it gets a triangle, or a triangle or edge is split there. The mesh
 // stays manifold and free of self-intersections and slivers, and no other point comes to be farther
 // than `far`; where that cannot be had the point is left out. `mesh` is as manifold_part() gives
-// it. O(log n) for a point and for an insertion.
+// it. What is added keeps `back`, where there is one. O(log n) for a point and for an insertion.
 FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
-                            const std::function<bool()>& interrupted = nullptr);
+                            const std::function<bool()>& interrupted = nullptr,
+                            const BackBound* back = nullptr);
 
 }  // namespace emax

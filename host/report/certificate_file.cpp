@@ -23,13 +23,28 @@ std::uint32_t parse_bits(const std::string& text) {
   return bits;
 }
 
+ReferenceBound reference_from_json(const Json& json) {
+  ReferenceBound r;
+  json.at("file").get_to(r.file);
+  json.at("sha256").get_to(r.sha256);
+  json.at("triangles").get_to(r.triangles);
+  json.at("epsilon_back").get_to(r.epsilon_back);
+  json.at("mesh_to_reference").get_to(r.mesh_to_reference);
+  const Json& whole = json.at("reference_to_mesh");
+  if (!whole.is_null()) r.reference_to_mesh = whole.get<double>();
+  json.at("points_to_reference").get_to(r.points_to_reference);
+  return r;
+}
+
 Certificate parse(const Json& json) {
   if (json.at("schema") != kSchema) throw Error("its schema is not " + std::string(kSchema));
   if (json.at("kernel_version") != kKernelVersion) {
     throw Error("it was made by another version of the kernel; use the program that made it");
   }
-  if (json.at("bound") != kBound) throw Error("its bound is not " + std::string(kBound));
+  const bool two_sided = json.at("bound") == kTwoSidedBound;
+  if (!two_sided && json.at("bound") != kBound) throw Error("its bound is not known");
   Certificate c;
+  if (two_sided) c.reference = reference_from_json(json.at("reference"));
   const Json& mesh = json.at("mesh");
   const Json& cloud = json.at("cloud");
   mesh.at("file").get_to(c.mesh_file);
@@ -38,6 +53,7 @@ Certificate parse(const Json& json) {
   cloud.at("file").get_to(c.cloud_file);
   cloud.at("sha256").get_to(c.cloud_sha256);
   cloud.at("skip_invalid").get_to(c.skip_invalid);
+  c.vertices_of_mesh = cloud.value("vertices_of_mesh", false);
   json.at("triangles").get_to(c.triangles);
   json.at("epsilon").get_to(c.epsilon);
   json.at("e_max").get_to(c.error.e_max_upper);
@@ -59,11 +75,21 @@ std::filesystem::path certificate_path(const std::filesystem::path& mesh) {
   return mesh.string() + ".certificate.json";
 }
 
+Json to_json(const ReferenceBound& r) {
+  return {{"file", r.file},
+          {"sha256", r.sha256},
+          {"triangles", r.triangles},
+          {"epsilon_back", r.epsilon_back},
+          {"mesh_to_reference", r.mesh_to_reference},
+          {"reference_to_mesh", r.reference_to_mesh ? Json(*r.reference_to_mesh) : Json()},
+          {"points_to_reference", r.points_to_reference}};
+}
+
 std::string to_json_text(const Certificate& c) {
   const Json json = {
       {"schema", kSchema},
       {"kernel_version", kKernelVersion},
-      {"bound", kBound},
+      {"bound", c.reference ? kTwoSidedBound : kBound},
       {"epsilon", c.epsilon},
       {"e_max", c.error.e_max_upper},
       {"e_max_all", c.error.e_max_upper_all},
@@ -76,7 +102,11 @@ std::string to_json_text(const Certificate& c) {
       {"validity", to_json(c.validity)},
       {"mesh", {{"file", c.mesh_file}, {"sha256", c.mesh_sha256}, {"vertices", c.vertices}}},
       {"cloud",
-       {{"file", c.cloud_file}, {"sha256", c.cloud_sha256}, {"skip_invalid", c.skip_invalid}}},
+       {{"file", c.cloud_file},
+        {"sha256", c.cloud_sha256},
+        {"skip_invalid", c.skip_invalid},
+        {"vertices_of_mesh", c.vertices_of_mesh}}},
+      {"reference", c.reference ? to_json(*c.reference) : Json()},
       {"transform", to_json(c.transform)},
       {"method", c.chain.method},
       {"decimator", c.chain.decimator},
@@ -90,16 +120,15 @@ Certificate read_certificate(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (std::filesystem::is_directory(path) || !(text << file.rdbuf())) {
-    throw Error(path.string() + ": cannot be read; name a certificate made by optimize");
+    throw Error(path.string() + ": cannot be read; name a certificate made by emax");
   }
   try {
     return parse(Json::parse(text.str()));
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what());
   } catch (const nlohmann::json::exception&) {
-    throw Error(
-        path.string() +
-        ": is not a certificate; name the .certificate.json beside a mesh made by optimize");
+    throw Error(path.string() +
+                ": is not a certificate; name the .certificate.json beside a mesh made by emax");
   }
 }
 

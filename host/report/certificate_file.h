@@ -13,17 +13,29 @@
 
 namespace emax {
 
+// What is proven in the other direction. Lengths are upper bounds, in the cloud's unit.
+struct ReferenceBound {
+  std::string file, sha256;  // of the reference, without folders
+  std::size_t triangles = 0;
+  double epsilon_back = 0;
+  double mesh_to_reference = 0;             // from any point of the mesh, at most epsilon_back
+  std::optional<double> reference_to_mesh;  // from any point of the reference, at most epsilon
+  double points_to_reference = 0;           // from the kept points
+};
+
 // What a certificate says of a mesh and its cloud, apart from how the mesh was found. It holds no
 // time, host, path, job count or device: the same run gives the same bytes anywhere.
 struct Certificate {
   std::string mesh_file, mesh_sha256;  // file names without folders
   std::string cloud_file, cloud_sha256;
-  bool skip_invalid = false;  // how the cloud was read
-  double epsilon = 0;         // in the cloud's unit
-  CertifiedError error;       // indices are the file's
-  EmaxResult kernel = {};     // over the kept points; the index is the file's
+  bool skip_invalid = false;      // how the cloud was read
+  bool vertices_of_mesh = false;  // the cloud's file is a mesh, its points those of its triangles
+  double epsilon = 0;             // in the cloud's unit
+  CertifiedError error;           // indices are the file's
+  EmaxResult kernel = {};         // over the kept points; the index is the file's
   std::size_t vertices = 0, triangles = 0;
   MeshValidity validity;
+  std::optional<ReferenceBound> reference;  // of a two-sided bound
   Normalization transform;
   // How it was found.
   ChainSettings chain;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/geometry/mesh_validity.h"
+#include "host/report/certificate_file.h"
 #include "host/report/error_report.h"
 #include "sw_model/certificate.h"
 #include "sw_model/device.h"
@@ -24,5 +25,6 @@ Json to_json(const DeviceCounters& counters);
 // The points left out, each with its index in the file and its distance.
 Json excluded_to_json(const CertifiedError& error);
 Json to_json(const ErrorReport& report);
+Json to_json(const ReferenceBound& reference);
 
 }  // namespace emax

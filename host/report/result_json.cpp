@@ -16,7 +16,7 @@ Json or_null(const std::optional<T>& value) {
 std::string to_json_text(const ResultReport& r) {
   Json json = {{"schema", "emax-result-1"},
                {"kernel_version", kKernelVersion},
-               {"bound", r.errors && r.errors->surface ? kTwoSidedBound : kBound},
+               {"bound", r.reference || (r.errors && r.errors->surface) ? kTwoSidedBound : kBound},
                {"feasible", or_null(r.feasible)},
                {"valid", r.validity ? Json(r.validity->valid()) : Json()},
                {"triangles", or_null(r.triangles)},
@@ -35,6 +35,7 @@ std::string to_json_text(const ResultReport& r) {
                {"validity", r.validity ? to_json(*r.validity) : Json()},
                {"reconstruction_triangles", or_null(r.reconstruction_triangles)},
                {"unmeshed_points", or_null(r.unmeshed_points)},
+               {"reference", r.reference ? to_json(*r.reference) : Json()},
                {"predicted", Json()},
                {"errors", r.errors ? to_json(*r.errors) : Json()}};
   if (r.board && r.counters && r.counters->cycles) {

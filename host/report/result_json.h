@@ -5,6 +5,7 @@
 
 #include "host/geometry/mesh_validity.h"
 #include "host/optimize/error_constraint.h"
+#include "host/report/certificate_file.h"
 #include "host/report/error_report.h"
 #include "sw_model/certificate.h"
 #include "sw_model/cycle_model.h"
@@ -28,9 +29,10 @@ struct ResultReport {
   std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
   std::string device;
   std::optional<DeviceCounters> counters;
-  std::optional<BoardModel> board;    // whose time is to be predicted
-  std::optional<double> cpu_seconds;  // that the same work took on this CPU
-  std::optional<ErrorReport> errors;  // with a surface, the bound is two-sided
+  std::optional<BoardModel> board;          // whose time is to be predicted
+  std::optional<double> cpu_seconds;        // that the same work took on this CPU
+  std::optional<ErrorReport> errors;        // with a surface, the bound is two-sided
+  std::optional<ReferenceBound> reference;  // with one, too
 };
 
 std::string to_json_text(const ResultReport& report);

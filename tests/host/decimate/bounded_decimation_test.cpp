@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "host/decimate/manifold_part.h"
-#include "host/geometry/mesh_file.h"
 #include "host/geometry/mesh_validity.h"
 #include "surfaces.h"
 #include "sw_model/certificate.h"
@@ -84,17 +83,6 @@ TEST(BoundedDecimator, LeavesACubeItsTwelveTriangles) {
   const TriangleMesh result =
       BoundedDecimator(mesh, mesh.vertices).run(with(1e-3, Effort::kDeep)).mesh;
   EXPECT_EQ(result.triangles.size(), 12u);
-}
-
-TEST(BoundedDecimator, ReachesFewTrianglesOnARealScan) {
-  const TriangleMesh mesh = read_mesh(EMAX_DATA_FOLDER "/bunny00.off");
-  const double epsilon = 0.00321 * 1.0;  // its width is 1 to a few percent
-  const ReferenceSurface reference = reference_surface(mesh, mesh.vertices, epsilon / 2);
-  EXPECT_EQ(reference.inserted + reference.dropped + reference.left_out.size(), 0u);
-  const TriangleMesh result =
-      BoundedDecimator(reference.mesh, mesh.vertices).run(with(epsilon, Effort::kCollapse)).mesh;
-  EXPECT_LT(result.triangles.size(), 1600u);
-  EXPECT_EQ(verdict(result, mesh.vertices, reference.mesh, epsilon), kAllHolds);
 }
 
 TEST(BoundedDecimator, MoreEffortAndMoreErrorLeaveFewerTriangles) {

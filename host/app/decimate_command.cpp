@@ -1,0 +1,276 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/app/commands.h"
+#include "host/app/decimation_progress.h"
+#include "host/app/interrupt.h"
+#include "host/app/result_files.h"
+#include "host/decimate/certified_decimation.h"
+#include "host/geometry/atomic_file.h"
+#include "host/geometry/sha256.h"
+#include "host/geometry/tolerance.h"
+#include "host/report/certificate_file.h"
+#include "host/report/result_json.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+using Effort = DecimationSettings::Effort;
+
+Effort effort_named(const std::string& name) {
+  return name == "quick" ? Effort::kCollapse : name == "deep" ? Effort::kDeep : Effort::kRelax;
+}
+
+class DecimateCommand {
+ public:
+  explicit DecimateCommand(const DecimateOptions& options)
+      : options_(options),
+        own_cloud_(options.cloud.empty()),
+        share_(parse_share(options.excluded_share)),
+        tolerance_(parse_tolerance(options.max_error)) {
+    std::optional<Tolerance> back;
+    if (!options.back_error.empty()) back = parse_tolerance(options.back_error);
+    check_output(options.output, mesh_endings());
+    if (!options.json.empty()) check_output(options.json, kJsonEndings);
+    given_ = read_mesh(options.mesh);
+    if (given_.triangles.empty()) {
+      throw Error(options.mesh + ": holds no triangles; `emax optimize` makes a mesh of a cloud");
+    }
+    scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
+                       : read_scan(options.cloud, options.skip_invalid);
+    epsilon_ = checked(tolerance_, "--max-error");
+    settings_.decimation.epsilon = epsilon_;
+    settings_.decimation.epsilon_back = back ? checked(*back, "--back-error") : epsilon_;
+    settings_.decimation.two_sided = options.two_sided;
+    settings_.decimation.effort = effort_named(options.effort);
+    settings_.format = mesh_format(options.output);
+    settings_.whole_reference = own_cloud_;
+    require_storable(given_, settings_.format, std::min(epsilon_, epsilon_back()), options.output);
+  }
+
+  int run() {
+    print_task();
+    DecimationProgress progress(
+        options_.seconds ? std::optional<std::chrono::duration<double>>(*options_.seconds)
+                         : std::nullopt);
+    const std::vector<std::uint32_t> outliers = farthest_beyond();
+    std::vector<Point> kept;
+    std::vector<std::uint32_t> index;  // of the kept points in the cloud
+    for (std::uint32_t i = 0; i < scan_.cloud.points.size(); ++i) {
+      if (std::ranges::binary_search(outliers, i)) continue;
+      kept.push_back(scan_.cloud.points[i]);
+      index.push_back(i);
+    }
+    reference_ = reference_surface(given_, kept, epsilon_ / 2, was_interrupted);
+    if (was_interrupted()) throw Interrupted{};
+    settings_.decimation.interrupted = [&] {
+      out_of_time_ = progress.out_of_time();
+      return out_of_time_ || was_interrupted();
+    };
+    settings_.decimation.advanced = [&](double share, std::size_t triangles) {
+      progress.show(share, triangles);
+    };
+    result_ = decimate_certified(reference_.mesh, kept, settings_);
+    if (!outliers.empty()) {
+      std::vector<std::uint32_t> excluded = outliers;
+      for (const std::uint32_t i : result_.points.excluded) excluded.push_back(index[i]);
+      std::ranges::sort(excluded);
+      result_.points = certify(scan_.cloud.points, result_.mesh.view(), excluded);
+    }
+    progress.finish();
+    feasible_ = result_.points.excluded.size() <= excludable();
+    kernel_ = kernel_error(scan_, result_.mesh.view(), result_.points.excluded);
+    if (feasible_) {
+      keep();
+    } else {
+      refuse();
+    }
+    fmt::print("decimation     {:.1f} s{}{}\n", progress.seconds(),
+               result_.repairs > 0 ? fmt::format(", mended {} times", result_.repairs) : "",
+               was_interrupted()     ? "; interrupted"
+               : result_.interrupted ? "; out of time"
+                                     : "");
+    write_json();
+    if (was_interrupted()) return kExitInterrupted;
+    return feasible_ ? kExitOk : kExitNo;
+  }
+
+ private:
+  double epsilon_back() const { return settings_.decimation.epsilon_back; }
+  std::size_t excludable() const {
+    return static_cast<std::size_t>(share_ * static_cast<double>(scan_.cloud.points.size()));
+  }
+  // Those that may be excluded, in order.
+  std::vector<std::uint32_t> farthest_beyond() const {
+    if (excludable() == 0) return {};
+    const ExactMesh exact(given_.view());
+    std::vector<std::pair<double, std::uint32_t>> beyond;
+    for (std::uint32_t i = 0; i < scan_.cloud.points.size(); ++i) {
+      const double distance = exact.distance(scan_.cloud.points[i]).upper;
+      if (distance > epsilon_) beyond.emplace_back(-distance, i);
+    }
+    std::ranges::sort(beyond);
+    beyond.resize(std::min(beyond.size(), excludable()));
+    std::vector<std::uint32_t> points;
+    for (const auto& [distance, i] : beyond) points.push_back(i);
+    std::ranges::sort(points);
+    return points;
+  }
+  double percent(double length) const { return 100 * length / scan_.width; }
+
+  // The reference is the mesh as it was given, but for its order.
+  bool given_is_reference() const { return reference_.dropped == 0 && reference_.inserted == 0; }
+  std::filesystem::path reference_path() const {
+    return given_is_reference() ? options_.mesh : options_.output + ".reference.ply";
+  }
+
+  double checked(const Tolerance& tolerance, const char* option) const {
+    const double length = tolerance.in_units(scan_.width);
+    if (length < scan_.width) return length;
+    throw Error(
+        fmt::format("{} {:.6g} is no less than the width of {}, {:.6g}: give it in the "
+                    "unit of the file, or as N%",
+                    option, length, scan_.path.string(), scan_.width));
+  }
+
+  void print_task() const {
+    fmt::print("mesh           {}: {} triangles\n", options_.mesh,
+               grouped(given_.triangles.size()));
+    fmt::print("points         {}: {}{}, width {:.6g}\n", scan_.path.string(),
+               grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "", scan_.width);
+    fmt::print("tolerance      {}, {}", to_text(tolerance_, scan_.width),
+               options_.two_sided ? "two-sided" : "one-sided");
+    if (options_.two_sided && epsilon_back() != epsilon_) {
+      fmt::print(", back {:.6g}", epsilon_back());
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
+
+  void keep() {
+    const std::string bytes = mesh_bytes(result_.mesh, settings_.format);
+    Certificate certificate;
+    certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
+    certificate.mesh_sha256 = sha256(bytes);
+    certificate.cloud_file = scan_.path.filename().string();
+    certificate.cloud_sha256 = sha256_of_file(scan_.path);
+    certificate.skip_invalid = options_.skip_invalid;
+    certificate.vertices_of_mesh = own_cloud_;
+    certificate.epsilon = epsilon_;
+    certificate.error = in_file_indices(result_.points, scan_.cloud);
+    certificate.kernel = kernel_;
+    certificate.vertices = result_.mesh.vertices.size();
+    certificate.triangles = result_.mesh.triangles.size();
+    certificate.validity = result_.validity;
+    certificate.transform = PreparedCloud(scan_.cloud.points).normalization();
+    certificate.chain = {
+        "none", "bounded", {{"bounded.effort", static_cast<double>(settings_.decimation.effort)}}};
+    std::vector<ResultFile> files;
+    if (options_.two_sided) {
+      std::string sum;
+      if (given_is_reference()) {
+        sum = sha256_of_file(options_.mesh);
+      } else {
+        files.push_back({reference_path(), mesh_bytes(reference_.mesh, MeshFormat::kPly)});
+        sum = sha256(files.back().bytes);
+      }
+      certificate.reference = bound(std::move(sum));
+    }
+    files.push_back({options_.output, bytes});
+    files.push_back({certificate_path(options_.output), to_json_text(certificate)});
+    write_together(files);
+    print_result();
+  }
+
+  ReferenceBound bound(std::string sum) const {
+    ReferenceBound reference;
+    reference.file = reference_path().filename().string();
+    reference.sha256 = std::move(sum);
+    reference.triangles = reference_.mesh.triangles.size();
+    reference.epsilon_back = epsilon_back();
+    reference.mesh_to_reference = result_.mesh_to_reference->upper;
+    if (result_.reference_to_mesh) reference.reference_to_mesh = result_.reference_to_mesh->upper;
+    reference.points_to_reference =
+        certify(scan_.cloud.points, reference_.mesh.view(), result_.points.excluded).e_max_upper;
+    return reference;
+  }
+
+  void print_result() const {
+    if (!given_is_reference()) {
+      fmt::print(
+          "reference      {} triangles dropped that are degenerate, not manifold or "
+          "intersect others, {} points joined{}\n",
+          grouped(reference_.dropped), grouped(reference_.inserted),
+          options_.two_sided ? ": " + reference_path().string() : "");
+    }
+    fmt::print("result         {}: {} triangles; {}\n", options_.output,
+               grouped(result_.mesh.triangles.size()), describe(result_.validity));
+    const auto line = [&](const char* name, double length, double limit, const char* what) {
+      fmt::print("{:<14} {:.9g} certified, at most {:.9g} ({:.4g}% of the width): {}\n", name,
+                 length, limit, percent(length), what);
+    };
+    line("e_max", result_.points.e_max_upper, epsilon_, "every point to the mesh");
+    if (result_.mesh_to_reference) {
+      line("back", result_.mesh_to_reference->upper, epsilon_back(),
+           "all of the mesh to the reference");
+    }
+    if (result_.reference_to_mesh) {
+      line("forth", result_.reference_to_mesh->upper, epsilon_, "all of the reference to the mesh");
+    }
+    print_excluded(result_.points, excludable());
+    fmt::print("kernel         e_max^2 bits 0x{:08x} at point {}\n", kernel_.squared_bits,
+               kernel_.worst_point);
+    fmt::print("certificate    {}\n", certificate_path(options_.output).string());
+  }
+
+  void refuse() const {
+    const CertifiedError& points = result_.points;
+    const double farthest = std::ranges::max(points.excluded_distances);
+    fmt::print(
+        "result         infeasible: {} of {} points are farther than {:.9g} from the mesh and "
+        "cannot be joined to it, the farthest {:.9g} (point {}); nothing is written\n",
+        grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), epsilon_, farthest,
+        scan_.cloud.index_in_file(points.excluded[static_cast<std::size_t>(
+            std::ranges::max_element(points.excluded_distances) -
+            points.excluded_distances.begin())]));
+    fmt::print("               raise --max-error or allow for them with --exclude-outliers\n");
+  }
+
+  void write_json() const {
+    if (options_.json.empty()) return;
+    ResultReport report;
+    report.feasible = feasible_;
+    report.validity = result_.validity;
+    report.triangles = result_.mesh.triangles.size();
+    report.epsilon = epsilon_;
+    report.certified = in_file_indices(result_.points, scan_.cloud);
+    report.kernel = kernel_;
+    report.points = scan_.cloud.points.size();
+    report.transform = PreparedCloud(scan_.cloud.points).normalization();
+    report.reconstruction_triangles = given_.triangles.size();
+    report.device = "cpu";
+    if (options_.two_sided) report.reference = bound("");
+    write_atomically(options_.json, to_json_text(report));
+  }
+
+  const DecimateOptions& options_;
+  bool own_cloud_;
+  double share_;
+  Tolerance tolerance_;
+  TriangleMesh given_;
+  Scan scan_;
+  double epsilon_ = 0;
+  CertifiedDecimationSettings settings_;
+  ReferenceSurface reference_;
+  CertifiedDecimation result_;
+  EmaxResult kernel_ = {};  // the point is the file's
+  bool feasible_ = false, out_of_time_ = false;
+};
+
+}  // namespace
+
+int run_decimate(const DecimateOptions& options) { return DecimateCommand(options).run(); }
+
+}  // namespace emax

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "host/decimate/bounded_decimation.h"
+#include "host/geometry/mesh_file.h"
+#include "host/geometry/mesh_validity.h"
+#include "sw_model/certificate.h"
+#include "sw_model/surface_distance.h"
+
+namespace emax {
+
+struct CertifiedDecimationSettings {
+  DecimationSettings decimation;
+  MeshFormat format = MeshFormat::kPly;  // what is judged is what such a file will hold
+  // Where the bound is two-sided: also every point of the reference, the inside of its triangles
+  // included, within epsilon of the mesh, and not only the cloud's.
+  bool whole_reference = false;
+};
+
+// A decimated mesh and what is proven of it. All of it is within the bounds.
+struct CertifiedDecimation {
+  TriangleMesh mesh;      // as stored
+  CertifiedError points;  // excluded: those that were farther than epsilon from the reference
+  MeshValidity validity;
+  std::optional<SurfaceDistance> mesh_to_reference;  // two-sided
+  std::optional<SurfaceDistance> reference_to_mesh;  // and of the whole reference
+  bool interrupted = false;
+  int repairs = 0;  // how often a result missed a bound and was mended
+};
+
+// BoundedDecimator, judged by what shares no code with it: the certificate, the certified distances
+// of surfaces and exact validity, on the mesh as stored. A mesh that misses is mended: points of
+// the reference that are too far are inserted, or it is decimated again under smaller bounds; in
+// the end the reference stands for itself. Interrupted, it gives the mesh at hand, certified too.
+// Throws Error as BoundedDecimator does and where the format cannot hold the mesh within epsilon.
+CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
+                                       const CertifiedDecimationSettings& settings);
+
+// To a per mille, and finer where that does not decide whether it is within the limit.
+SurfaceDistance decided_distance(MeshView from, const ExactMesh& to, double limit);
+
+}  // namespace emax

@@ -1,0 +1,233 @@
+// `emax decimate` as a person sees it, and what `emax verify` makes of its certificates.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/geometry/bounds.h"
+#include "host/geometry/cloud_file.h"
+#include "host/geometry/mesh_file.h"
+#include "host/geometry/mesh_validity.h"
+#include "sw_model/certificate.h"
+#include "sw_model/surface_distance.h"
+#include "tests/host/app/program.h"
+#include "tests/host/geometry/temporary_folder.h"
+
+namespace emax {
+namespace {
+
+using nlohmann::json;
+using test::ProgramRun;
+
+class DecimateCommand : public testing::Test {
+ protected:
+  DecimateCommand() {
+    test::write_scan(folder_.path() / "scan.xyz", 1500, 2);
+    test::write_surface(folder_.path() / "surface.off", 30, 44);
+    mesh_ = read_mesh(folder_ / "surface.off");
+  }
+
+  ProgramRun emax(const std::vector<std::string>& arguments) {
+    return test::run_emax(arguments, folder_.path());
+  }
+  ProgramRun decimate(const std::string& output, std::vector<std::string> more = {},
+                      const std::string& mesh = "surface.off", const std::string& error = "1%") {
+    more.insert(more.begin(), {"decimate", mesh, "--max-error", error, "-o", output});
+    return emax(more);
+  }
+  json read(const std::string& name) { return json::parse(test::file_text(folder_ / name)); }
+  json certificate(const std::string& mesh) { return read(mesh + ".certificate.json"); }
+  int verify(const std::string& mesh) {
+    return emax({"verify", mesh + ".certificate.json"}).exit_code;
+  }
+
+  static double distance(const TriangleMesh& from, const TriangleMesh& to) {
+    return surface_distance(from.view(), ExactMesh(to.view())).lower;
+  }
+
+  test::TemporaryFolder folder_;
+  TriangleMesh mesh_;
+};
+
+TEST_F(DecimateCommand, BoundsBothSurfacesAndVerifyAgrees) {
+  const ProgramRun run = decimate("out.ply", {"--json", "r.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const json c = certificate("out.ply"), result = read("r.json");
+  const TriangleMesh out = read_mesh(folder_ / "out.ply");
+  const double epsilon = c.at("epsilon");
+  EXPECT_NEAR(epsilon, bounds_of(mesh_.vertices).width() / 100, 1e-12);
+  EXPECT_LT(out.triangles.size(), mesh_.triangles.size() / 2);
+  EXPECT_TRUE(check_mesh(out.view()).valid());
+  const json& reference = c.at("reference");
+  EXPECT_EQ(c.at("bound"), "two-sided");
+  EXPECT_EQ(reference.at("file"), "surface.off");
+  EXPECT_LE(certify(mesh_.vertices, out.view()).e_max_lower, c.at("e_max").get<double>());
+  EXPECT_LE(distance(out, mesh_), reference.at("mesh_to_reference").get<double>());
+  EXPECT_LE(distance(mesh_, out), reference.at("reference_to_mesh").get<double>());
+  for (const json& bounded :
+       {c.at("e_max"), reference.at("mesh_to_reference"), reference.at("reference_to_mesh")}) {
+    EXPECT_LE(bounded.get<double>(), epsilon);
+    EXPECT_GT(bounded.get<double>(), epsilon / 4);
+  }
+  for (const char* key : {"e_max", "epsilon", "e_max_squared_bits", "worst_point", "triangles",
+                          "valid", "transform", "bound"}) {
+    EXPECT_EQ(result.at(key), c.at(key)) << key;
+  }
+  EXPECT_EQ(verify("out.ply"), 0);
+  EXPECT_EQ(test::files_in(folder_.path()).size(), 5u);
+}
+
+TEST_F(DecimateCommand, KeepsToTheCloudThatIsGiven) {
+  for (const std::string bound : {"one-sided", "two-sided"}) {
+    ASSERT_EQ(decimate("out.off", {"--cloud", "scan.xyz", "--bound", bound}).exit_code, 0);
+    const json c = certificate("out.off");
+    EXPECT_EQ(c.at("bound"), bound);
+    EXPECT_EQ(c.at("points"), 1500);
+    const TriangleMesh out = read_mesh(folder_ / "out.off");
+    EXPECT_TRUE(certify(read_cloud(folder_ / "scan.xyz").points, out.view())
+                    .within(c.at("epsilon").get<double>()));
+    EXPECT_EQ(verify("out.off"), 0);
+  }
+  EXPECT_TRUE(certificate("out.off").at("reference").at("reference_to_mesh").is_null());
+  ASSERT_EQ(decimate("loose.off", {"--cloud", "scan.xyz", "--back-error", "3%"}).exit_code, 0);
+  const json loose = certificate("loose.off");
+  EXPECT_NEAR(loose.at("reference").at("epsilon_back").get<double>(),
+              3 * loose.at("epsilon").get<double>(), 1e-12);
+  EXPECT_EQ(verify("loose.off"), 0);
+}
+
+TEST_F(DecimateCommand, EveryFormatIsCertifiedAsItIsStored) {
+  for (const std::string name : {"out.obj", "out.off", "out.stl"}) {
+    ASSERT_EQ(decimate(name, {"--effort", "quick"}).exit_code, 0) << name;
+    EXPECT_EQ(certificate(name).at("valid"), true);
+    EXPECT_EQ(verify(name), 0) << name;
+  }
+  // And from STL, which repeats its vertices.
+  ASSERT_EQ(decimate("again.ply", {"--effort", "quick"}, "out.stl", "3%").exit_code, 0);
+  EXPECT_EQ(verify("again.ply"), 0);
+}
+
+TEST_F(DecimateCommand, SameInputSameBytes) {
+  ASSERT_EQ(decimate("one.ply").exit_code, 0);
+  ASSERT_EQ(decimate("two.ply").exit_code, 0);
+  EXPECT_EQ(test::file_text(folder_ / "one.ply"), test::file_text(folder_ / "two.ply"));
+}
+
+TEST_F(DecimateCommand, VerifyCatchesEveryFalseClaim) {
+  ASSERT_EQ(decimate("out.ply", {"--effort", "quick"}).exit_code, 0);
+  const json honest = certificate("out.ply");
+  const auto verdict = [&](const auto& change) {
+    json claim = honest;
+    change(claim, claim["reference"]);
+    std::ofstream(folder_ / "claim.json") << claim;
+    return emax({"verify", "claim.json"}).exit_code;
+  };
+  EXPECT_EQ(verdict([](json&, json&) {}), 0);
+  for (const char* key : {"mesh_to_reference", "reference_to_mesh", "epsilon_back"}) {
+    const double claimed = honest.at("reference").at(key);
+    EXPECT_EQ(verdict([&](json&, json& r) { r[key] = claimed / 2; }), 2) << key;
+  }
+  EXPECT_EQ(verdict([](json&, json& r) { r["points_to_reference"] = -1; }), 2);
+  EXPECT_EQ(verdict([](json&, json& r) { r["sha256"] = "00"; }), 2);
+  EXPECT_EQ(verdict([](json& c, json&) { c["e_max"] = 0; }), 2);
+  EXPECT_EQ(verdict([](json&, json& r) { r.erase("epsilon_back"); }), 1);
+  EXPECT_EQ(verdict([](json&, json& r) { r["file"] = "absent.ply"; }), 1);
+}
+
+// A fin, a hole, a turned triangle, doubled vertices and a second part.
+TEST_F(DecimateCommand, ABrokenMeshEndsInAValidOne) {
+  TriangleMesh broken = mesh_;
+  broken.triangles.erase(broken.triangles.begin() + 200, broken.triangles.begin() + 203);
+  std::swap(broken.triangles[7][0], broken.triangles[7][1]);
+  const auto vertices = static_cast<std::uint32_t>(broken.vertices.size());
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    broken.vertices.push_back(mesh_.vertices[v] + Point(4, 0, 0));
+  }
+  for (const Triangle& t : mesh_.triangles) {
+    broken.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+  }
+  for (std::uint32_t& v : broken.triangles[50]) {
+    broken.vertices.push_back(broken.vertices[v]);
+    v = static_cast<std::uint32_t>(broken.vertices.size() - 1);
+  }
+  broken.vertices.push_back(1.01 * mesh_.vertices[99]);
+  broken.triangles.push_back({99, 100, static_cast<std::uint32_t>(broken.vertices.size() - 1)});
+  write_mesh(folder_ / "broken.ply", broken);
+  const ProgramRun run = decimate("out.ply", {"--effort", "quick"}, "broken.ply");
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  EXPECT_NE(run.output.find(" triangles dropped"), std::string::npos) << run.output;
+  const json c = certificate("out.ply");
+  EXPECT_EQ(c.at("reference").at("file"), "out.ply.reference.ply");
+  EXPECT_EQ(c.at("validity").at("components"), 2);
+  EXPECT_GT(c.at("validity").at("boundary_edges"), 0);
+  EXPECT_EQ(c.at("valid"), true);
+  EXPECT_EQ(verify("out.ply"), 0);
+}
+
+// So far that only a sliver would reach it.
+TEST_F(DecimateCommand, PointsOutOfReachAreRefusedOrNamed) {
+  std::ofstream(folder_ / "scan.xyz", std::ios::app) << "500 0 0\n";
+  const auto run = [this](std::vector<std::string> more) {
+    more.insert(more.end(), {"--cloud", "scan.xyz", "--effort", "quick"});
+    return decimate("out.ply", more, "surface.off", "0.06");
+  };
+  const ProgramRun refused = run({});
+  EXPECT_EQ(refused.exit_code, 2) << refused.errors;
+  EXPECT_NE(refused.output.find("point 1500"), std::string::npos) << refused.output;
+  EXPECT_EQ(test::files_in(folder_.path()).size(), 2u);
+  ASSERT_EQ(run({"--exclude-outliers", "0.1%"}).exit_code, 0);
+  const json c = certificate("out.ply");
+  EXPECT_EQ(c.at("excluded").at(0).at("point"), 1500);
+  EXPECT_EQ(c.at("points"), 1500);
+  EXPECT_EQ(c.at("reference").at("file"), "surface.off");
+  EXPECT_EQ(verify("out.ply"), 0);
+}
+
+TEST_F(DecimateCommand, RefusesInOneLineAndWritesNothing) {
+  std::ofstream(folder_ / "none.off") << "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n";
+  std::ofstream(folder_ / "flat.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n";
+  std::ofstream far(folder_ / "far.xyz");
+  for (const Point& p : mesh_.vertices) {
+    far << fmt::format("{} {} {}\n", 1000 * p.x(), 1000 * p.y(), 1000 * p.z());
+  }
+  far.close();
+  const auto before = test::files_in(folder_.path());
+  const auto refused = [&](const ProgramRun& run, const char* text) {
+    EXPECT_EQ(run.exit_code, 1) << text;
+    EXPECT_NE(run.errors.find(text), std::string::npos) << run.errors;
+    EXPECT_EQ(std::ranges::count(run.errors, '\n'), 1) << run.errors;
+    EXPECT_EQ(test::files_in(folder_.path()), before) << text;
+  };
+  refused(decimate("out.ply", {}, "none.off"), "holds no triangles");
+  refused(decimate("out.ply", {}, "flat.off"), "no triangle of any area");
+  refused(decimate("out.ply", {}, "absent.off"), "absent.off");
+  refused(decimate("out.step"), "out.step");
+  refused(decimate("out.ply", {"--cloud", "far.xyz"}), "does not belong");
+  refused(decimate("out.ply", {}, "surface.off", "500"), "the unit of the file");
+  refused(decimate("out.ply", {}, "surface.off", "0"), "--max-error");
+  refused(decimate("out.ply", {}, "surface.off", "1e-13"), "roundings");
+  refused(decimate("out.ply", {"--back-error", "x"}), "x");
+  refused(decimate("out.ply", {"--back-error", "1%", "--bound", "one-sided"}), "--back-error");
+  refused(decimate("out.ply", {"--effort", "none"}), "quick");
+  refused(decimate("out.ply", {"--bound", "both"}), "two-sided");
+}
+
+TEST_F(DecimateCommand, StoppedItGivesWhatItHas) {
+  test::write_surface(folder_ / "surface.off", 100, 150);
+  const std::vector<std::string> deep = {"--effort", "deep", "--time", "0.5"};
+  const ProgramRun timed = decimate("timed.ply", deep);
+  EXPECT_EQ(timed.exit_code, 0) << timed.errors;
+  EXPECT_NE(timed.output.find("out of time"), std::string::npos) << timed.output;
+  EXPECT_EQ(verify("timed.ply"), 0);
+  const ProgramRun stopped = test::run_emax(
+      {"decimate", "surface.off", "--max-error", "0.1%", "-o", "out.ply"}, folder_.path(), 1);
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.errors;
+  if (std::filesystem::exists(folder_ / "out.ply")) {
+    EXPECT_EQ(verify("out.ply"), 0);
+  }
+}
+
+}  // namespace
+}  // namespace emax
