@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# `./dev test neon`: the engine's tests for AArch64, under an emulator. Arguments go to GoogleTest.
+set -euo pipefail
+out=build/neon
+mkdir -p "$out"
+ln -sfn /usr/include/hwy "$out/hwy" # headers alone: the rest of Highway is for this machine
+disabled=$(sed -n 's/.*\(HWY_DISABLED_TARGETS=([^)]*)\).*/\1/p' sw_model/CMakeLists.txt)
+googletest=/usr/src/googletest/googletest
+export out googletest disabled
+
+# What Highway's library would find out at run time.
+cat >"$out/supported_targets.cpp" <<'CODE'
+#include <hwy/targets.h>
+namespace hwy {
+int64_t SupportedTargets() { return HWY_NEON | HWY_EMU128 | HWY_SCALAR; }
+}  // namespace hwy
+CODE
+
+compile() {
+  aarch64-linux-gnu-g++ -std=c++20 -O2 -ffp-contract=off -fno-tree-slp-vectorize "-D$disabled" -I. \
+    -isystem "$out" -isystem /usr/include/eigen3 -isystem "$googletest/include" \
+    -isystem "$googletest" -c "$1" -o "$out/$(tr / _ <<<"$1").o"
+}
+export -f compile
+rm -f "$out"/*.o
+echo "neon: compiling into $out (a few minutes)"
+# shellcheck disable=SC2016  # expanded by the inner shell
+printf '%s\n' sw_model/*.cpp host/emax_search/*.cpp testbench/stimuli.cpp \
+  tests/host/emax_search/*_test.cpp "$out/supported_targets.cpp" \
+  "$googletest"/src/gtest{-all,_main}.cc |
+  xargs -P "$(nproc)" -I{} bash -euc 'compile "$1"' compile {}
+aarch64-linux-gnu-g++ -static "$out"/*.o -o "$out/emax_search_test"
+exec qemu-aarch64 "$out/emax_search_test" "$@"
