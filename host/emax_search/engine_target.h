@@ -1,10 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -47,28 +44,10 @@ enum class Strategy {
 
 // What is known of a cloud's packets from the meshes before.
 struct Settled {
-  std::span<SettledPacket> packets;  // of the cloud
-  std::span<std::uint32_t> meshes;   // the number of the mesh each speaks of
-  std::uint32_t now = 0, before = 0;
-  // Of mesh `before`: its records, and for each where it is in mesh `now` or a little before that.
-  std::span<const TriangleRecord<float>> records_before;
-  std::span<const std::uint32_t> places;
-
-  // The leaf of `mesh`, which is `now`, that has the record of a leaf of mesh `before`, or kNoLeaf.
-  // Of those that share a cell of the curve only the first few are compared.
-  std::uint32_t leaf_now(const TreeView& mesh, std::uint32_t leaf) const {
-    constexpr std::size_t kMostCompared = 8;
-    const TriangleRecord<float>& old = records_before[leaf];
-    const std::size_t end = std::min(places[leaf] + kMostCompared, mesh.records.size());
-    for (std::uint32_t i = places[leaf]; i < end; ++i) {
-      const TriangleRecord<float>& record = mesh.records[i];
-      if (std::memcmp(&old, &record, offsetof(TriangleRecord<float>, tag)) == 0 &&
-          ((old.tag ^ record.tag) & kSegmentFlag) == 0) {
-        return i;
-      }
-    }
-    return kNoLeaf;
-  }
+  std::span<SettledPacket> packets;   // of the cloud
+  std::uint32_t now = 0, before = 0;  // numbers of meshes
+  // Leaf of mesh `before` to the same of `now`, or kNoLeaf, which stands behind the last, too.
+  std::span<const std::uint32_t> carried;
 };
 
 struct SearchJob {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "host/emax_search/emax_search.h"
 #include "host/emax_search/nearest_rank.h"
@@ -32,24 +31,27 @@ ErrorEngine::ErrorEngine(const PreparedCloud& cloud, EngineOptions options)
 void ErrorEngine::forget() {
   remembered_.clear();
   settled_.assign(cloud_.packets().packets.size(), {});
-  settled_meshes_.assign(settled_.size(), 0);
-  mesh_ = mesh_before_ = nullptr;
-  mesh_number_ = 0;
-  places_.clear();
+  mesh_ = nullptr;
+  mesh_number_ = 1;  // no packet speaks of it
+  carried_.clear();
 }
 
 void ErrorEngine::begin(const PreparedMesh& mesh) {
   if (mesh_ == mesh.leaves()) return;
-  mesh_before_ = std::exchange(mesh_, mesh.leaves());
+  if (mesh_ != nullptr) carried_ = mesh_->carried_to(*mesh.leaves());
+  mesh_ = mesh.leaves();
   ++mesh_number_;
-  if (mesh_before_ != nullptr) places_ = mesh_before_->places_in(*mesh_);
 }
 
 SearchJob ErrorEngine::job(const PreparedMesh& mesh, RunningMaximum& worst, std::uint32_t enough,
                            std::vector<std::uint32_t>& raised) {
-  Settled settled = {settled_, settled_meshes_, mesh_number_, mesh_number_ - 1, {}, places_};
-  if (mesh_before_ != nullptr) settled.records_before = mesh_before_->records();
-  return {cloud_.packets(), mesh.tree(), options_.strategy, worst, enough, raised, settled};
+  return {cloud_.packets(),
+          mesh.tree(),
+          options_.strategy,
+          worst,
+          enough,
+          raised,
+          {settled_, mesh_number_, mesh_number_ - 1, carried_}};
 }
 
 void ErrorEngine::in_supergroups(
@@ -95,7 +97,6 @@ EmaxResult ErrorEngine::e_max(const PreparedMesh& mesh) {
   in_supergroups([&](std::size_t thread, std::size_t first, std::size_t last) {
     target_.search_supergroups(job(mesh, worst, kNeverEnough, raised[thread]), first, last);
   });
-  mesh_before_ = nullptr;  // every packet speaks of this mesh now
   raised.push_back(std::move(seeds));
   remember(worst.get().worst_point, raised);
   return worst.get();

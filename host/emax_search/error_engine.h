@@ -26,9 +26,9 @@ struct Quantile {
 // Every question about the distance of a cloud's points to a mesh, answered with brute force's bits
 // (docs/numerics.md): the kernel's d^2, whatever is culled, hinted at or remembered, with any
 // number of threads. A mesh is prepared with the cloud's normalization. An engine serves one
-// caller at a time. What settled 16 points on one mesh is kept, 4 bytes a point, and settles them
-// on the next if that has the same triangles; for that the engine holds the last two meshes'
-// records (MeshLeaves). O(n log m) in practice for n points and m triangles.
+// caller at a time. What settled a point on one mesh is kept, 4.5 bytes a point, and settles it
+// on the next if that has the same triangle; for that the engine holds the last mesh's records
+// (MeshLeaves). O(n log m) in practice for n points and m triangles.
 class ErrorEngine {
  public:
   // The cloud must outlive the engine. Throws std::invalid_argument for no threads.
@@ -53,7 +53,7 @@ class ErrorEngine {
  private:
   SearchJob job(const PreparedMesh& mesh, RunningMaximum& worst, std::uint32_t enough,
                 std::vector<std::uint32_t>& raised);
-  // Notes where the last mesh's triangles are in this one.
+  // Finds the last mesh's triangles in this one.
   void begin(const PreparedMesh& mesh);
   // work(thread, first, last) with flushing on.
   void in_supergroups(const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const;
@@ -64,10 +64,9 @@ class ErrorEngine {
   const EngineTarget& target_;
   std::vector<std::uint32_t> remembered_;  // packets that were worst, the latest last
   std::vector<SettledPacket> settled_;     // of packets
-  std::vector<std::uint32_t> settled_meshes_;
-  std::shared_ptr<const MeshLeaves> mesh_, mesh_before_;
-  std::uint32_t mesh_number_ = 0;
-  std::vector<std::uint32_t> places_;  // of the mesh before, in the present one
+  std::shared_ptr<const MeshLeaves> mesh_;
+  std::uint32_t mesh_number_;
+  std::vector<std::uint32_t> carried_;  // leaves of the mesh before to those of the present one
 };
 
 }  // namespace emax

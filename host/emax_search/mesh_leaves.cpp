@@ -1,6 +1,8 @@
 #include "host/emax_search/mesh_leaves.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <utility>
 
 #include "host/emax_search/curve_order.h"
@@ -11,6 +13,12 @@ namespace {
 
 constexpr std::size_t kPiece = 4096;  // triangles
 static_assert(kPiece % kTreeWidth == 0);
+constexpr std::size_t kMostInCell = 8;  // that are compared
+
+bool same_triangle(const TriangleRecord<float>& a, const TriangleRecord<float>& b) {
+  return std::memcmp(&a, &b, offsetof(TriangleRecord<float>, tag)) == 0 &&
+         ((a.tag ^ b.tag) & kSegmentFlag) == 0;
+}
 
 }  // namespace
 
@@ -32,14 +40,21 @@ MeshLeaves::MeshLeaves(MeshView mesh, const Normalization& normalization,
   keys_ = order.take_keys();
 }
 
-std::vector<std::uint32_t> MeshLeaves::places_in(const MeshLeaves& now) const {
-  std::vector<std::uint32_t> places(count_);
-  std::size_t place = 0;
+std::vector<std::uint32_t> MeshLeaves::carried_to(const MeshLeaves& now) const {
+  std::vector<std::uint32_t> carried(count_ + 1, kNoLeaf);
+  std::size_t cell = 0;  // the first of now's that does not come before this one
   for (std::size_t i = 0; i < count_; ++i) {
-    while (place < now.count_ && now.keys_[place].code < keys_[i].code) ++place;
-    places[i] = static_cast<std::uint32_t>(place);
+    const std::uint32_t code = keys_[i].code;
+    while (cell < now.count_ && now.keys_[cell].code < code) ++cell;
+    const std::size_t end = std::min(cell + kMostInCell, now.count_);
+    for (std::size_t j = cell; j < end && now.keys_[j].code == code; ++j) {
+      if (same_triangle(records_[i], now.records_[j])) {
+        carried[i] = static_cast<std::uint32_t>(j);
+        break;
+      }
+    }
   }
-  return places;
+  return carried;
 }
 
 }  // namespace emax

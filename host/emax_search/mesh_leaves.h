@@ -24,9 +24,10 @@ class MeshLeaves {
   float reach() const { return reach_; }
   std::size_t memory_bytes() const { return count_ * (sizeof keys_[0] + sizeof records_[0]); }
 
-  // Where this mesh's triangles are in `now`, if they are there: for each leaf, the first of now's
-  // in the same cell of the curve or behind it. O(n).
-  std::vector<std::uint32_t> places_in(const MeshLeaves& now) const;
+  // For each leaf, one of `now` with the same record but for its tag's index, or kNoLeaf; kNoLeaf
+  // behind the last. O(n); of triangles that share a cell of the curve only the first few are
+  // compared.
+  std::vector<std::uint32_t> carried_to(const MeshLeaves& now) const;
 
  private:
   std::size_t count_;

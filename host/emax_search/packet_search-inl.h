@@ -29,43 +29,60 @@ HWY_INLINE float limit_of(const RunningMaximum& worst, const Packet& packet) {
 // Triangles that settle points of a packet, gathered without a branch. Who gathers keeps their
 // number, in a register.
 struct Witnesses {
-  // Each settles a point that was open, but for those known before: kPacketPoints at most, and
-  // the place behind them.
-  static constexpr std::size_t kRoom = SettledPacket::kMost + kPacketPoints + 1;
+  // Each settles a point that was open; a place behind them is written to.
+  static constexpr std::size_t kRoom = kPacketPoints + 1;
   std::array<std::uint32_t, kRoom> leaves;
-  std::array<std::uint16_t, kRoom> points;
+  std::array<std::uint32_t, kRoom> points;  // a bit each
 
   // Returns the number that there are now.
   HWY_INLINE std::size_t add(std::size_t count, std::uint32_t leaf, std::uint32_t settled) {
     leaves[count] = leaf;
-    points[count] = static_cast<std::uint16_t>(settled);
+    points[count] = settled;
     return count + HWY_MIN(settled, 1u);  // not a branch that GCC would find
   }
-  // What is left where there were more than a settled packet holds is searched again.
-  HWY_INLINE void keep(std::size_t count, float squared_limit, SettledPacket& packet) {
-    for (std::size_t i = count; i < SettledPacket::kMost; ++i) points[i] = 0;
-    packet.squared_limit = squared_limit;
-    std::copy_n(leaves.begin(), SettledPacket::kMost, packet.leaves.begin());
-    std::copy_n(points.begin(), SettledPacket::kMost, packet.points.begin());
+  // In place of what `packet` had for these points.
+  HWY_INLINE void keep(std::size_t count, SettledPacket& packet) const {
+    const IndexTag d;
+    const auto bits = hn::Shl(hn::Set(d, 1u), hn::Iota(d, 0u));
+    for (std::size_t lane = 0; lane < kPacketPoints; lane += Floats::kCount) {
+      auto kept = hn::LoadU(d, &packet.leaves[lane]);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto settled = hn::TestBit(hn::Set(d, points[i] >> lane), bits);
+        kept = hn::IfThenElse(settled, hn::Set(d, leaves[i]), kept);
+      }
+      hn::StoreU(kept, d, &packet.leaves[lane]);
+    }
   }
 };
 
-// Points of packet i that an earlier mesh's triangles settle on this mesh, too.
+// Points of packet i that an earlier mesh's triangles settle on this mesh, too. Its leaves become
+// this mesh's, kNoLeaf for the other points; `hint` one of them, if there is any.
 HWY_INLINE std::uint32_t still_settled(const SearchJob& job, std::size_t i, float limit,
-                                       Witnesses& witnesses, std::size_t& count) {
+                                       std::uint32_t& hint) {
   const Settled& known = job.settled;
-  const SettledPacket& packet = known.packets[i];
-  const bool is_now = known.meshes[i] == known.now;
-  if (!(packet.squared_limit <= limit)) return 0;
-  if (!is_now && known.meshes[i] != known.before) return 0;
-  std::uint32_t settled = 0;
-  for (std::size_t k = 0; k < SettledPacket::kMost && packet.points[k] != 0; ++k) {
-    const std::uint32_t leaf =
-        is_now ? packet.leaves[k] : known.leaf_now(job.mesh, packet.leaves[k]);
-    if (leaf == kNoLeaf) continue;
-    count = witnesses.add(count, leaf, packet.points[k]);
-    settled |= packet.points[k];
+  SettledPacket& packet = known.packets[i];
+  const bool is_now = packet.mesh == known.now;
+  const bool serves = packet.squared_limit <= limit && (is_now || packet.mesh == known.before);
+  packet.mesh = known.now;
+  if (!serves) {
+    packet.leaves.fill(kNoLeaf);
+    return 0;
   }
+  const IndexTag d;
+  const auto none = hn::Set(d, kNoLeaf);
+  std::uint32_t settled = 0;
+  for (std::size_t lane = 0; lane < kPacketPoints; lane += Floats::kCount) {
+    auto leaves = hn::LoadU(d, &packet.leaves[lane]);
+    if (!is_now) {
+      const auto last = hn::Set(d, static_cast<std::uint32_t>(known.carried.size() - 1));
+      const auto index = hn::BitCast(hn::RebindToSigned<IndexTag>(), hn::Min(leaves, last));
+      leaves = hn::GatherIndex(d, known.carried.data(), index);
+      hn::StoreU(leaves, d, &packet.leaves[lane]);
+    }
+    settled |= bits_of({hn::RebindMask(FloatTag(), hn::Ne(leaves, none))}) << lane;
+  }
+  const std::uint32_t first = packet.leaves[hwy::Num0BitsBelowLS1Bit_Nonzero32(settled | 0x8000u)];
+  if (first != kNoLeaf) hint = first;
   return settled;
 }
 
@@ -203,6 +220,9 @@ constexpr float kNear = 0x1p-4f;  // of squares
 // with a lower maximum, too.
 constexpr float kProven = 0.8f;  // of squares
 
+// Points that the mesh before left open are searched in the tree if there are no more of them.
+constexpr std::size_t kFew = 4;
+
 [[gnu::flatten]] inline void search_supergroups(const SearchJob& job, std::size_t first,
                                                 std::size_t last) {
   Candidates candidates;
@@ -222,14 +242,13 @@ constexpr float kProven = 0.8f;  // of squares
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const Packet& packet = job.cloud.packets[i];
       const float limit = limit_of(job.worst, packet);
-      std::size_t found = 0;
-      std::uint32_t open = kAll & ~still_settled(job, i, limit, witnesses, found);
       SettledPacket& settled = job.settled.packets[i];
+      std::uint32_t open = kAll & ~still_settled(job, i, limit, hint);
       const float proven_before = open != kAll ? settled.squared_limit : 0.0f;
-      float proven = proven_before;
       if (open != 0) {
         PacketLanes lanes(packet);
-        if (in_packets++ == 0) {
+        const bool few = hwy::PopCount(open) <= kFew;
+        if (!few && in_packets++ == 0) {
           radius = limit * kNear;
           collected = job.strategy != Strategy::kBestFirst &&
                       (job.strategy == Strategy::kPackets || worth_collecting(box, limit)) &&
@@ -237,10 +256,11 @@ constexpr float kProven = 0.8f;  // of squares
         }
         std::size_t count = 0;
         const auto choose = [&]() HWY_ATTR {
-          if (collected) count = candidates.choose(job.cloud.boxes[i], radius, chosen);
+          if (collected && !few) count = candidates.choose(job.cloud.boxes[i], radius, chosen);
         };
-        proven = limit;
-        if (use_prisms) {
+        std::size_t found = 0;
+        float proven = limit;
+        if (use_prisms && !few) {
           const Prism prism(limit * kProven, job.mesh.reach);
           const std::uint32_t inside = open & lanes.inside(job.mesh.records[hint], prism);
           found = witnesses.add(found, hint, inside);
@@ -275,10 +295,10 @@ constexpr float kProven = 0.8f;  // of squares
           raise(job, packet, lanes, open);
           job.raised.push_back(static_cast<std::uint32_t>(i));
         }
+        if (found != 0) hint = witnesses.leaves[found - 1];
+        witnesses.keep(found, settled);
+        settled.squared_limit = proven;
       }
-      if (found != 0) hint = witnesses.leaves[found - 1];
-      witnesses.keep(found, proven, settled);
-      job.settled.meshes[i] = job.settled.now;
     }
   }
 }

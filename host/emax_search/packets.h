@@ -36,15 +36,13 @@ struct LeafKey {
 };
 constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
-// What settled a packet on a mesh: triangles, and of each the points, a bit a point, that are
-// within sqrt(squared_limit) of it. It serves for every mesh that has these triangles, too.
-struct alignas(64) SettledPacket {
-  static constexpr std::size_t kMost = 10;
+// What settled a packet on a mesh: for each point a triangle within sqrt(squared_limit) of it, or
+// kNoLeaf. It serves for every mesh that has this triangle, too.
+struct SettledPacket {
   float squared_limit = std::numeric_limits<float>::infinity();  // it settles nothing
-  std::array<std::uint32_t, kMost> leaves;
-  std::array<std::uint16_t, kMost> points;  // none behind the last triangle
+  std::uint32_t mesh = 0;                                        // its number
+  std::array<std::uint32_t, kPacketPoints> leaves;
 };
-static_assert(sizeof(SettledPacket) == 64);
 
 // The boxes of a tree node's children, empty (and infinitely far) behind the last one. Each is
 // larger than what it holds by the part of the kernel's error that does not depend on the point

@@ -111,12 +111,11 @@ void add_sequence_groups(Groups& groups, const CaseFolders& folders, bool quick)
                 for (const auto& mesh : s.meshes) bits ^= s.engine.e_max(*mesh).squared_bits;
                 return bits;
               }));
-    group.add("of which: where the mesh before's triangles would be in this one", amount,
-              repeat([&s] {
+    group.add("of which: the mesh before's triangles found in this one", amount, repeat([&s] {
                 std::size_t found = 0;
                 const EngineMesh* before = s.meshes.back().get();
                 for (const auto& mesh : s.meshes) {
-                  found += before->leaves()->places_in(*mesh->leaves()).size();
+                  found += before->leaves()->carried_to(*mesh->leaves()).size();
                   before = mesh.get();
                 }
                 return found;

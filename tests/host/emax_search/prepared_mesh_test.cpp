@@ -56,7 +56,7 @@ TEST(PreparedMesh, IsTheSameFromAnyNumberOfThreads) {
 }
 
 // Against every pair.
-TEST(Settled, FindsTheTrianglesThatStayed) {
+TEST(MeshLeaves, FindsTheTrianglesThatStayed) {
   test::Random random(81);
   const test::Stimulus before = test::bumpy_sphere(15, 20, 100, 81);
   test::Stimulus now = before;
@@ -69,8 +69,9 @@ TEST(Settled, FindsTheTrianglesThatStayed) {
   }
   const Normalization normalization = normalization_of(before.cloud);
   const PreparedMesh old_mesh(before.mesh(), normalization), new_mesh(now.mesh(), normalization);
-  const std::vector<std::uint32_t> places = old_mesh.leaves()->places_in(*new_mesh.leaves());
-  const Settled settled = {{}, {}, 2, 1, old_mesh.records(), places};
+  const std::vector<std::uint32_t> carried = old_mesh.leaves()->carried_to(*new_mesh.leaves());
+  ASSERT_EQ(carried.size(), before.triangles.size() + 1);
+  EXPECT_EQ(carried.back(), kNoLeaf);
   const auto corners_of = [](const TriangleRecord<float>& record, const test::Stimulus& s) {
     return s.mesh().corners(record.tag & ~kSegmentFlag);
   };
@@ -81,11 +82,10 @@ TEST(Settled, FindsTheTrianglesThatStayed) {
     for (std::uint32_t j = 0; j < now.triangles.size(); ++j) {
       if (corners_of(new_mesh.records()[j], now) == corners) same.push_back(j);
     }
-    const std::uint32_t leaf = settled.leaf_now(new_mesh.tree(), i);
     if (same.empty()) {
-      EXPECT_EQ(leaf, kNoLeaf) << i;
+      EXPECT_EQ(carried[i], kNoLeaf) << i;
     } else {
-      EXPECT_NE(std::ranges::find(same, leaf), same.end()) << i;
+      EXPECT_NE(std::ranges::find(same, carried[i]), same.end()) << i;
       ++stayed;
     }
   }
