@@ -1,0 +1,231 @@
+#include "host/run_log/run_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "host/geometry/atomic_file.h"
+#include "host/geometry/mesh_file.h"
+#include "sw_model/error.h"
+#include "sw_model/frames.h"
+
+namespace emax {
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kLogName = "evaluations.log";
+constexpr const char* kSettingsName = "settings.json";
+constexpr std::string_view kMeshName = "mesh-";
+constexpr std::string_view kMeshEnding = ".ply";
+
+std::uint32_t crc_of(std::string_view bytes) {
+  return crc32(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+}
+
+std::optional<std::string> text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) return std::nullopt;
+  return text.str();
+}
+
+std::optional<std::uint64_t> index_of_mesh(const fs::path& path) {
+  const std::string name = path.filename().string();
+  std::uint64_t index = 0;
+  const char* digits = name.data() + std::min(kMeshName.size(), name.size());
+  const auto [end, failure] = std::from_chars(digits, name.data() + name.size(), index);
+  const bool is_mesh = name.starts_with(kMeshName) && failure == std::errc{} && end == kMeshEnding;
+  return is_mesh ? std::optional(index) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
+  std::vector<std::uint8_t> genes(e.genes.size() * sizeof(double));
+  if (!genes.empty()) std::memcpy(genes.data(), e.genes.data(), genes.size());
+  ordered_json json = {{"index", e.index}, {"genes", ordered_json::binary(std::move(genes))}};
+  if (!e.failure.empty()) {
+    json["failure"] = e.failure;
+    json["message"] = e.message;
+  } else {
+    json["triangles"] = e.triangles;
+    json["violation"] = e.violation;
+    json["e_max_squared_bits"] = e.squared_bits;
+    json["reconstruction_triangles"] = e.reconstruction_triangles;
+    json["unmeshed_points"] = e.unmeshed_points;
+    if (e.mesh_crc) json["mesh_crc32"] = *e.mesh_crc;
+  }
+  return ordered_json::to_cbor(json);
+}
+
+LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
+  try {
+    const ordered_json json = ordered_json::from_cbor(content.begin(), content.end());
+    LoggedEvaluation e;
+    json.at("index").get_to(e.index);
+    const auto& genes = json.at("genes").get_binary();
+    e.genes.resize(genes.size() / sizeof(double));
+    if (!e.genes.empty())
+      std::memcpy(e.genes.data(), genes.data(), e.genes.size() * sizeof(double));
+    if (json.contains("failure")) {
+      json.at("failure").get_to(e.failure);
+      json.at("message").get_to(e.message);
+      return e;
+    }
+    json.at("triangles").get_to(e.triangles);
+    json.at("violation").get_to(e.violation);
+    json.at("e_max_squared_bits").get_to(e.squared_bits);
+    json.at("reconstruction_triangles").get_to(e.reconstruction_triangles);
+    json.at("unmeshed_points").get_to(e.unmeshed_points);
+    if (json.contains("mesh_crc32")) e.mesh_crc = json.at("mesh_crc32").get<std::uint32_t>();
+    return e;
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(std::string("not an evaluation: ") + error.what());
+  }
+}
+
+RunLog::RunLog(fs::path folder, const RunSettings& settings) : folder_(std::move(folder)) {
+  create_folder();
+  log_.emplace(folder_ / kLogName);
+  read_evaluations();
+  if (!evaluations_.empty()) {
+    compare(settings);
+  } else {
+    // Settings first: a log that holds anything always has them beside it.
+    ordered_json json;
+    for (const auto& [name, value] : settings) json[name] = value;
+    write_atomically(folder_ / kSettingsName, json.dump(2) + "\n");
+    log_->clear();
+  }
+  find_meshes();
+}
+
+RunLog::~RunLog() {
+  if (!created_ || removed_ || !evaluations_.empty()) return;
+  remove();
+}
+
+void RunLog::create_folder() {
+  std::error_code failure;
+  if (fs::is_directory(folder_, failure)) {
+    if (fs::exists(folder_ / kLogName, failure) || fs::is_empty(folder_, failure)) return;
+    throw Error(folder_.string() + ": holds other files than a run's; name another folder");
+  }
+  created_ = fs::create_directory(folder_, failure);
+  if (!created_ && !fs::is_directory(folder_)) {
+    throw Error(
+        fmt::format("{}: cannot be created ({}); name a folder in a place that exists and "
+                    "can be written",
+                    folder_.string(), failure ? failure.message() : "not a folder"));
+  }
+}
+
+void RunLog::read_evaluations() {
+  loss_ = log_->read([this](std::span<const std::uint8_t> content) {
+    LoggedEvaluation evaluation = decode_evaluation(content);
+    const std::uint64_t index = evaluation.index;
+    evaluations_.insert_or_assign(index, std::move(evaluation));  // the last word counts
+  });
+}
+
+void RunLog::compare(const RunSettings& settings) const {
+  const fs::path path = folder_ / kSettingsName;
+  ordered_json there;
+  try {
+    there = ordered_json::parse(text_of(path).value_or(""));
+  } catch (const nlohmann::json::exception&) {
+    throw Error(path.string() + ": cannot be read; put it back or name another folder");
+  }
+  const auto differs = [&](const std::string& name, const std::string& then,
+                           const std::string& now) {
+    throw Error(
+        fmt::format("{}: the run there has {} {}, this one has {}; make them agree, name "
+                    "another folder with --resume, or delete this one",
+                    folder_.string(), name, then, now));
+  };
+  for (const auto& [name, value] : settings) {
+    const std::string then = there.value(name, "not said");
+    if (then != value) differs(name, then, value);
+    there.erase(name);
+  }
+  for (const auto& [name, value] : there.items()) {
+    differs(name, value.get<std::string>(), "not said");
+  }
+}
+
+// Those without an evaluation were cut off from it by a kill.
+void RunLog::find_meshes() {
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::optional<std::uint64_t> index = index_of_mesh(entry.path());
+    if (index && evaluations_.contains(*index)) {
+      meshes_.insert(*index);
+    } else if (index || entry.path().extension() == ".tmp") {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : leftovers) fs::remove(path);
+}
+
+const LoggedEvaluation* RunLog::find(std::uint64_t index) const {
+  const auto found = evaluations_.find(index);
+  return found == evaluations_.end() ? nullptr : &found->second;
+}
+
+void RunLog::append(LoggedEvaluation evaluation) {
+  log_->append(encode(evaluation));
+  const std::uint64_t index = evaluation.index;
+  evaluations_.insert_or_assign(index, std::move(evaluation));
+}
+
+void RunLog::append(LoggedEvaluation evaluation, const TriangleMesh& mesh) {
+  const std::string bytes = mesh_bytes(mesh, MeshFormat::kPly);
+  evaluation.mesh_crc = crc_of(bytes);
+  write_atomically(mesh_path(evaluation.index), bytes);
+  meshes_.insert(evaluation.index);
+  append(std::move(evaluation));
+}
+
+std::optional<TriangleMesh> RunLog::mesh(const LoggedEvaluation& evaluation) const {
+  const fs::path path = mesh_path(evaluation.index);
+  const std::optional<std::string> bytes = text_of(path);
+  if (!bytes || !evaluation.mesh_crc || crc_of(*bytes) != *evaluation.mesh_crc) return std::nullopt;
+  return read_mesh(path);
+}
+
+void RunLog::drop_mesh(std::uint64_t index) {
+  if (meshes_.erase(index) == 0) return;
+  std::error_code ignored;
+  fs::remove(mesh_path(index), ignored);
+}
+
+// In an order that leaves a fresh or a whole run wherever it is cut short.
+void RunLog::remove() {
+  removed_ = true;
+  evaluations_.clear();
+  try {
+    log_->clear();
+  } catch (const Error&) {  // an empty log is a fresh run's too
+  }
+  std::error_code ignored;
+  for (const std::uint64_t index : meshes_) fs::remove(mesh_path(index), ignored);
+  meshes_.clear();
+  fs::remove(folder_ / kSettingsName, ignored);
+  fs::remove(folder_ / kLogName, ignored);
+  fs::remove(folder_, ignored);
+}
+
+fs::path RunLog::mesh_path(std::uint64_t index) const {
+  return folder_ / fmt::format("{}{}{}", kMeshName, index, kMeshEnding);
+}
+
+}  // namespace emax

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/geometry/triangle_mesh.h"
+#include "host/run_log/record_file.h"
+
+namespace emax {
+
+// Everything that the results of a run depend on, by name, in the order in which differences are
+// looked for.
+using RunSettings = std::vector<std::pair<std::string, std::string>>;
+
+struct LoggedEvaluation {
+  std::uint64_t index = 0;  // of the candidate
+  std::vector<double> genes;
+
+  std::string failure;  // its reason; empty for one that was measured
+  std::string message;  // one line
+
+  std::uint64_t triangles = 0;
+  double violation = 0;            // as MeasuredError has it; at most 0 when feasible
+  std::uint32_t squared_bits = 0;  // the kernel's e_max^2 over the points that are kept
+  std::uint64_t reconstruction_triangles = 0, unmeshed_points = 0;
+  std::optional<std::uint32_t> mesh_crc;  // CRC-32 of the mesh's file, where that was kept
+
+  bool operator==(const LoggedEvaluation&) const = default;
+};
+
+// A run's folder (docs/run_folder.md): its settings, a log of its evaluations that is cache and
+// checkpoint at once, and the meshes that may become the result. Held by one process at a time.
+class RunLog {
+ public:
+  // Creates the folder, or continues what is there. Throws Error when another process holds it,
+  // when it was made with other settings (the message names the first that differs) or is no run's,
+  // and when it cannot be written.
+  RunLog(std::filesystem::path folder, const RunSettings& settings);
+  // Removes the folder if it holds no evaluation and was made here.
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::size_t size() const { return evaluations_.size(); }  // evaluations
+  RecordFile::Loss loss() const { return loss_; }           // when it was opened
+
+  // What candidate `index` came to; nullptr when that is not known.
+  const LoggedEvaluation* find(std::uint64_t index) const;
+
+  const std::map<std::uint64_t, LoggedEvaluation>& evaluations() const { return evaluations_; }
+
+  // As RecordFile::append. Throws Error, e.g. when the disk is full; what was there stays.
+  void append(LoggedEvaluation evaluation);
+  // The mesh is kept too, until it is dropped.
+  void append(LoggedEvaluation evaluation, const TriangleMesh& mesh);
+
+  // The mesh that was kept with it; nothing when it is gone or damaged.
+  std::optional<TriangleMesh> mesh(const LoggedEvaluation& evaluation) const;
+  void drop_mesh(std::uint64_t index);
+
+  // Removes the folder with all that is its own in it.
+  void remove();
+
+ private:
+  std::filesystem::path mesh_path(std::uint64_t index) const;
+  void create_folder();
+  void read_evaluations();
+  void compare(const RunSettings& settings) const;
+  void find_meshes();
+
+  std::filesystem::path folder_;
+  bool created_ = false, removed_ = false;
+  std::optional<RecordFile> log_;
+  RecordFile::Loss loss_;
+  std::map<std::uint64_t, LoggedEvaluation> evaluations_;
+  std::set<std::uint64_t> meshes_;
+};
+
+// A record's content: one CBOR map.
+std::vector<std::uint8_t> encode(const LoggedEvaluation& evaluation);
+// Throws Error when it is none.
+LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content);
+
+}  // namespace emax
