@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -120,6 +121,9 @@ int run(std::span<char*> arguments) {
   std::from_chars(memory.data(), memory.data() + memory.size(), memory_limit);
   if (memory_limit != 0) limit(RLIMIT_AS, memory_limit);
   limit(RLIMIT_CORE, 0);
+  // Whoever stops the program may signal its workers too; they end when it does, and not before, as
+  // if their evaluation had failed.
+  for (const int signal_number : {SIGHUP, SIGINT, SIGTERM}) std::signal(signal_number, SIG_IGN);
   leave_on_hangup();
   try {
     serve(arguments.size() > 2 && arguments[2] == std::string_view("--allow-test-methods"));

@@ -96,6 +96,15 @@ TEST(WorkerProcess, KeepsWhatLibrariesPrintOutOfTheChannel) {
   std::filesystem::remove(log);
 }
 
+// A service manager signals all processes at once: the evaluation in work is no failure of its own.
+TEST(WorkerProcess, EndsWithItsProgramAndNotBySignals) {
+  WorkerProcess worker(command(), points());
+  std::get<ReadyMessage>(next_message(worker));
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) kill(worker.pid(), signal);
+  worker.send(encode(run("test.error")));
+  EXPECT_EQ(std::get<FailureMessage>(next_message(worker)).failure.reason, FailureReason::kError);
+}
+
 TEST(WorkerProcess, KnowsNoTestMethodsUnlessAllowed) {
   WorkerProcess::Command strict = command();
   strict.allow_test_methods = false;
