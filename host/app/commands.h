@@ -20,7 +20,11 @@ struct OptimizeOptions {
   std::string config;
   std::optional<std::uint64_t> budget;  // of the configuration, if not given
   std::optional<double> seconds;
-  unsigned jobs = 0;  // 0: one per processor
+  unsigned jobs = 0;   // 0: one per processor
+  std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
+  std::optional<std::uint64_t> target_triangles, stagnation;
+  std::optional<double> evaluation_seconds;
+  std::optional<std::uint64_t> evaluation_memory;  // bytes
 };
 int run_optimize(const OptimizeOptions& options);
 

@@ -79,6 +79,27 @@ int run(int argc, char** argv) {
   optimize_command
       .add_option("--jobs", optimize.jobs, "worker processes (default: one per processor)")
       ->check(CLI::Range(1u, 256u));
+  optimize_command
+      .add_option("--target-triangles", optimize.target_triangles,
+                  "stop at a mesh within the tolerance of at most so many triangles")
+      ->check(CLI::PositiveNumber);
+  optimize_command
+      .add_option("--stagnation", optimize.stagnation,
+                  "stop after so many evaluations without a better mesh")
+      ->check(CLI::PositiveNumber);
+  optimize_command.add_option("--resume", optimize.resume,
+                              "folder that keeps the run: created when missing, continued when "
+                              "there (default: MESH.run, removed when the run has ended)");
+  optimize_command
+      .add_option("--evaluation-time", optimize.evaluation_seconds,
+                  "give an evaluation up after this many seconds (default: 600, or 0.002 a point "
+                  "where that is more)")
+      ->check(CLI::PositiveNumber);
+  optimize_command
+      .add_option("--evaluation-memory", optimize.evaluation_memory,
+                  "give an evaluation up that needs more: bytes, or N MB, N GB (default: 7/8 of "
+                  "the memory, shared by the jobs)")
+      ->transform(CLI::AsSizeValue(false));
   optimize_command.add_option("--config", optimize.config,
                               "settings and domains; `emax config` prints the defaults");
   optimize_command.callback([&] { chosen = [&optimize] { return run_optimize(optimize); }; });

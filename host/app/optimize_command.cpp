@@ -7,6 +7,7 @@
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/progress.h"
+#include "host/app/run_identity.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/sha256.h"
@@ -40,9 +41,30 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
   if (options.seconds) settings.time = std::chrono::duration<double>(*options.seconds);
   settings.jobs =
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  settings.target_triangles = options.target_triangles;
+  settings.stagnation = options.stagnation;
   settings.output = options.output;
   settings.interrupted = was_interrupted;
   return settings;
+}
+
+EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t points,
+                                   unsigned jobs) {
+  EvaluationLimits limits = standard_limits(points, jobs);
+  if (options.evaluation_seconds) {
+    limits.time = std::chrono::ceil<std::chrono::milliseconds>(
+        std::chrono::duration<double>(*options.evaluation_seconds));
+  }
+  if (options.evaluation_memory) limits.memory = *options.evaluation_memory;
+  return limits;
+}
+
+std::string_view ended_by(const OptimizeState& state) {
+  if (state.interrupted) return "interrupt";
+  if (!state.device_failure.empty()) return "device";
+  if (state.out_of_time) return "time";
+  if (state.target_reached) return "target";
+  return state.stagnated ? "stagnation" : "budget";
 }
 
 // The mesh and its certificate appear together, or not at all.
@@ -73,8 +95,14 @@ class OptimizeCommand {
     check_output(options.output, mesh_endings());
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
+    cloud_sha256_ = sha256_of_file(scan_.path);
     epsilon_ = tolerance.in_units(scan_.width);
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
+    settings_.limits = evaluation_limits(options, scan_.cloud.points.size(), settings_.jobs);
+    log_.emplace(options.resume.empty() ? options.output + ".run" : options.resume,
+                 run_settings(options, settings_, cloud_sha256_, epsilon_));
+    settings_.log = &*log_;
+    fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), scan_.width);
     fmt::print("tolerance      {}\n", to_text(tolerance, scan_.width));
@@ -85,6 +113,17 @@ class OptimizeCommand {
   }
 
   int run() {
+    try {
+      return search();
+    } catch (const Error& error) {
+      if (said_what_is_kept_ || log_->size() == 0) throw;
+      throw Error(fmt::format("{}; the evaluations are kept: the same command continues in {}",
+                              error.what(), log_->folder().string()));
+    }
+  }
+
+ private:
+  int search() {
     const auto start = std::chrono::steady_clock::now();
     if (address_.board) {
       cpu_.emplace(*constraint_);
@@ -100,6 +139,7 @@ class OptimizeCommand {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (device_) counters_ = device_->counters();
     if (!state_.best && !state_.least_error) {
+      end_run();
       if (state_.interrupted) throw Interrupted{};
       if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
       throw Error(fmt::format("{}: no mesh could be made of it in {} evaluations{}",
@@ -115,6 +155,7 @@ class OptimizeCommand {
     }
     print_common(shown, took.count());
     write_json(shown);
+    end_run();
     if (state_.interrupted) return kExitInterrupted;
     if (!state_.device_failure.empty()) {
       throw DeviceFailure(state_.device_failure +
@@ -123,7 +164,18 @@ class OptimizeCommand {
     return state_.best ? kExitOk : kExitNo;
   }
 
- private:
+  // A run that was cut short may go on; one that ended has left what was asked for.
+  void end_run() {
+    said_what_is_kept_ = true;
+    const bool cut_short = state_.interrupted || !state_.device_failure.empty();
+    if (options_.resume.empty() && !cut_short) {
+      log_->remove();
+    } else if (log_->size() > 0) {
+      fmt::print("run            kept in {}{}\n", log_->folder().string(),
+                 cut_short || state_.out_of_time ? "; the same command continues it" : "");
+    }
+  }
+
   void keep(const BestMesh& best) {
     if (!certified_.within(epsilon_)) {
       throw Error(
@@ -136,7 +188,7 @@ class OptimizeCommand {
     certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
     certificate.mesh_sha256 = sha256(bytes);
     certificate.cloud_file = scan_.path.filename().string();
-    certificate.cloud_sha256 = sha256_of_file(scan_.path);
+    certificate.cloud_sha256 = cloud_sha256_;
     certificate.skip_invalid = options_.common.skip_invalid;
     certificate.epsilon = epsilon_;
     certificate.error = in_file_indices(certified_, scan_.cloud);
@@ -174,9 +226,11 @@ class OptimizeCommand {
     fmt::print("kernel         e_max^2 bits 0x{:08x}\n", shown.error.kept.squared_bits);
     fmt::print("evaluations    {} in {:.0f} s{}{}\n", state_.evaluations, seconds,
                describe_failures(state_),
-               state_.interrupted   ? "; interrupted"
-               : state_.out_of_time ? "; out of time"
-                                    : "");
+               state_.interrupted      ? "; interrupted"
+               : state_.out_of_time    ? "; out of time"
+               : state_.target_reached ? "; target reached"
+               : state_.stagnated      ? "; no better mesh for long"
+                                       : "");
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
     if (address_.board) print_prediction(*address_.board, *counters_, cpu_->seconds());
   }
@@ -193,6 +247,8 @@ class OptimizeCommand {
     report.points = scan_.cloud.points.size();
     report.transform = constraint_->cloud().normalization();
     report.evaluations = state_.evaluations;
+    report.failures = state_.failures;
+    report.ended_by = ended_by(state_);
     report.seed = settings_.seed;
     report.reconstruction_triangles = shown.reconstruction_triangles;
     report.unmeshed_points = shown.unmeshed_points;
@@ -208,8 +264,11 @@ class OptimizeCommand {
   DeviceAddress address_;
   std::unique_ptr<Evaluator> device_;
   Scan scan_;
+  std::string cloud_sha256_;
   double epsilon_ = 0;
   std::optional<ErrorConstraint> constraint_;
+  std::optional<RunLog> log_;
+  bool said_what_is_kept_ = false;
   OptimizeState state_;
   std::optional<DeviceCounters> counters_;
   std::optional<CpuTwin> cpu_;  // with a board to compare with

@@ -18,9 +18,9 @@ Progress::Progress(const ErrorConstraint& constraint,
 std::string Progress::time_left(const OptimizeState& state) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
   double left = -1;
-  if (state.evaluations > 0) {
+  if (state.evaluations > state.from_log) {
     left = elapsed.count() * static_cast<double>(state.budget - state.evaluations) /
-           static_cast<double>(state.evaluations);
+           static_cast<double>(state.evaluations - state.from_log);
   }
   if (time_) {
     const double until = std::max(0.0, (*time_ - elapsed).count());
@@ -34,12 +34,11 @@ std::string Progress::time_left(const OptimizeState& state) const {
 std::string Progress::line(const OptimizeState& state) const {
   std::string best = "nothing measured yet";
   if (state.best) {
-    best = fmt::format(
-        "best {} triangles, e_max {:.4g} of {:.4g}", grouped(state.best->mesh.triangles.size()),
-        constraint_.in_file_units(state.best->error.kept.squared_bits), constraint_.epsilon());
+    best = fmt::format("best {} triangles, e_max {:.4g} of {:.4g}", grouped(state.best->triangles),
+                       constraint_.in_file_units(state.best->squared_bits), constraint_.epsilon());
   } else if (state.least_error) {
     best = fmt::format("none within {:.4g} yet, least e_max {:.4g}", constraint_.epsilon(),
-                       constraint_.in_file_units(state.least_error->error.kept.squared_bits));
+                       constraint_.in_file_units(state.least_error->squared_bits));
   }
   return fmt::format("{}/{} evaluations, {}, {}", state.evaluations, state.budget, best,
                      time_left(state));
@@ -48,7 +47,7 @@ std::string Progress::line(const OptimizeState& state) const {
 void Progress::show(const OptimizeState& state) {
   const auto now = Clock::now();
   const std::optional<std::size_t> triangles =
-      state.best ? std::optional(state.best->mesh.triangles.size()) : std::nullopt;
+      state.best ? std::optional(state.best->triangles) : std::nullopt;
   if (terminal_) {
     if (now - shown_ < std::chrono::milliseconds(100)) return;
     fmt::print(stderr, "\r\033[K{}", line(state));

@@ -341,6 +341,35 @@ Config read_config(const std::filesystem::path& path, std::span<const ParameterS
   return config;
 }
 
+std::vector<std::pair<std::string, std::string>> named_values(const Config& config) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const SettingInfo& info : setting_infos()) {
+    values.emplace_back(fmt::format("search.{}", info.name), value_text(info, config.search));
+  }
+  for (std::size_t i = 0; i < kOperators.size(); ++i) {
+    values.emplace_back(fmt::format("search.{}.{}", kOperatorsTable, kOperators[i].name),
+                        number_text(config.search.operator_frequencies[i]));
+  }
+  for (const GeneConfig& gene : config.genes) {
+    values.emplace_back(
+        "genes." + gene.gene.name,
+        gene.fixed ? number_text(*gene.fixed)
+                   : fmt::format("{} to {} from {}", number_text(gene.gene.lower),
+                                 number_text(gene.gene.upper), number_text(gene.standard)));
+  }
+  for (std::size_t i = 0; i < config.linear.size(); ++i) {
+    const LinearConstraint& constraint = config.linear[i];
+    std::string text;
+    for (const auto& [gene, coefficient] : constraint.terms) {
+      text += fmt::format("{} {} + ", number_text(coefficient), config.genes[gene].gene.name);
+    }
+    const bool equal = constraint.relation == LinearConstraint::Relation::kEqual;
+    values.emplace_back(fmt::format("linear.{}", i),
+                        fmt::format("{}0 {} {}", text, equal ? "=" : "<=", constraint.bound));
+  }
+  return values;
+}
+
 Problem make_problem(const Config& config, std::string_view monotone_gene) {
   Problem problem;
   Genes start;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/genocop/problem.h"
@@ -38,6 +39,9 @@ std::string default_config_text(std::span<const ParameterSpec> parameters);
 // Keys that are absent keep their default. Throws Error, with file and line, for an unknown key or
 // gene, a wrong type, a value out of its domain, and a start that breaks a linear constraint.
 Config read_config(const std::filesystem::path& path, std::span<const ParameterSpec> parameters);
+
+// Every value of it by name, as text that tells any two apart: what a run's folder holds.
+std::vector<std::pair<std::string, std::string>> named_values(const Config& config);
 
 // The search space; the standard values are its start. monotone_gene: a name, or empty for none; a
 // name that is not among the genes, or is fixed, counts as none.

@@ -1,7 +1,7 @@
 #include "host/optimize/optimize.h"
 
-#include <unistd.h>
-
+#include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "host/genocop/look_ahead_scheduler.h"
@@ -13,130 +13,317 @@ namespace {
 
 constexpr std::chrono::milliseconds kHeartbeat{100};
 
-class Run {
- public:
-  Run(ErrorConstraint& constraint, Evaluator* device, const OptimizeSettings& settings,
-      OptimizeState& state)
-      : constraint_(constraint), device_(device), settings_(settings), state_(state) {
-    search_.interrupted = settings.interrupted;
-  }
-
-  Evaluation evaluate(Completed completed, ParameterValues parameters) {
-    if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
-      fail(std::string(to_string(failure->reason)), failure->message);
-      return {};
-    }
-    ChainResult& result = std::get<ChainResult>(completed.outcome);
-    const MeshFormat format = mesh_format(settings_.output);
-    require_storable(result.mesh, format, constraint_.epsilon(), settings_.output);
-    try {
-      TriangleMesh mesh = as_stored(result.mesh, format);
-      MeasuredError error = device_ != nullptr
-                                ? constraint_.measure(mesh.view(), *device_, search_)
-                                : constraint_.measure(mesh.view(), settings_.interrupted);
-      settings_.measured(mesh.view(), error);
-      Evaluation evaluation = {true, static_cast<double>(mesh.triangles.size()), error.violation};
-      offer({completed.ticket, std::move(mesh), std::move(error), std::move(parameters),
-             result.reconstruction_triangles, result.unmeshed_points});
-      return evaluation;
-    } catch (const DeviceFailure& failure) {
-      state_.device_failure = failure.what();
-      return {};
-    } catch (const Error& error) {
-      fail("error", error.what());
-      return {};
-    }
-  }
-
- private:
-  void fail(const std::string& reason, const std::string& message) {
-    ++state_.failures[reason];
-    state_.last_failure = message;
-  }
-
-  // Completion order depends on the workers, so equals go to the lower index.
-  void offer(BestMesh mesh) {
-    std::optional<BestMesh>& place = mesh.error.feasible ? state_.best : state_.least_error;
-    const auto key = [](const BestMesh& m) {
-      return std::pair(m.error.feasible ? m.mesh.triangles.size() : m.error.kept.squared_bits,
-                       m.index);
-    };
-    if (!place || key(mesh) < key(*place)) place = std::move(mesh);
-  }
-
-  ErrorConstraint& constraint_;
-  Evaluator* device_;
-  const OptimizeSettings& settings_;
-  OptimizeState& state_;
-  SearchOptions search_;
-};
-
 // The gene along which triangles fall and e_max rises, by decimator.
 std::string_view monotone_gene(std::string_view decimator) {
   return decimator == "schroeder" ? "schroeder.reduction" : "";
 }
 
-// Of address space: one that outgrows its share of the memory fails, and not the machine.
-std::uint64_t worker_memory(unsigned jobs) {
-#if defined(__SANITIZE_ADDRESS__)
-  return 0 * jobs;  // none: the sanitizer reserves terabytes that it never touches
-#else
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / jobs;
-#endif
+WorkerPoolOptions pool_options(std::size_t points, const OptimizeSettings& settings) {
+  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points, settings.jobs));
+  WorkerPoolOptions options;
+  options.jobs = settings.jobs;
+  options.time_limit = limits.time;
+  options.memory_limit = limits.memory;
+  options.allow_test_methods = settings.allow_test_methods;
+  return options;
 }
 
-ParameterValues values_of(const Problem& problem, const Genes& genes) {
-  ParameterValues values;
-  for (std::size_t i = 0; i < genes.size(); ++i) values[problem.genes[i].name] = genes[i];
-  return values;
+bool same_bits(const Genes& a, const Genes& b) {
+  return std::ranges::equal(
+      a, b, {}, [](double x) { return std::bit_cast<std::uint64_t>(x); },
+      [](double x) { return std::bit_cast<std::uint64_t>(x); });
 }
+
+// What the search is told.
+Evaluation evaluation_of(const LoggedEvaluation& e) {
+  if (!e.failure.empty()) return {};
+  return {true, static_cast<double>(e.triangles), e.violation};
+}
+
+struct Result {
+  LoggedEvaluation evaluation;
+  TriangleMesh mesh;  // of one that was made here and may be the best
+  MeasuredError error;
+
+  bool failed() const { return !evaluation.failure.empty(); }
+  bool feasible() const { return evaluation.violation <= 0; }
+};
+
+class Run {
+ public:
+  Run(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
+      const OptimizeSettings& settings, const OptimizeObserver& observe)
+      : cloud_(cloud),
+        constraint_(constraint),
+        device_(device),
+        settings_(settings),
+        observe_(observe),
+        problem_(make_problem(settings.config, monotone_gene(settings.decimator))),
+        genocop_(problem_, settings.config.search, settings.seed),
+        scheduler_(genocop_, settings.config.search.budget) {
+    state_.budget = settings.config.search.budget;
+    search_.interrupted = settings.interrupted;
+  }
+
+  OptimizeState run() {
+    const auto start = Clock::now();
+    pool_.emplace(cloud_, pool_options(cloud_.size(), settings_));
+    while (!scheduler_.finished() && !cut_short() && !reached_its_end()) {
+      state_.interrupted = settings_.interrupted();
+      state_.out_of_time = settings_.time && Clock::now() - start > *settings_.time;
+      if (cut_short()) break;
+      hand_out();
+      if (pool_->outstanding() > 0 && !reached_its_end()) receive();
+      enter_in_order();
+      state_.evaluations = genocop_.asked() - in_work_.size();
+      observe_(state_);
+    }
+    // What is in work is given up: its workers end with the pool.
+    pool_.reset();
+    if (reached_its_end()) state_.evaluations = next_;
+    if (cut_short()) enter_the_rest();
+    if (std::optional<BestMesh>& shown = state_.best ? state_.best : state_.least_error;
+        shown && shown->mesh.triangles.empty()) {
+      restore(*shown);
+    }
+    return std::move(state_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool cut_short() const {
+    return state_.interrupted || state_.out_of_time || !state_.device_failure.empty();
+  }
+  bool reached_its_end() const { return state_.target_reached || state_.stagnated; }
+
+  // Gives the workers what they can take, and one more, so that none waits for the next candidate.
+  // What the log knows is answered at once.
+  void hand_out() {
+    while (pool_->outstanding() <= settings_.jobs && !reached_its_end() &&
+           !settings_.interrupted()) {
+      std::optional<Candidate> candidate = scheduler_.next();
+      if (!candidate) return;
+      const std::uint64_t index = candidate->index;
+      if (const LoggedEvaluation* known = logged(*candidate)) {
+        scheduler_.complete(index, evaluation_of(*known));
+        results_[index].evaluation = *known;
+        ++state_.from_log;
+        enter_in_order();
+      } else {
+        pool_->submit(index, chain(candidate->genes));
+        in_work_[index] = std::move(candidate->genes);
+      }
+    }
+  }
+
+  const LoggedEvaluation* logged(const Candidate& candidate) const {
+    const LoggedEvaluation* known =
+        settings_.log != nullptr ? settings_.log->find(candidate.index) : nullptr;
+    if (known != nullptr && !same_bits(known->genes, candidate.genes)) {
+      throw Error(settings_.log->folder().string() + ": evaluation " +
+                  std::to_string(candidate.index) +
+                  " has other parameters than this search asks for, so another program or machine "
+                  "made it; name another folder");
+    }
+    return known;
+  }
+
+  ChainSettings chain(const Genes& genes) const {
+    return {settings_.method, settings_.decimator, values_of(genes)};
+  }
+
+  ParameterValues values_of(const Genes& genes) const {
+    ParameterValues values;
+    for (std::size_t i = 0; i < genes.size(); ++i) values[problem_.genes.at(i).name] = genes[i];
+    return values;
+  }
+
+  void receive() {
+    std::optional<Completed> completed = pool_->wait_for(kHeartbeat);
+    if (!completed) return;
+    const std::uint64_t index = completed->ticket;
+    Result result;
+    result.evaluation.index = index;
+    result.evaluation.genes = in_work_.at(index);
+    try {
+      judge(std::move(completed->outcome), result);
+    } catch (const DeviceFailure& failure) {  // neither of these says anything of the candidate
+      state_.device_failure = failure.what();
+      return;
+    } catch (const Interrupted&) {
+      state_.interrupted = true;
+      return;
+    }
+    keep(result);
+    in_work_.erase(index);
+    scheduler_.complete(index, evaluation_of(result.evaluation));
+    results_[index] = std::move(result);
+  }
+
+  void judge(std::variant<ChainResult, Failure> outcome, Result& result) {
+    LoggedEvaluation& e = result.evaluation;
+    if (const auto* failure = std::get_if<Failure>(&outcome)) {
+      e.failure = to_string(failure->reason);
+      e.message = failure->message;
+      return;
+    }
+    const ChainResult& made = std::get<ChainResult>(outcome);
+    const MeshFormat format = mesh_format(settings_.output);
+    require_storable(made.mesh, format, constraint_.epsilon(), settings_.output);
+    try {
+      result.mesh = as_stored(made.mesh, format);
+      result.error = device_ != nullptr
+                         ? constraint_.measure(result.mesh.view(), *device_, search_)
+                         : constraint_.measure(result.mesh.view(), settings_.interrupted);
+    } catch (const DeviceFailure&) {
+      throw;
+    } catch (const Error& error) {
+      e.failure = to_string(FailureReason::kError);
+      e.message = error.what();
+      return;
+    }
+    settings_.measured(result.mesh.view(), result.error);
+    e.triangles = result.mesh.triangles.size();
+    e.violation = result.error.violation;
+    e.squared_bits = result.error.kept.squared_bits;
+    e.reconstruction_triangles = made.reconstruction_triangles;
+    e.unmeshed_points = made.unmeshed_points;
+  }
+
+  // In the log before the search hears of it, its mesh if that may be the best.
+  void keep(Result& result) {
+    const bool may_be_best = !result.failed() && beats_the_best(result);
+    if (!may_be_best) result.mesh = {};
+    if (settings_.log == nullptr) return;
+    if (may_be_best) {
+      settings_.log->append(result.evaluation, result.mesh);
+    } else {
+      settings_.log->append(result.evaluation);
+    }
+  }
+
+  // The order of completion depends on the workers, so results enter in that of the candidates.
+  void enter_in_order() {
+    while (next_ < genocop_.asked() && !reached_its_end() && !in_work_.contains(next_)) {
+      // The search answers a repeated candidate itself.
+      if (auto result = results_.extract(next_)) enter(std::move(result.mapped()));
+      ++next_;
+      const std::optional<BestMesh>& best = state_.best;
+      state_.target_reached =
+          best && settings_.target_triangles && best->triangles <= *settings_.target_triangles;
+      state_.stagnated = settings_.stagnation && next_ - improved_ >= *settings_.stagnation;
+    }
+  }
+
+  // Also what the log knows and the search has not asked for yet.
+  void enter_the_rest() {
+    entering_the_rest_ = true;
+    if (settings_.log != nullptr) {
+      const auto& logged = settings_.log->evaluations();
+      for (auto e = logged.lower_bound(next_); e != logged.end(); ++e) {
+        results_.try_emplace(e->first, Result{e->second, {}, {}});
+      }
+    }
+    state_.evaluations = next_ + results_.size();
+    for (auto& [index, result] : results_) enter(std::move(result));
+  }
+
+  bool beats_the_best(const Result& result) const {
+    const bool feasible = result.feasible();
+    if (!feasible && state_.best) return false;
+    const std::optional<BestMesh>& place = feasible ? state_.best : state_.least_error;
+    const LoggedEvaluation& e = result.evaluation;
+    return !place || (feasible ? std::pair(e.triangles, e.index) <
+                                     std::pair(std::uint64_t{place->triangles}, place->index)
+                               : std::pair(e.squared_bits, e.index) <
+                                     std::pair(place->squared_bits, place->index));
+  }
+
+  void enter(Result result) {
+    const LoggedEvaluation& e = result.evaluation;
+    if (result.failed()) {
+      ++state_.failures[e.failure];
+      state_.last_failure = e.message;
+      return;
+    }
+    if (!beats_the_best(result)) {
+      drop(e.index);
+      return;
+    }
+    std::optional<BestMesh>& place = result.feasible() ? state_.best : state_.least_error;
+    for (const auto& old : {&state_.best, &state_.least_error}) {
+      if (*old) drop((*old)->index);
+    }
+    place = BestMesh{e.index,
+                     e.triangles,
+                     e.squared_bits,
+                     values_of(e.genes),
+                     e.reconstruction_triangles,
+                     e.unmeshed_points,
+                     std::move(result.mesh),
+                     std::move(result.error)};
+    improved_ = e.index + 1;
+  }
+
+  // The folder keeps the mesh of the best alone; one that is the best by a result out of order may
+  // have to give way again when the run continues.
+  void drop(std::uint64_t index) {
+    if (settings_.log != nullptr && !entering_the_rest_) settings_.log->drop_mesh(index);
+  }
+
+  // The mesh of an evaluation that an earlier process made: from the folder, or made again.
+  void restore(BestMesh& best) {
+    const LoggedEvaluation& known = *settings_.log->find(best.index);
+    std::optional<TriangleMesh> mesh = settings_.log->mesh(known);
+    best.mesh = mesh ? std::move(*mesh) : make_again(known);
+    best.error = constraint_.measure(best.mesh.view());
+    if (best.mesh.triangles.size() != known.triangles ||
+        best.error.kept.squared_bits != known.squared_bits) {
+      throw Error(settings_.log->folder().string() + ": the mesh of evaluation " +
+                  std::to_string(best.index) +
+                  " is lost, and made again it is another; run the search anew");
+    }
+  }
+
+  TriangleMesh make_again(const LoggedEvaluation& known) const {
+    WorkerPoolOptions options = pool_options(cloud_.size(), settings_);
+    options.jobs = 1;
+    WorkerPool pool(cloud_, options);
+    pool.submit(known.index, chain(known.genes));
+    Completed completed = pool.wait();
+    if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
+      throw Error(settings_.log->folder().string() +
+                  ": the mesh of the best evaluation is lost: " + failure->message +
+                  "; repeat the command, with more --evaluation-time or "
+                  "--evaluation-memory if that is what it lacks");
+    }
+    return as_stored(std::get<ChainResult>(completed.outcome).mesh, mesh_format(settings_.output));
+  }
+
+  std::span<const Point> cloud_;
+  ErrorConstraint& constraint_;
+  Evaluator* device_;
+  const OptimizeSettings& settings_;
+  const OptimizeObserver& observe_;
+  const Problem problem_;
+  Genocop genocop_;
+  LookAheadScheduler scheduler_;
+  std::optional<WorkerPool> pool_;
+  SearchOptions search_;
+  OptimizeState state_;
+  std::map<std::uint64_t, Genes> in_work_;
+  std::map<std::uint64_t, Result> results_;  // not entered yet
+  std::uint64_t next_ = 0;                   // to enter
+  std::uint64_t improved_ = 0;               // behind the evaluation that was the last better one
+  bool entering_the_rest_ = false;
+};
 
 }  // namespace
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
                        const OptimizeSettings& settings, const OptimizeObserver& observe) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const Problem problem = make_problem(settings.config, monotone_gene(settings.decimator));
-  const Settings& search = settings.config.search;
-  Genocop genocop(problem, search, settings.seed);
-  LookAheadScheduler scheduler(genocop, search.budget);
-  WorkerPoolOptions pool_options;
-  pool_options.jobs = settings.jobs;
-  pool_options.memory_limit = worker_memory(settings.jobs);
-  WorkerPool pool(cloud, pool_options);
-
-  OptimizeState state;
-  state.budget = search.budget;
-  Run run(constraint, device, settings, state);
-  std::map<std::uint64_t, ParameterValues> in_work;
-  while (!scheduler.finished()) {
-    state.interrupted = settings.interrupted();
-    state.out_of_time = settings.time && Clock::now() - start > *settings.time;
-    // What is in work is given up: the pool's destructor ends its workers.
-    if (state.interrupted || state.out_of_time) return state;
-    // One more than the workers, so that none waits for the next candidate.
-    while (pool.outstanding() <= settings.jobs) {
-      const std::optional<Candidate> candidate = scheduler.next();
-      if (!candidate) break;
-      in_work[candidate->index] = values_of(problem, candidate->genes);
-      pool.submit(candidate->index,
-                  {settings.method, settings.decimator, in_work[candidate->index]});
-    }
-    if (pool.outstanding() > 0) {
-      if (std::optional<Completed> completed = pool.wait_for(kHeartbeat)) {
-        const std::uint64_t index = completed->ticket;
-        auto parameters = in_work.extract(index);
-        scheduler.complete(index,
-                           run.evaluate(std::move(*completed), std::move(parameters.mapped())));
-      }
-    }
-    state.evaluations = genocop.asked() - pool.outstanding();
-    observe(state);
-    if (!state.device_failure.empty()) return state;
-  }
-  return state;
+  return Run(cloud, constraint, device, settings, observe).run();
 }
 
 }  // namespace emax

@@ -13,6 +13,8 @@
 #include "host/geometry/mesh_file.h"
 #include "host/optimize/config.h"
 #include "host/optimize/error_constraint.h"
+#include "host/optimize/evaluation_limits.h"
+#include "host/run_log/run_log.h"
 
 namespace emax {
 
@@ -23,9 +25,16 @@ struct OptimizeSettings {
   std::string decimator = "schroeder";
   Config config;
   std::uint64_t seed = 1;
-  std::optional<std::chrono::duration<double>> time;  // stop after this long
-  unsigned jobs = 1;                                  // worker processes
-  std::filesystem::path output;  // what this file will hold is what is measured
+  unsigned jobs = 1;                       // worker processes
+  std::optional<EvaluationLimits> limits;  // standard_limits unless given
+  bool allow_test_methods = false;         // see test_methods.h
+  RunLog* log = nullptr;                   // where results are kept and looked for
+  // What else ends the search. Target and stagnation look at results in the order of their
+  // candidates, so that the end does not depend on the number of jobs.
+  std::optional<std::chrono::duration<double>> time;
+  std::optional<std::uint64_t> target_triangles;  // a feasible mesh of at most so many
+  std::optional<std::uint64_t> stagnation;        // so many evaluations without a better mesh
+  std::filesystem::path output;                   // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
   // Called with every mesh whose error was measured.
   std::function<void(MeshView, const MeasuredError&)> measured = [](MeshView, const auto&) {};
@@ -34,21 +43,24 @@ struct OptimizeSettings {
 // The best point so far, or at the end.
 struct BestMesh {
   std::uint64_t index;  // of its evaluation
-  TriangleMesh mesh;    // as stored
-  MeasuredError error;
+  std::size_t triangles;
+  std::uint32_t squared_bits;  // the kernel's e_max^2 over the kept points
   ParameterValues parameters;
   std::size_t reconstruction_triangles;
   std::size_t unmeshed_points;
+  TriangleMesh mesh;  // as stored; it and its error may be missing before optimize returns
+  MeasuredError error;
 };
 
 struct OptimizeState {
   std::uint64_t evaluations = 0;  // completed, failed and repeated ones included
+  std::uint64_t from_log = 0;     // of these, known before
   std::uint64_t budget = 0;
   std::map<std::string, std::uint64_t> failures;  // by reason
   std::string last_failure;
   std::optional<BestMesh> best;         // feasible
-  std::optional<BestMesh> least_error;  // of the meshes that are not
-  bool interrupted = false, out_of_time = false;
+  std::optional<BestMesh> least_error;  // of the meshes before that
+  bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   std::string device_failure;  // that ended the run
 };
 
@@ -56,9 +68,12 @@ struct OptimizeState {
 using OptimizeObserver = std::function<void(const OptimizeState&)>;
 
 // Evaluations run in worker processes; e_max is measured here, on the device or, without one, on
-// this processor. A run that ends by its budget gives the same state for any number of jobs and any
-// device. Throws Error when workers cannot run, and where `output` would round more than epsilon
-// allows.
+// this processor. A run that ends by its budget, target or stagnation gives the same state for any
+// number of jobs and any device, and so does one that continues from its log, however often it was
+// cut short: candidates are asked for again, and what the log knows is not evaluated again. Of best
+// and least_error, the one that is to be shown has its mesh in the end. Throws Error when workers
+// cannot run, where `output` would round more than epsilon allows, and when the log cannot be
+// written or belongs to another search.
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
                        const OptimizeSettings& settings, const OptimizeObserver& observe);
 

@@ -29,6 +29,8 @@ std::string to_json_text(const ResultReport& r) {
                {"excluded", r.certified ? excluded_to_json(*r.certified) : Json::array()},
                {"transform", to_json(r.transform)},
                {"evaluations", or_null(r.evaluations)},
+               {"failures", or_null(r.failures)},
+               {"ended_by", or_null(r.ended_by)},
                {"seed", or_null(r.seed)},
                {"device", r.device},
                {"device_counters", r.counters ? to_json(*r.counters) : Json()},

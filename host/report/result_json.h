@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,8 @@ struct ResultReport {
   Normalization transform;
   std::optional<std::uint64_t> evaluations;
   std::optional<std::uint64_t> seed;
+  std::optional<std::map<std::string, std::uint64_t>> failures;  // of evaluations, by reason
+  std::optional<std::string> ended_by;                           // of a search
   std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
   std::string device;
   std::optional<DeviceCounters> counters;

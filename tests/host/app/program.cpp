@@ -22,35 +22,54 @@ std::string file_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-ProgramRun run_emax(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                    double stop_after_seconds) {
+EmaxProcess::EmaxProcess(const std::vector<std::string>& arguments,
+                         const std::filesystem::path& folder) {
   // Outside of `folder`, whose content tests look at.
-  const std::filesystem::path streams = folder.string() + ".streams";
-  std::filesystem::create_directories(streams);
-  const std::string output = streams / "out", errors = streams / "err";
+  static int count = 0;
+  streams_ = fmt::format("{}.streams{}", folder.string(), count++);
+  std::filesystem::create_directories(streams_);
+  const std::string output = streams_ / "out", errors = streams_ / "err";
   std::vector<std::string> words = {EMAX_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
+  pid_ = fork();
+  if (pid_ == 0) {
     const int out = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const int err = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (dup2(out, 1) < 0 || dup2(err, 2) < 0 || chdir(folder.c_str()) != 0) _exit(126);
     execv(argv[0], argv.data());
     _exit(127);
   }
+}
+
+EmaxProcess::~EmaxProcess() {
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  std::filesystem::remove_all(streams_);
+}
+
+void EmaxProcess::signal(int number) const { kill(pid_, number); }
+
+ProgramRun EmaxProcess::wait() {
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, file_text(streams_ / "out"), file_text(streams_ / "err")};
+}
+
+ProgramRun run_emax(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                    double stop_after_seconds) {
+  EmaxProcess process(arguments, folder);
   if (stop_after_seconds > 0) {
     std::this_thread::sleep_for(std::chrono::duration<double>(stop_after_seconds));
-    kill(child, SIGINT);
+    process.signal(SIGINT);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  ProgramRun run = {code, file_text(output), file_text(errors)};
-  std::filesystem::remove_all(streams);
-  return run;
+  return process.wait();
 }
 
 std::vector<std::string> files_in(const std::filesystem::path& folder) {

@@ -13,6 +13,22 @@ struct ProgramRun {
   std::string errors;  // standard error
 };
 
+// A run that is under way; killed with this if it still is.
+class EmaxProcess {
+ public:
+  EmaxProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  ~EmaxProcess();
+  EmaxProcess(const EmaxProcess&) = delete;
+  EmaxProcess& operator=(const EmaxProcess&) = delete;
+
+  void signal(int number) const;
+  ProgramRun wait();
+
+ private:
+  std::filesystem::path streams_;
+  int pid_;
+};
+
 // Runs `emax` with these arguments in `folder`, which must exist. `stop_after_seconds` > 0 sends
 // SIGINT then.
 ProgramRun run_emax(const std::vector<std::string>& arguments, const std::filesystem::path& folder,

@@ -67,12 +67,16 @@ TEST_F(ConfigTest, DefaultTextReadsBackExactly) {
 
 TEST_F(ConfigTest, AnEmptyFileIsTheDefault) { EXPECT_EQ(read(""), default_config(parameters())); }
 
-// Every setting can be changed by its name, and each changes what no other does.
+// Every setting can be changed by its name, and each changes what no other does; the text of all
+// values tells any two apart.
 TEST_F(ConfigTest, EverySettingIsRead) {
   std::vector<Config> seen = {default_config(parameters())};
   const auto changes = [&](const std::string& text) {
     const Config config = read(text);
-    for (const Config& other : seen) EXPECT_FALSE(config == other) << text;
+    for (const Config& other : seen) {
+      EXPECT_FALSE(config == other) << text;
+      EXPECT_NE(named_values(config), named_values(other)) << text;
+    }
     seen.push_back(config);
   };
   for (const SettingInfo& info : setting_infos()) {
@@ -90,6 +94,14 @@ TEST_F(ConfigTest, EverySettingIsRead) {
   }
   for (const OperatorEntry& entry : kOperators) {
     changes("[search.operators]\n" + std::string(entry.name) + " = 2.5");
+  }
+  const std::string gene = "[genes.\"gp3.mu\"]\n";
+  for (const char* of : {"lower = 2.5", "upper = 5", "standard = 3", "fixed = 2.7"})
+    changes(gene + of);
+  const std::string linear = "[[linear]]\nterms = { \"gp3.mu\" = ";
+  for (const char* of : {"1 }\nat_most = 3", "1 }\nequals = 2.7", "1.5 }\nat_most = 5",
+                         "1 }\nat_most = 3.5", "1, \"gp3.min_angle\" = 1 }\nat_most = 8"}) {
+    changes(linear + of);
   }
 }
 

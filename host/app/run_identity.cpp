@@ -1,0 +1,64 @@
+#include "host/app/run_identity.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "hls/kernel/command_words.h"
+#include "host/geometry/input_file.h"
+#include "host/geometry/sha256.h"
+
+namespace emax {
+namespace {
+
+// Both programs by their bytes: bytes of results are promised for one build.
+std::string build() {
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string both =
+      sha256_of_file(program) + sha256_of_file(program.parent_path() / "emax_worker");
+  return sha256(both).substr(0, 16);
+}
+
+// The C library chooses its functions by these.
+std::string processor() {
+  std::string text = "x86-64";
+  if (__builtin_cpu_supports("avx2") != 0) text += " avx2";
+  if (__builtin_cpu_supports("fma") != 0) text += " fma";
+  return text;
+}
+
+}  // namespace
+
+RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings& settings,
+                         const std::string& cloud_sha256, double epsilon) {
+  RunSettings run = {
+      {"cloud.sha256", cloud_sha256},
+      {"cloud.skip_invalid", options.common.skip_invalid ? "true" : "false"},
+      {"max_error", fmt::format("{}", epsilon)},
+      {"exclude_outliers", fmt::format("{}", parse_share(options.common.excluded_share))},
+      {"method", settings.method},
+      {"decimator", settings.decimator},
+      {"mesh.ending", lower_case_ending(settings.output)},
+      {"seed", fmt::format("{}", settings.seed)},
+  };
+  for (auto& value : named_values(settings.config)) run.push_back(std::move(value));
+  run.emplace_back("emax", EMAX_VERSION);
+  run.emplace_back("kernel", fmt::format("{}", kKernelVersion));
+  run.emplace_back("libraries", EMAX_WORKER_LIBRARIES);
+  run.emplace_back("processor", processor());
+  run.emplace_back("build", build());
+  return run;
+}
+
+std::string describe(const RunLog& log, std::uint64_t budget) {
+  const std::string folder = log.folder().string();
+  if (log.size() == 0) return "starts in " + folder;
+  std::string text =
+      fmt::format("continues in {}: {} of {} evaluations are there", folder, log.size(), budget);
+  const RecordFile::Loss loss = log.loss();
+  if (loss.torn > 0) text += fmt::format("; {} bytes of a torn record were cut off", loss.torn);
+  if (loss.damaged > 0) text += fmt::format("; {} damaged bytes were passed over", loss.damaged);
+  return text;
+}
+
+}  // namespace emax

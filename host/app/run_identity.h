@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "host/app/commands.h"
+#include "host/app/scan.h"
+#include "host/optimize/optimize.h"
+
+namespace emax {
+
+// What the bytes of a result depend on: program, libraries and the processor's arithmetic in
+// libraries, the cloud's bytes, the problem and the search. Neither jobs nor device, which change
+// nothing, nor what ends a run, which another command may choose anew.
+RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings& settings,
+                         const std::string& cloud_sha256, double epsilon);
+
+// "starts in FOLDER" or "continues in FOLDER: 37 of 150 evaluations are there".
+std::string describe(const RunLog& log, std::uint64_t budget);
+
+}  // namespace emax

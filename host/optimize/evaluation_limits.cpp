@@ -1,0 +1,35 @@
+#include "host/optimize/evaluation_limits.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace emax {
+namespace {
+
+constexpr std::chrono::milliseconds kLeastTime = std::chrono::minutes(10);
+constexpr std::chrono::milliseconds kTimePerPoint{2};
+constexpr std::uint64_t kLeastMemory = std::uint64_t{1} << 30;
+
+}  // namespace
+
+std::uint64_t usable_memory(const std::filesystem::path& group_limit) {
+  const auto machine = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                       static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  std::uint64_t group = 0;
+  // The file says "max" where there is no limit.
+  return std::ifstream(group_limit) >> group ? std::min(machine, group) : machine;
+}
+
+EvaluationLimits standard_limits(std::size_t points, unsigned jobs) {
+  const auto time = std::max(kLeastTime, static_cast<std::int64_t>(points) * kTimePerPoint);
+#if defined(__SANITIZE_ADDRESS__)
+  return {time, 0 * jobs};  // the sanitizer reserves terabytes that it never touches
+#else
+  const std::uint64_t memory = usable_memory();
+  return {time, std::max(kLeastMemory, (memory - memory / 8) / jobs)};
+#endif
+}
+
+}  // namespace emax

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+namespace emax {
+
+// What one evaluation may take in its worker before it is given up.
+struct EvaluationLimits {
+  std::chrono::milliseconds time;
+  std::uint64_t memory;  // bytes of address space; 0 for none
+};
+
+// Time: ten minutes, and 2 ms a point where that is longer; several times what the slowest methods
+// take. Memory: the workers' equal shares of 7/8 of what there is, but not less than a worker needs
+// for its libraries.
+EvaluationLimits standard_limits(std::size_t points, unsigned jobs);
+
+// Bytes of memory that this process and its workers may use: the machine's, or a control group's
+// limit where that is lower (`group_limit` is the file that holds it).
+std::uint64_t usable_memory(const std::filesystem::path& group_limit = "/sys/fs/cgroup/memory.max");
+
+}  // namespace emax

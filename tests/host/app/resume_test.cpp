@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/host/app/program.h"
+#include "tests/host/geometry/temporary_folder.h"
+
+namespace emax {
+namespace {
+
+using test::ProgramRun;
+
+class Resume : public testing::Test {
+ protected:
+  Resume() { test::write_scan(folder_.path() / "scan.xyz", 600, 2); }
+
+  static std::vector<std::string> command(const std::vector<std::string>& more,
+                                          const std::string& output = "mesh.ply",
+                                          const std::string& budget = "20") {
+    std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "5%",
+                                          "-o",       output,     "--budget",    budget};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  ProgramRun optimize(const std::vector<std::string>& more = {}) {
+    return test::run_emax(command(more), folder_.path());
+  }
+  bool exists(const std::string& name) { return std::filesystem::exists(folder_.path() / name); }
+  std::string result() {
+    return test::bytes_of(folder_ / "mesh.ply") +
+           test::bytes_of(folder_ / "mesh.ply.certificate.json");
+  }
+  static std::string first_line(const ProgramRun& run) {
+    return run.output.substr(0, run.output.find('\n'));
+  }
+  // Waits until so many bytes are in a log.
+  void await(const std::string& log, std::uintmax_t bytes) {
+    std::error_code absent;
+    for (int i = 0; i < 60'000; ++i) {
+      const std::uintmax_t size = std::filesystem::file_size(folder_ / log, absent);
+      if (!absent && size >= bytes) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ADD_FAILURE() << log << " does not grow";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Resume, AFolderIsCreatedAndContinued) {
+  const ProgramRun first = optimize({"--resume", "night"});
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  EXPECT_EQ(first_line(first), "run            starts in night");
+  const std::string expected = result();
+  std::filesystem::remove(folder_ / "mesh.ply");
+  const ProgramRun again = optimize({"--resume", "night", "--jobs", "1"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(first_line(again), "run            continues in night: 20 of 20 evaluations are there");
+  EXPECT_EQ(result(), expected);
+}
+
+TEST_F(Resume, WhatDiffersIsNamed) {
+  ASSERT_EQ(optimize({"--resume", "night"}).exit_code, 0);
+  const std::string expected = result();
+  const auto refusal = [this](const std::vector<std::string>& more, const std::string& what) {
+    std::vector<std::string> arguments = {"--resume", "night"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = optimize(arguments);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.errors.find("night: the run there has " + what), std::string::npos) << run.errors;
+  };
+  refusal({"--seed", "2"}, "seed 1, this one has 2");
+  refusal({"--method", "hoppe"}, "method gp3, this one has hoppe");
+  refusal({"--exclude-outliers", "1%"}, "exclude_outliers 0, this one has 0.01");
+  folder_.write("narrow.toml", "[genes.\"normals.k\"]\nupper = 30\n");
+  refusal({"--config", "narrow.toml"}, "genes.normals.k ");
+  std::ofstream(folder_ / "scan.xyz", std::ios::app) << "0 0 1.01\n";
+  refusal({}, "cloud.sha256 ");
+  EXPECT_EQ(result(), expected);
+}
+
+TEST_F(Resume, ASecondProcessIsRefused) {
+  const auto endless = command({"--resume", "night"}, "mesh.ply", "100000");
+  test::EmaxProcess first(endless, folder_.path());
+  await("night/evaluations.log", 1000);
+  const ProgramRun second = test::run_emax(endless, folder_.path());
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_NE(second.errors.find("night: another process"), std::string::npos) << second.errors;
+  first.signal(SIGKILL);
+  EXPECT_EQ(first.wait().exit_code, 128 + SIGKILL);
+}
+
+// Without --resume the folder stands beside the mesh while it is needed.
+TEST_F(Resume, AnInterruptedRunIsContinuedByTheSameCommand) {
+  const auto arguments = command({"--jobs", "1"}, "mesh.ply", "40");
+  ASSERT_EQ(test::run_emax(arguments, folder_.path()).exit_code, 0);
+  EXPECT_FALSE(exists("mesh.ply.run"));
+  const std::string expected = result();
+  std::filesystem::remove(folder_ / "mesh.ply");
+  std::filesystem::remove(folder_ / "mesh.ply.certificate.json");
+
+  test::EmaxProcess process(arguments, folder_.path());
+  await("mesh.ply.run/evaluations.log", 1000);
+  process.signal(SIGINT);
+  const ProgramRun cut = process.wait();
+  EXPECT_EQ(cut.exit_code, 130) << cut.errors;
+  EXPECT_NE(cut.output.find("mesh.ply.run; the same command continues it"), std::string::npos)
+      << cut.output;
+  ASSERT_TRUE(exists("mesh.ply.run"));
+  const ProgramRun rest = test::run_emax(arguments, folder_.path());
+  ASSERT_EQ(rest.exit_code, 0) << rest.errors;
+  EXPECT_TRUE(first_line(rest).starts_with("run            continues in mesh.ply.run: "));
+  EXPECT_EQ(result(), expected);
+  EXPECT_FALSE(exists("mesh.ply.run"));
+}
+
+// As with a disk that is full at the end: the place of the mesh is gone when it is to be written.
+TEST_F(Resume, AMeshThatCannotBeWrittenIsNotLost) {
+  std::filesystem::create_directory(folder_ / "out");
+  const auto arguments = command({"--resume", "night"}, "out/mesh.ply", "40");
+  test::EmaxProcess process(arguments, folder_.path());
+  await("night/evaluations.log", 1000);
+  std::filesystem::remove(folder_ / "out");
+  const ProgramRun lost = process.wait();
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_NE(lost.errors.find("out/mesh.ply: cannot be written"), std::string::npos) << lost.errors;
+  EXPECT_NE(lost.errors.find("the same command continues in night"), std::string::npos)
+      << lost.errors;
+  std::filesystem::create_directory(folder_ / "out");
+  const ProgramRun again = test::run_emax(arguments, folder_.path());
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_NE(first_line(again).find("40 of 40"), std::string::npos) << again.output;
+  ASSERT_EQ(test::run_emax(command({}, "mesh.ply", "40"), folder_.path()).exit_code, 0);
+  EXPECT_EQ(test::bytes_of(folder_ / "out" / "mesh.ply"), test::bytes_of(folder_ / "mesh.ply"));
+}
+
+TEST_F(Resume, StopsAndLimitsAreSaid) {
+  const auto json = [this] { return nlohmann::json::parse(test::bytes_of(folder_ / "r.json")); };
+  const ProgramRun target = optimize({"--target-triangles", "100000", "--json", "r.json"});
+  ASSERT_EQ(target.exit_code, 0) << target.errors;
+  EXPECT_NE(target.output.find("target reached"), std::string::npos) << target.output;
+  EXPECT_EQ(json().at("ended_by"), "target");
+  EXPECT_EQ(json().at("evaluations"), 1);
+
+  ASSERT_EQ(optimize({"--stagnation", "1", "--json", "r.json"}).exit_code, 0);
+  EXPECT_EQ(json().at("ended_by"), "stagnation");
+  EXPECT_LT(json().at("evaluations"), 20);
+
+  // No evaluation is done in a millisecond; each is counted.
+  const ProgramRun hasty =
+      test::run_emax(command({"--evaluation-time", "0.001"}, "mesh.ply", "3"), folder_.path());
+  EXPECT_EQ(hasty.exit_code, 1);
+  EXPECT_NE(hasty.errors.find("3 failed (timed out)"), std::string::npos) << hasty.errors;
+  EXPECT_FALSE(exists("mesh.ply.run"));
+  const ProgramRun small = optimize({"--evaluation-memory", "1 MB"});
+  EXPECT_EQ(small.exit_code, 1);
+  EXPECT_NE(small.errors.find("raise the memory limit"), std::string::npos) << small.errors;
+  EXPECT_FALSE(exists("mesh.ply.run"));
+}
+
+}  // namespace
+}  // namespace emax

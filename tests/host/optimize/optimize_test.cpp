@@ -1,0 +1,282 @@
+#include "host/optimize/optimize.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "host/emax_search/simd_evaluator.h"
+#include "sw_model/error.h"
+#include "tests/host/geometry/temporary_folder.h"
+#include "tests/host/reconstruct/surface_clouds.h"
+
+namespace emax::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kBudget = 24;
+const RunSettings kSettings = {{"of", "the test"}};
+
+// A gene of which the values up to 4 make workers fail, each in its own way (test_methods.h).
+GeneConfig fault_gene() {
+#ifndef __SANITIZE_ADDRESS__
+  constexpr double kFirst = 0;
+#else
+  constexpr double kFirst = 4;  // the sanitizer takes more memory than any limit
+#endif
+  return {{"test.fault", Gene::Kind::kInteger, kFirst, 7}, 7, {}};
+}
+
+// With this seed the first candidates, which depend on no result, meet every fault once.
+std::uint64_t seed_of_every_fault(const Config& config) {
+  const auto first = static_cast<std::ptrdiff_t>(std::max(1.0, config.genes.back().gene.lower));
+  for (std::uint64_t seed = 1;; ++seed) {
+    Genocop search(make_problem(config, "schroeder.reduction"), config.search, seed);
+    std::vector<int> count(8);
+    for (std::size_t i = 0; i < config.search.look_ahead; ++i) {
+      ++count[static_cast<std::size_t>(search.ask().genes.back())];
+    }
+    if (std::all_of(count.begin() + first, count.begin() + 5, [](int n) { return n == 1; })) {
+      return seed;
+    }
+  }
+}
+
+// A search on a small torus.
+class OptimizeTest : public testing::Test {
+ protected:
+  OptimizeTest() {
+    settings_.config = default_config(chain_parameters("gp3", "schroeder"));
+    settings_.config.search.budget = kBudget;
+    settings_.jobs = 2;
+    settings_.limits = EvaluationLimits{60s, 0};
+    settings_.output = "mesh.ply";
+  }
+
+  void with_faults() {
+    settings_.config.genes.push_back(fault_gene());
+    settings_.seed = seed_of_every_fault(settings_.config);
+    settings_.allow_test_methods = true;
+    settings_.limits->time = 3s;
+#ifndef __SANITIZE_ADDRESS__
+    settings_.limits->memory = std::uint64_t{1} << 28;
+#endif
+  }
+
+  OptimizeState run(RunLog* log = nullptr) {
+    settings_.log = log;
+    measured_ = 0;
+    settings_.measured = [this](MeshView, const MeasuredError&) { ++measured_; };
+    return optimize(cloud_, constraint_, device_, settings_, [](const OptimizeState&) {});
+  }
+
+  std::filesystem::path copy_of_folder(const std::string& name) {
+    std::filesystem::copy(path_, folder_ / name);
+    return folder_ / name;
+  }
+
+  const std::vector<Point> cloud_ = torus_cloud(30, 12);
+  ErrorConstraint constraint_{cloud_, 0.3, 0};
+  Evaluator* device_ = nullptr;
+  OptimizeSettings settings_;
+  std::uint64_t measured_ = 0;  // meshes, by the last run
+  TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "run";
+};
+
+void expect_same(const OptimizeState& a, const OptimizeState& b) {
+  EXPECT_EQ(a.evaluations, b.evaluations);
+  EXPECT_EQ(a.failures, b.failures);
+  ASSERT_TRUE(a.best && b.best);
+  EXPECT_EQ(a.best->index, b.best->index);
+  EXPECT_EQ(a.best->parameters, b.best->parameters);
+  EXPECT_EQ(a.best->error, b.best->error);
+  EXPECT_EQ(a.best->unmeshed_points, b.best->unmeshed_points);
+  EXPECT_TRUE(same_bytes(a.best->mesh, b.best->mesh));
+  EXPECT_FALSE(a.best->mesh.triangles.empty());
+}
+
+// Every fault costs its evaluation and no more, whoever runs it and whenever; what the search was
+// told of it stands when the run goes on.
+TEST_F(OptimizeTest, FaultyWorkersCostTheirEvaluationsAndAreLogged) {
+  with_faults();
+  OptimizeState whole;
+  {
+    RunLog log(path_, kSettings);
+    whole = run(&log);
+  }
+  ASSERT_TRUE(whole.best);
+  EXPECT_EQ(whole.evaluations, kBudget);
+  std::uint64_t failed = 0;
+  for (const auto& [reason, count] : whole.failures) failed += count;
+  EXPECT_EQ(failed + measured_, kBudget);
+#ifndef __SANITIZE_ADDRESS__
+  for (const char* reason : {"crashed", "timed out", "out of memory", "garbled"}) {
+    EXPECT_GE(whole.failures[reason], 1u) << reason;
+  }
+#endif
+
+  // Cut somewhere, with another number of workers, and even with ones that fail no more.
+  const std::uintmax_t size = std::filesystem::file_size(path_ / "evaluations.log");
+  const std::filesystem::path all = copy_of_folder("all");
+  Random random(9);
+  for (unsigned jobs = 1; jobs <= 2; ++jobs) {
+    const auto at =
+        static_cast<std::uintmax_t>(random.uniform(0.85, 1) * static_cast<double>(size));
+    SCOPED_TRACE(testing::Message() << "cut at " << at << " of " << size);
+    std::filesystem::resize_file(path_ / "evaluations.log", at);
+    settings_.jobs = jobs;
+    RunLog log(path_, kSettings);
+    const std::size_t known = log.size();
+    EXPECT_GT(known, 0u);
+    const OptimizeState rest = run(&log);
+    expect_same(rest, whole);
+    EXPECT_EQ(rest.from_log, known);
+    EXPECT_LE(measured_, kBudget - known);
+  }
+  settings_.allow_test_methods = false;
+  RunLog log(all, kSettings);
+  expect_same(run(&log), whole);
+  EXPECT_EQ(measured_, 0u);
+}
+
+TEST_F(OptimizeTest, AnInterruptedRunGoesOnToTheSameEnd) {
+  const OptimizeState whole = run();
+  EXPECT_TRUE(whole.failures.empty());
+  constexpr std::uint64_t kEach = 6;
+  for (std::uint64_t session = 1; session <= 3; ++session) {
+    settings_.interrupted = [this] { return measured_ >= kEach; };
+    RunLog log(path_, kSettings);
+    const OptimizeState cut = run(&log);
+    EXPECT_TRUE(cut.interrupted);
+    ASSERT_TRUE(cut.best || cut.least_error);  // shown, whether made now or earlier
+    EXPECT_FALSE((cut.best ? cut.best : cut.least_error)->mesh.triangles.empty());
+    EXPECT_GE(log.size(), session * kEach);
+    std::filesystem::remove_all(folder_ / "copy");
+    settings_.interrupted = [] { return false; };
+    RunLog copy(copy_of_folder("copy"), kSettings);
+    expect_same(run(&copy), whole);
+  }
+}
+
+// The twin looks at the log of the whole run.
+TEST_F(OptimizeTest, StopsAtTheSameEvaluationHoweverItIsRun) {
+  std::vector<LoggedEvaluation> evaluations(kBudget);
+  {
+    RunLog log(path_, kSettings);
+    run(&log);
+    for (std::uint64_t i = 0; i < kBudget; ++i) {
+      if (const LoggedEvaluation* known = log.find(i)) evaluations[i] = *known;
+      if (log.find(i) == nullptr) evaluations[i].failure = "repeated";
+    }
+  }
+  const auto expected_end = [&](std::uint64_t target, std::uint64_t stagnation) {
+    std::uint64_t best = ~std::uint64_t{0}, error = best, better = 0;
+    for (std::uint64_t i = 0; i < kBudget; ++i) {
+      const LoggedEvaluation& e = evaluations[i];
+      if (e.failure.empty()) {
+        if (e.violation <= 0 && e.triangles < best) {
+          best = e.triangles;
+          better = i + 1;
+        } else if (e.violation > 0 && best == ~std::uint64_t{0} && e.squared_bits < error) {
+          error = e.squared_bits;
+          better = i + 1;
+        }
+      }
+      if (best <= target || i + 1 - better >= stagnation) return i + 1;
+    }
+    return kBudget;
+  };
+  std::set<std::uint64_t> ends;
+  const auto check = [&](std::optional<std::uint64_t> target,
+                         std::optional<std::uint64_t> stagnation) {
+    SCOPED_TRACE(testing::Message() << target.value_or(0) << " " << stagnation.value_or(0));
+    settings_.target_triangles = target;
+    settings_.stagnation = stagnation;
+    const std::uint64_t end = expected_end(target.value_or(0), stagnation.value_or(kBudget + 1));
+    ends.insert(end);
+    settings_.jobs = 2;
+    const OptimizeState fresh = run();
+    EXPECT_EQ(fresh.evaluations, end);
+    EXPECT_EQ(fresh.target_reached || fresh.stagnated, end < kBudget || !fresh.stagnated);
+    // From the log of the whole run, whose folder has the mesh of another evaluation.
+    settings_.jobs = 1;
+    std::filesystem::remove_all(folder_ / "copy");
+    RunLog log(copy_of_folder("copy"), kSettings);
+    expect_same(run(&log), fresh);
+    EXPECT_EQ(measured_, 0u);
+  };
+  check({}, 3);
+  check({}, 6);
+  for (const std::uint64_t i : {2u, 9u}) {
+    if (evaluations[i].failure.empty()) check(evaluations[i].triangles, {});
+  }
+  EXPECT_GE(ends.size(), 2u);
+}
+
+TEST_F(OptimizeTest, AMeshThatIsLostIsMadeAgain) {
+  RunLog log(path_, kSettings);
+  const OptimizeState whole = run(&log);
+  const std::string name = "mesh-" + std::to_string(whole.best->index) + ".ply";
+  std::vector<std::string> meshes;
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+    if (entry.path().extension() == ".ply") meshes.push_back(entry.path().filename().string());
+  }
+  EXPECT_EQ(meshes, std::vector<std::string>{name});  // the best alone is kept
+  std::string bytes = bytes_of(path_ / name);
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  folder_.write("run/" + name, bytes);
+  expect_same(run(&log), whole);
+  std::filesystem::remove(path_ / name);
+  expect_same(run(&log), whole);
+}
+
+TEST_F(OptimizeTest, RefusesTheLogOfAnotherSearch) {
+  settings_.config.search.budget = 3;
+  RunLog log(path_, kSettings);
+  run(&log);
+  settings_.config.genes[0].standard += 1;
+  expect_clear(message_of([&] { run(&log); }), path_.string(), "evaluation 0 has other parameters",
+               "another folder");
+}
+
+// What a device fails at is no candidate's fault.
+TEST_F(OptimizeTest, AFailedDeviceIsNotLogged) {
+  struct Failing : SimdEvaluator {
+    BlockAnswer collect() override {
+      if (++blocks > 40) throw DeviceFailure("the board is unplugged");
+      return SimdEvaluator::collect();
+    }
+    int blocks = 0;
+  };
+  const OptimizeState whole = run();
+  RunLog log(path_, kSettings);
+  Failing failing;
+  device_ = &failing;
+  const OptimizeState cut = run(&log);
+  EXPECT_EQ(cut.device_failure, "the board is unplugged");
+  EXPECT_GT(log.size(), 0u);
+  EXPECT_LT(log.size(), kBudget);
+  EXPECT_TRUE(cut.failures.empty());
+  device_ = nullptr;
+  expect_same(run(&log), whole);
+}
+
+TEST(EvaluationLimits, GrowWithTheCloudAndAreShared) {
+  EXPECT_EQ(standard_limits(1000, 1).time, 10min);
+  EXPECT_EQ(standard_limits(1'000'000, 1).time, 2000s);
+  TemporaryFolder folder;
+  const std::uint64_t machine = usable_memory("no such file");
+  EXPECT_EQ(usable_memory(folder.write("limit", "max\n")), machine);
+  EXPECT_EQ(usable_memory(folder.write("limit", "123456789\n")), 123456789u);
+  EXPECT_EQ(usable_memory(folder.write("limit", "18446744073709551615\n")), machine);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_EQ(standard_limits(1000, 100'000).memory, std::uint64_t{1} << 30);
+  EXPECT_LT(standard_limits(1000, 1).memory, usable_memory());
+  EXPECT_GE(standard_limits(1000, 1).memory, standard_limits(1000, 2).memory);
+#endif
+}
+
+}  // namespace
+}  // namespace emax::test
