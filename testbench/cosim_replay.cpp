@@ -153,7 +153,7 @@ bool parse(int argc, char** argv, Options& options) {
       if (!number(argv[++i], options.mutant)) return false;
     } else if (argument == "--window" && i + 1 < argc) {
       if (!number(argv[++i], options.window)) return false;
-    } else if (options.folder.empty() && !argument.starts_with("-")) {
+    } else if (options.folder.empty() && !argument.starts_with('-')) {
       options.folder = argument;
     } else {
       return false;

@@ -136,7 +136,7 @@ int run(const std::vector<std::string>& arguments) {
       delay = value();
     } else if (argument == "-o") {
       file = value();
-    } else if (argument.starts_with("-") || !form.empty()) {
+    } else if (argument.starts_with('-') || !form.empty()) {
       throw std::invalid_argument("'" + argument + "' is not understood");
     } else {
       form = argument;

@@ -72,7 +72,7 @@ SurfaceDistance decided_distance(MeshView from, const ExactMesh& to, double limi
   SurfaceDistanceOptions options;
   options.relative = kPrecision;
   options.absolute = kPrecision * limit;
-  const SurfaceDistance found = surface_distance(from, to, options);
+  SurfaceDistance found = surface_distance(from, to, options);
   if (found.within(limit) || found.lower > limit) return found;
   options.limit = limit;
   options.relative = options.absolute = 0;

@@ -67,7 +67,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   candidate.cost = fit.energy - search_.energy_before(4);
   candidate.a = a;
   candidate.b = b;
-  candidate.fit = fit;
+  candidate.fit = std::move(fit);
   candidate.stamp = edits_;
   return true;
 }

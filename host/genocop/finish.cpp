@@ -197,7 +197,7 @@ std::optional<Genes> Finish::propose() {
     if (selection.missing) {
       const Vector at = space_.position(*selection.missing);
       next_ = Trial{*selection.missing, at, std::nullopt};
-      return std::move(*selection.missing);
+      return selection.missing;
     }
     if (!trials_.empty()) return std::nullopt;
     if (selection.points.empty()) {

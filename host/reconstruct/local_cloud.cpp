@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "host/reconstruct/orient_normals.h"
@@ -106,7 +107,7 @@ std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(int k) const {
 
 pcl::PointCloud<pcl::PointNormal>::Ptr LocalCloud::with_normals(int k) const {
   const std::vector<Eigen::Vector3f> normals = oriented_normals(k);
-  pcl::PointCloud<pcl::PointNormal>::Ptr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
   cloud->resize(size());
   for (std::size_t i = 0; i < size(); ++i) {
     (*cloud)[i].getVector3fMap() = (*points_)[i].getVector3fMap();

@@ -11,8 +11,8 @@ namespace emax {
 //   test.hang    never answers                test.huge      announces an absurd length
 //   test.memory  allocates without end        test.error     throws Error
 //   test.print   prints on stdout and throws Error
-// A parameter "test.fault" of 1 to 4 makes a sound method crash, hang, allocate without end or write
-// garbage, so that a search meets faults among sound evaluations.
+// A parameter "test.fault" of 1 to 4 makes a sound method crash, hang, allocate without end or
+// write garbage, so that a search meets faults among sound evaluations.
 void run_test_method(const ChainSettings& settings, int channel);
 
 }  // namespace emax
