@@ -10,7 +10,7 @@ matplotlib.use("svg")
 # The same file for the same figures.
 matplotlib.rcParams.update({"svg.hashsalt": "emax", "svg.fonttype": "none", "font.size": 9})
 
-from matplotlib import pyplot
+from matplotlib import pyplot, ticker
 
 
 def draw(curve, file):
@@ -19,6 +19,7 @@ def draw(curve, file):
         colour = axes.plot(line["at"], line["median"], marker="o", markersize=3, label=line["title"])[0].get_color()
         axes.fill_between(line["at"], line["least"], line["greatest"], color=colour, alpha=0.2, linewidth=0)
     axes.set(xscale="log", yscale="log", xlabel=curve["axis"], ylabel=curve["unit"])
+    axes.yaxis.set_minor_locator(ticker.LogLocator(subs=(2, 5)))
     for tell in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
         tell("{x:g}")
     axes.grid(which="major", alpha=0.4)
