@@ -65,10 +65,7 @@ class DecimateCommand {
     }
     reference_ = reference_surface(given_, kept, epsilon_ / 2, was_interrupted);
     if (was_interrupted()) throw Interrupted{};
-    settings_.decimation.interrupted = [&] {
-      out_of_time_ = progress.out_of_time();
-      return out_of_time_ || was_interrupted();
-    };
+    settings_.decimation.interrupted = [&] { return progress.out_of_time() || was_interrupted(); };
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
       progress.show(share, triangles);
     };
@@ -266,7 +263,7 @@ class DecimateCommand {
   ReferenceSurface reference_;
   CertifiedDecimation result_;
   EmaxResult kernel_ = {};  // the point is the file's
-  bool feasible_ = false, out_of_time_ = false;
+  bool feasible_ = false;
 };
 
 }  // namespace

@@ -20,19 +20,24 @@
 namespace emax {
 namespace {
 
+void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& skip_invalid,
+                         std::string& json) {
+  command.add_option("--json", json, "also write the result to this file");
+  command
+      .add_option("--exclude-outliers", excluded_share,
+                  "share of the points (N or N%) that may lie beyond the tolerance; they are named")
+      ->capture_default_str();
+  command.add_flag("--skip-invalid", skip_invalid,
+                   "leave out points with NaN or infinite coordinates");
+}
+
 void add_common(CLI::App& command, CommonOptions& options) {
   command.add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .pts .obj .off")
       ->required();
   command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
       ->capture_default_str();
   command.add_option("--seed", options.seed, "seed of every random choice")->capture_default_str();
-  command.add_option("--json", options.json, "also write the result to this file");
-  command
-      .add_option("--exclude-outliers", options.excluded_share,
-                  "share of the points (N or N%) that may lie beyond the tolerance; they are named")
-      ->capture_default_str();
-  command.add_flag("--skip-invalid", options.skip_invalid,
-                   "leave out points with NaN or infinite coordinates");
+  add_points_and_json(command, options.excluded_share, options.skip_invalid, options.json);
   command.add_flag("--brute-force", options.brute_force, "evaluate all pairs instead of searching");
 }
 
@@ -133,17 +138,12 @@ int run(int argc, char** argv) {
                   "quick: collapses alone; deep: until nothing is gained")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
-  decimate_command
-      .add_option("--exclude-outliers", decimate.excluded_share,
-                  "share of the points (N or N%) that may lie beyond the tolerance; they are named")
-      ->capture_default_str();
-  decimate_command.add_flag("--skip-invalid", decimate.skip_invalid,
-                            "leave out points of the cloud with NaN or infinite coordinates");
+  add_points_and_json(decimate_command, decimate.excluded_share, decimate.skip_invalid,
+                      decimate.json);
   decimate_command
       .add_option("--time", decimate.seconds,
                   "stop after this many seconds, with the mesh reached by then")
       ->check(CLI::PositiveNumber);
-  decimate_command.add_option("--json", decimate.json, "also write the result to this file");
   decimate_command.callback([&] {
     decimate.two_sided = decimate_bound == "two-sided";
     if (!decimate.two_sided && !decimate.back_error.empty()) {

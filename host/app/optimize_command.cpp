@@ -7,6 +7,7 @@
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/progress.h"
+#include "host/app/result_files.h"
 #include "host/app/run_identity.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
@@ -65,17 +66,6 @@ std::string_view ended_by(const OptimizeState& state) {
   if (state.out_of_time) return "time";
   if (state.target_reached) return "target";
   return state.stagnated ? "stagnation" : "budget";
-}
-
-// The mesh and its certificate appear together, or not at all.
-void write_result(const std::filesystem::path& path, const std::string& mesh,
-                  const std::string& certificate) {
-  AtomicFile mesh_file(path);
-  AtomicFile certificate_file(certificate_path(path));
-  mesh_file.write(mesh);
-  certificate_file.write(certificate);
-  mesh_file.commit();
-  certificate_file.commit();
 }
 
 EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud) {
@@ -200,7 +190,9 @@ class OptimizeCommand {
     certificate.chain = {settings_.method, settings_.decimator, best.parameters};
     certificate.seed = settings_.seed;
     certificate.evaluations = state_.evaluations;
-    write_result(options_.output, bytes, to_json_text(certificate));
+    const ResultFile files[] = {{options_.output, bytes},
+                                {certificate_path(options_.output), to_json_text(certificate)}};
+    write_together(files);
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(best.mesh.triangles.size()), describe(validity_));
     fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",

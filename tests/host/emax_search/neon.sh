@@ -4,7 +4,7 @@ set -euo pipefail
 out=build/neon
 mkdir -p "$out"
 ln -sfn /usr/include/hwy "$out/hwy" # headers alone: the rest of Highway is for this machine
-disabled=$(sed -n 's/.*\(HWY_DISABLED_TARGETS=([^)]*)\).*/\1/p' sw_model/CMakeLists.txt)
+left_out=$(sed -n 's/.*\(HWY_DISABLED_TARGETS=([^)]*)\).*/\1/p' sw_model/CMakeLists.txt)
 googletest=/usr/src/googletest/googletest
 export out googletest disabled
 
@@ -17,7 +17,7 @@ int64_t SupportedTargets() { return HWY_NEON | HWY_EMU128 | HWY_SCALAR; }
 CODE
 
 compile() {
-  aarch64-linux-gnu-g++ -std=c++20 -O2 -ffp-contract=off -fno-tree-slp-vectorize "-D$disabled" -I. \
+  aarch64-linux-gnu-g++ -std=c++20 -O2 -ffp-contract=off -fno-tree-slp-vectorize "-D$left_out" -I. \
     -isystem "$out" -isystem /usr/include/eigen3 -isystem "$googletest/include" \
     -isystem "$googletest" -c "$1" -o "$out/$(tr / _ <<<"$1").o"
 }
