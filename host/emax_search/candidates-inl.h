@@ -30,7 +30,8 @@ using IndexTag = hn::RebindToUnsigned<FloatTag>;
 // stack at every call where GCC 12 compiles it.
 class SomeLanes {
  public:
-  HWY_INLINE explicit SomeLanes(hn::Mask<FloatTag> mask) : mask_(mask), bits_(bits_of({mask})) {}
+  HWY_INLINE explicit SomeLanes(hn::Mask<FloatTag> mask)
+      : mask_(mask), bits_(bits_of(LaneMask<FloatTag>{mask})) {}
   HWY_INLINE std::size_t count() const { return hwy::PopCount(bits_); }
   // Writes a whole vector.
   template <class D>

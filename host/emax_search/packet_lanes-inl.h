@@ -24,10 +24,19 @@ static_assert(kTreeWidth == kPacketPoints, "a block of boxes has the vectors of 
 // of the kernel's error that grows with the distance, and the roundings of the bound itself.
 constexpr float kBoundSlack = 1.0f + 0x1p-16f;
 
-HWY_INLINE std::uint32_t bits_of(LaneMask<FloatTag> mask) {
+template <class D>
+HWY_INLINE std::uint32_t bits_of(LaneMask<D> mask) {
   std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(FloatTag(), mask.mask, bytes);
+  hn::StoreMaskBits(D(), mask.mask, bytes);
   return bytes[0] | std::uint32_t{bytes[1]} << 8;
+}
+
+// A true distance of at most this makes the kernel's d^2 no greater than `squared_limit`, and
+// leaves as much again for the errors of what bounds it (docs/numerics.md, "Prisms"). Not positive
+// where the limit is within the errors.
+HWY_INLINE float allowed_distance(float squared_limit, float reach) {
+  const float limit = std::sqrt(HWY_MAX(squared_limit, 0.0f)) * (1 - 0x1p-20f);
+  return limit - (2 * reach + limit) * 0x1p-17f;
 }
 
 // What proves a d^2 within a limit without computing it: a point over the triangle, enlarged so
@@ -37,12 +46,10 @@ struct Prism {
   float height, overshoot, edge_error;
 
   HWY_INLINE Prism(float squared_limit, float reach) {
-    const float limit = std::sqrt(HWY_MAX(squared_limit, 0.0f)) * (1 - 0x1p-20f);
-    const float span = 2 * reach + limit;
-    const float allowed = limit - span * 0x1p-17f;
+    const float allowed = allowed_distance(squared_limit, reach);
     overshoot = allowed * 0.5f;
     height = allowed > 0 ? allowed * 0.866f : -1.0f;
-    edge_error = span * 0x1p-19f;
+    edge_error = (2 * reach + std::sqrt(HWY_MAX(squared_limit, 0.0f))) * 0x1p-19f;
   }
 };
 
@@ -87,7 +94,8 @@ struct PacketLanes {
       const auto across23 = hn::NegMulAdd(z_from_v2, all(r.edge23.direction.y),
                                           hn::Mul(y, all(r.edge23.direction.z)));
       const auto least = hn::Min(y, hn::Min(across13, across23));
-      bits |= bits_of({hn::And(hn::Le(hn::Abs(x), all(prism.height)), hn::Ge(least, outwards))})
+      bits |= bits_of(LaneMask<FloatTag>{
+                  hn::And(hn::Le(hn::Abs(x), all(prism.height)), hn::Ge(least, outwards))})
               << (v * Floats::kCount);
     }
     return bits;
@@ -103,6 +111,44 @@ struct PacketLanes {
   HWY_INLINE void store(std::array<float, kPacketPoints>& to) const {
     for (std::size_t v = 0; v < kVectors; ++v) nearest[v].store(&to[v * Floats::kCount]);
   }
+};
+
+// The packets of a supergroup as balls.
+class BallLanes {
+  using Tag = hn::CappedTag<float, kSupergroupPackets>;
+  using Real = Lanes<Tag>;
+  static constexpr std::size_t kBallVectors = kSupergroupPackets / Real::kCount;
+
+ public:
+  HWY_INLINE BallLanes(const PacketBalls& balls, float allowed) {
+    for (std::size_t v = 0; v < kBallVectors; ++v) {
+      const std::size_t first = v * Real::kCount;
+      centres_[v] = {Real::load(&balls.x[first]), Real::load(&balls.y[first]),
+                     Real::load(&balls.z[first])};
+      const Real left = Real(allowed) - Real::load(&balls.radius[first]);
+      smaller_ |= bits_of(LaneMask<Tag>{hn::Ge(left.vec, Real(0.0f).vec)}) << first;
+      squared_left_[v] = left * left;
+    }
+  }
+  // Packets whose balls are smaller than the allowed distance, a bit each.
+  HWY_INLINE std::uint32_t smaller() const { return smaller_; }
+  // Those within it of a triangle, with all of their points (docs/numerics.md, "Balls").
+  HWY_INLINE std::uint32_t within(const TriangleRecord<float>& record) const {
+    Real squared[kBallVectors];
+    for (Real& s : squared) s = Real(std::numeric_limits<float>::infinity());
+    meet(record, centres_, squared);
+    std::uint32_t bits = 0;
+    for (std::size_t v = 0; v < kBallVectors; ++v) {
+      bits |= bits_of(LaneMask<Tag>{hn::Le(squared[v].vec, squared_left_[v].vec)})
+              << (v * Real::kCount);
+    }
+    return bits & smaller_;
+  }
+
+ private:
+  kernel::Vector3<Real> centres_[kBallVectors];
+  Real squared_left_[kBallVectors];
+  std::uint32_t smaller_ = 0;
 };
 
 // Squares of the gaps between a box and those of a block, for vector v of it.
@@ -135,7 +181,8 @@ struct BoxLanes {
     for (std::size_t v = 0; v < kVectors; ++v) {
       const Floats gap = squared_gap(block, v);
       if (squared != nullptr) gap.store(squared + v * Floats::kCount);
-      bits |= bits_of({hn::Le(gap.vec, Floats(limit).vec)}) << (v * Floats::kCount);
+      bits |= bits_of(LaneMask<FloatTag>{hn::Le(gap.vec, Floats(limit).vec)})
+              << (v * Floats::kCount);
     }
     return bits;
   }

@@ -26,6 +26,13 @@ HWY_INLINE float limit_of(const RunningMaximum& worst, const Packet& packet) {
   return r.squared_bits == 0 ? kNoLimit : bits_float(r.squared_bits - 1);
 }
 
+// The same for every packet, whatever its indices.
+HWY_INLINE float limit_of(const RunningMaximum& worst) {
+  if (!worst.is_set()) return kNoLimit;
+  const EmaxResult r = worst.get();
+  return r.squared_bits == 0 ? kNoLimit : bits_float(r.squared_bits - 1);
+}
+
 // Triangles that settle points of a packet, gathered without a branch. Who gathers keeps their
 // number, in a register.
 struct Witnesses {
@@ -79,7 +86,8 @@ HWY_INLINE std::uint32_t still_settled(const SearchJob& job, std::size_t i, floa
       leaves = hn::GatherIndex(d, known.carried.data(), index);
       hn::StoreU(leaves, d, &packet.leaves[lane]);
     }
-    settled |= bits_of({hn::RebindMask(FloatTag(), hn::Ne(leaves, none))}) << lane;
+    settled |= bits_of(LaneMask<FloatTag>{hn::RebindMask(FloatTag(), hn::Ne(leaves, none))})
+               << lane;
   }
   const std::uint32_t first = packet.leaves[hwy::Num0BitsBelowLS1Bit_Nonzero32(settled | 0x8000u)];
   if (first != kNoLeaf) hint = first;
@@ -239,7 +247,15 @@ constexpr std::size_t kFew = 4;
     // Slivers have no prisms to speak of: then they are only tried now and then.
     const bool use_prisms = s % kPrismTrial == 0 || 2 * inside_prisms >= in_packets * kPacketPoints;
     inside_prisms = in_packets = 0;
+    // Where the maximum is large beside packets, one triangle settles many of them at once.
+    const BallLanes balls(job.cloud.balls[s],
+                          allowed_distance(limit_of(job.worst), job.mesh.reach));
+    std::uint32_t within = 0;
+    bool new_hint = balls.smaller() != 0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (new_hint) within |= balls.within(job.mesh.records[hint]);
+      new_hint = false;
+      if ((within >> (i - range.begin) & 1) != 0) continue;
       const Packet& packet = job.cloud.packets[i];
       const float limit = limit_of(job.worst, packet);
       SettledPacket& settled = job.settled.packets[i];
@@ -298,6 +314,7 @@ constexpr std::size_t kFew = 4;
         if (found != 0) hint = witnesses.leaves[found - 1];
         witnesses.keep(found, settled);
         settled.squared_limit = proven;
+        new_hint = found != 0 && balls.smaller() != 0;
       }
     }
   }

@@ -21,6 +21,11 @@ struct alignas(64) Packet {
   std::array<std::uint32_t, kPacketPoints> index;
 };
 
+// A ball around the points of each packet of a supergroup; infinite where there is no packet.
+struct alignas(32) PacketBalls {
+  std::array<float, kSupergroupPackets> x, y, z, radius;
+};
+
 struct FloatBox {
   std::array<float, 3> lo, hi;
 };
@@ -55,6 +60,7 @@ struct PacketView {
   std::span<const Packet> packets;
   std::span<const FloatBox> boxes;        // of packets
   std::span<const FloatBox> supergroups;  // of kSupergroupPackets packets each
+  std::span<const PacketBalls> balls;     // of supergroups
 };
 
 // Records in the order of the leaves. Child c of block b of a level is block b * kTreeWidth + c of

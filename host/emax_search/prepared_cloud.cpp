@@ -1,6 +1,8 @@
 #include "host/emax_search/prepared_cloud.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -22,12 +24,33 @@ PreparedCloud::PreparedCloud(std::span<const Point> cloud)
   split(order);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     if (i % kSupergroupPackets == 0) supergroups_.push_back(boxes_[i]);
+    add_ball(i);
     FloatBox& box = supergroups_.back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       box.lo[axis] = std::min(box.lo[axis], boxes_[i].lo[axis]);
       box.hi[axis] = std::max(box.hi[axis], boxes_[i].hi[axis]);
     }
   }
+}
+
+void PreparedCloud::add_ball(std::size_t packet) {
+  const std::size_t lane = packet % kSupergroupPackets;
+  if (lane == 0) {
+    balls_.emplace_back();
+    balls_.back().radius.fill(std::numeric_limits<float>::infinity());
+  }
+  PacketBalls& balls = balls_.back();
+  const Packet& points = packets_[packet];
+  const Point centre = groups_[packet].box.center().cast<float>().cast<double>();
+  double radius = 0;
+  for (std::size_t i = 0; i < kPacketPoints; ++i) {
+    radius = std::max(radius, (Point(points.x[i], points.y[i], points.z[i]) - centre).norm());
+  }
+  balls.x[lane] = static_cast<float>(centre.x());
+  balls.y[lane] = static_cast<float>(centre.y());
+  balls.z[lane] = static_cast<float>(centre.z());
+  balls.radius[lane] =
+      std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
 }
 
 Eigen::AlignedBox3d PreparedCloud::box_of(std::span<const std::uint32_t> order) const {
@@ -77,7 +100,7 @@ void PreparedCloud::add_packet(std::span<std::uint32_t> order, const Eigen::Alig
 std::size_t PreparedCloud::memory_bytes() const {
   return std::span(points_).size_bytes() + std::span(packets_).size_bytes() +
          std::span(boxes_).size_bytes() + std::span(supergroups_).size_bytes() +
-         std::span(groups_).size_bytes();
+         std::span(balls_).size_bytes() + std::span(groups_).size_bytes();
 }
 
 }  // namespace emax

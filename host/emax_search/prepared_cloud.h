@@ -17,7 +17,7 @@ struct PointGroup {
 };
 
 // What the search needs of a cloud, made once: normalised points, and packets of kPacketPoints
-// neighbours, each a group. O(n log^2 n) time, 34 bytes a point.
+// neighbours, each a group. O(n log^2 n) time, 35 bytes a point.
 class PreparedCloud {
  public:
   static constexpr std::size_t kGroupPoints = kPacketPoints;
@@ -28,11 +28,12 @@ class PreparedCloud {
   const Normalization& normalization() const { return normalization_; }
   std::span<const Vector3<float>> points() const { return points_; }
   std::span<const PointGroup> groups() const { return groups_; }
-  PacketView packets() const { return {packets_, boxes_, supergroups_}; }
+  PacketView packets() const { return {packets_, boxes_, supergroups_, balls_}; }
   std::size_t memory_bytes() const;
 
  private:
   void split(std::span<std::uint32_t> order);
+  void add_ball(std::size_t packet);
   void add_packet(std::span<std::uint32_t> order, const Eigen::AlignedBox3d& box);
   Eigen::AlignedBox3d box_of(std::span<const std::uint32_t> order) const;
 
@@ -40,6 +41,7 @@ class PreparedCloud {
   std::vector<Vector3<float>> points_;
   std::vector<Packet> packets_;
   std::vector<FloatBox> boxes_, supergroups_;
+  std::vector<PacketBalls> balls_;
   std::vector<PointGroup> groups_;
 };
 

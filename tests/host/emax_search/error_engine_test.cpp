@@ -222,9 +222,11 @@ TEST(ErrorEngine, FalselyCarriedTrianglesAreCaught) {
   std::vector<std::uint32_t> raised, carried(s.triangles.size());
   std::iota(carried.begin(), carried.end(), 0u);
   carried.push_back(kNoLeaf);
+  const PreparedMesh near(s.mesh(), cloud.normalization());
+  const std::uint32_t limit = ErrorEngine(cloud).e_max(near).squared_bits;
   const auto search = [&](const PreparedMesh& mesh, std::uint32_t number) {
     RunningMaximum worst;
-    worst.raise({float_bits(1.0f), 0});
+    worst.raise({limit, 0});
     const ScopedFlushMode flush;
     engine_targets().front().search_supergroups(
         {packets, mesh.tree(), Strategy::kPackets, worst, std::numeric_limits<std::uint32_t>::max(),
@@ -232,12 +234,11 @@ TEST(ErrorEngine, FalselyCarriedTrianglesAreCaught) {
         0, packets.supergroups.size());
     return worst.get();
   };
-  const PreparedMesh near(s.mesh(), cloud.normalization());
-  EXPECT_EQ(search(near, 2).squared_bits, float_bits(1.0f));
+  EXPECT_EQ(search(near, 2).squared_bits, limit);
   for (Point& vertex : s.vertices) vertex += Point(1000, 0, 0);
   const PreparedMesh far(s.mesh(), cloud.normalization());
-  EXPECT_EQ(search(far, 3).squared_bits, float_bits(1.0f));
-  EXPECT_GT(search(far, 5).squared_bits, float_bits(1.0f));  // those of mesh 3 are not of mesh 4
+  EXPECT_EQ(search(far, 3).squared_bits, limit);
+  EXPECT_GT(search(far, 5).squared_bits, limit);  // those of mesh 3 are not of mesh 4
 }
 
 // Boxes that are too small hide triangles: what the tests above would see.
@@ -275,31 +276,39 @@ TEST(ErrorEngine, TooSmallBoxesAreCaught) {
   EXPECT_GT(wrong, 0);
 }
 
-// A reach below the truth makes prisms too wide: they accept points beyond the limit.
-TEST(ErrorEngine, TooWidePrismsAreCaught) {
-  int wrong = 0;
+// Prisms that are too wide, by a reach below the truth, and balls that are too small accept points
+// beyond the limit.
+TEST(ErrorEngine, TooWidePrismsAndTooSmallBallsAreCaught) {
+  enum { kNoFault, kPrisms, kBalls };
+  int wrong[] = {0, 0, 0};
   for (const test::Stimulus& s : stimuli()) {
     const BruteForce expected(s);
     const PreparedMesh mesh(s.mesh(), expected.cloud.normalization());
-    const TreeView right = mesh.tree();
-    const PacketView packets = expected.cloud.packets();
-    RunningMaximum worst;
-    std::vector<std::uint32_t> raised;
-    SettledPackets none(packets);
-    const SearchJob job = {packets,
-                           {right.records, -1e4f, right.levels},
-                           Strategy::kPackets,
-                           worst,
-                           std::numeric_limits<std::uint32_t>::max(),
-                           raised,
-                           none.settled_on(2)};
-    const std::uint32_t seed = 0;
-    const ScopedFlushMode flush;
-    engine_targets().front().search_packets(job, {&seed, 1});
-    engine_targets().front().search_supergroups(job, 0, packets.supergroups.size());
-    wrong += !(worst.get() == expected.worst);
+    for (const int fault : {kNoFault, kPrisms, kBalls}) {
+      PacketView packets = expected.cloud.packets();
+      TreeView tree = mesh.tree();
+      std::vector<PacketBalls> balls(packets.balls.begin(), packets.balls.end());
+      packets.balls = balls;
+      for (PacketBalls& b : balls) {
+        if (fault == kPrisms) b.radius.fill(std::numeric_limits<float>::infinity());
+        if (fault == kBalls) b.radius.fill(0);
+      }
+      if (fault == kPrisms) tree.reach = -1e4f;
+      RunningMaximum worst;
+      std::vector<std::uint32_t> raised;
+      SettledPackets none(packets);
+      const std::uint32_t seed = 0, never_enough = std::numeric_limits<std::uint32_t>::max();
+      const SearchJob job = {packets,      tree,   Strategy::kPackets, worst,
+                             never_enough, raised, none.settled_on(2)};
+      const ScopedFlushMode flush;
+      engine_targets().front().search_packets(job, {&seed, 1});
+      engine_targets().front().search_supergroups(job, 0, packets.supergroups.size());
+      wrong[fault] += !(worst.get() == expected.worst);
+    }
   }
-  EXPECT_GT(wrong, 0);
+  EXPECT_EQ(wrong[kNoFault], 0);
+  EXPECT_GT(wrong[kPrisms], 0);
+  EXPECT_GT(wrong[kBalls], 0);
 }
 
 test::Stimulus one_triangle(std::vector<Point> cloud) {
