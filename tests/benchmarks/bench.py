@@ -18,7 +18,9 @@ import tarfile
 import tempfile
 from pathlib import Path
 
+import decimation_bench
 import search_bench
+import sections
 
 PROGRAM = Path("build/bench/bin/emax_benchmark")
 HERE = Path("tests/benchmarks")
@@ -89,18 +91,25 @@ def install_peers():
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="./dev bench", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog="./dev bench", description="\n".join([__doc__, search_bench.__doc__, decimation_bench.__doc__]),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Other arguments go to the program, which then prints and writes no file; "
                f"{PROGRAM} --help lists them, and --benchmark_filter=REGEX is Google Benchmark's.")
     parser.add_argument("--quick", action="store_true", help="one round of the smallest case; print, write no file")
     parser.add_argument("--search", action="store_true",
                         help="measure the optimizer instead")
+    parser.add_argument("--decimate", action="store_true", help="measure the bounded decimator instead")
     arguments, others = parser.parse_known_args()
     LOG.unlink(missing_ok=True)
     if arguments.search:
         search_bench.main(others, install_peers())
         return
-    search_section = search_bench.existing_section()
+    if arguments.decimate:
+        if not arguments.quick:
+            fetch_dragon()
+        decimation_bench.main(others, arguments.quick, None if arguments.quick else install_peers())
+        return
+    kept = sections.kept()
     if not arguments.quick:
         fetch_dragon()
     python = install_peers()
@@ -113,8 +122,8 @@ def main():
     if writing:
         command += ["--report", "docs/benchmarks.md", "--plots", CURVES]
     status = subprocess.run(command).returncode
-    if status == 0 and writing and search_section:
-        search_bench.put_section(search_section)
+    if status == 0 and writing:
+        sections.put_back(kept)
     if status == 0 and writing:
         if python:
             PLOTS.mkdir(exist_ok=True)

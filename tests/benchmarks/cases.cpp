@@ -39,16 +39,6 @@ TriangleMesh decimated(const CaseFolders& folders, const std::string& name, std:
                 [&] { return decimate_quadric(original(), triangles); });
 }
 
-// Greedy projection with the standard values, as an optimization begins.
-TriangleMesh reconstructed(const CaseFolders& folders, const std::string& name,
-                           std::span<const Point> cloud) {
-  return cached(folders, name + "-gp3", [&] {
-    return reconstruction_method("gp3")
-        .reconstruct(cloud, standard_values(reconstruction_parameters("gp3")))
-        .mesh;
-  });
-}
-
 // A tube with ripples that are finer than its triangles, which run along all of it.
 BenchmarkCase slivers() {
   constexpr std::uint32_t kAround = 10000;
@@ -78,6 +68,15 @@ TriangleMesh scan(const CaseFolders& folders, const std::string& file) {
 }
 
 }  // namespace
+
+TriangleMesh reconstructed(const CaseFolders& folders, const std::string& name,
+                           std::span<const Point> cloud) {
+  return cached(folders, name + "-gp3", [&] {
+    return reconstruction_method("gp3")
+        .reconstruct(cloud, standard_values(reconstruction_parameters("gp3")))
+        .mesh;
+  });
+}
 
 std::vector<BenchmarkCase> search_cases(const CaseFolders& folders, bool quick) {
   std::vector<BenchmarkCase> cases;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct CaseFolders {
   std::filesystem::path data;   // bunny00.off, building.ply, dragon.ply
   std::filesystem::path cache;  // of meshes that take long to make; made when it is not there
 };
+
+// Greedy projection with the standard values, as an optimization begins; `name` is the file's.
+TriangleMesh reconstructed(const CaseFolders& folders, const std::string& name,
+                           std::span<const Point> cloud);
 
 // The bunny, the dragon and the building against decimated meshes, and slivers; the first alone
 // when `quick`. Throws Error when a scan is missing.

@@ -10,14 +10,7 @@
 
 namespace emax::benchmarks {
 
-TriangleMesh decimate_quadric(const TriangleMesh& mesh, std::size_t triangles) {
-  vtkNew<vtkQuadricDecimation> filter;
-  filter->SetInputData(to_vtk(mesh));
-  filter->SetTargetReduction(1 - static_cast<double>(triangles) /
-                                     static_cast<double>(mesh.triangles.size()));
-  filter->Update();
-  vtkPolyData* data = filter->GetOutput();
-  const Point midpoint = bounds_of(mesh.vertices).midpoint();
+TriangleMesh mesh_of(vtkPolyData* data, const Point& midpoint) {
   TriangleMesh result;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     result.vertices.push_back(Point(data->GetPoint(i)) + midpoint);
@@ -31,6 +24,15 @@ TriangleMesh decimate_quadric(const TriangleMesh& mesh, std::size_t triangles) {
   }
   drop_unused(result);
   return result;
+}
+
+TriangleMesh decimate_quadric(const TriangleMesh& mesh, std::size_t triangles) {
+  vtkNew<vtkQuadricDecimation> filter;
+  filter->SetInputData(to_vtk(mesh));
+  filter->SetTargetReduction(1 - static_cast<double>(triangles) /
+                                     static_cast<double>(mesh.triangles.size()));
+  filter->Update();
+  return mesh_of(filter->GetOutput(), bounds_of(mesh.vertices).midpoint());
 }
 
 }  // namespace emax::benchmarks

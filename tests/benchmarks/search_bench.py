@@ -8,15 +8,14 @@ Every run is kept in build/bench/search/, so that a measurement can be interrupt
 import argparse
 import json
 import math
-import os
 import shutil
 import statistics
 import subprocess
 from pathlib import Path
 
+import sections
+
 HERE = Path("tests/benchmarks")
-DOCUMENT = Path("docs/benchmarks.md")
-BEGIN, END = "<!-- search: begin -->\n", "<!-- search: end -->\n"
 BUDGETS = [200, 1000, 5000, 50000]
 PROBLEMS = [f"g{i:02}" for i in range(1, 12)] + ["staircase"]
 PEERS = ["pagmo gaco", "pagmo cstrs_self_adaptive", "NLopt ISRES", "NLopt COBYLA"]
@@ -124,7 +123,7 @@ def standing(store, budget):
 
 
 def section(store, options):
-    parts = [BEGIN, "## Search\n",
+    parts = ["## Search\n",
              "Written by `./dev bench --search`. Median (best feasible − optimum) of "
              f"{options.seeds} runs, every evaluation charged; in brackets the runs that ended feasible, where not all "
              "did; none: no feasible point in the median run; –: not measured. Functions as in "
@@ -147,22 +146,7 @@ def section(store, options):
         rows.append(f"| {problem} | {published} | " + (f"{values[0]:.7g} | {values[len(values) // 2]:.7g} | {len(gaps)} |"
                                                     if gaps else "– | – | 0 |"))
     parts[-1] += "\n" + "\n".join(rows) + "\n"
-    return "\n".join(parts) + END
-
-
-def existing_section():
-    """What docs/benchmarks.md holds, so that measuring the engine does not lose it."""
-    text = DOCUMENT.read_text() if DOCUMENT.exists() else ""
-    start, end = text.find(BEGIN), text.find(END)
-    return text[start:end + len(END)] if 0 <= start < end else ""
-
-
-def put_section(new):
-    text, old = DOCUMENT.read_text() if DOCUMENT.exists() else "", existing_section()
-    text = text.replace(old, new) if old else text.rstrip("\n") + "\n\n" + new
-    partial = DOCUMENT.with_suffix(".part")
-    partial.write_text(text)
-    os.replace(partial, DOCUMENT)
+    return "\n".join(parts)
 
 
 def main(words, python):
@@ -181,4 +165,4 @@ def main(words, python):
     store = Store(folder)
     if not options.only_write:
         measure(store, options)
-    put_section(section(store, options))
+    sections.put("search", section(store, options))

@@ -1,0 +1,327 @@
+"""`./dev bench --decimate`: the bounded decimator beside OpenMesh, VTK, meshoptimizer and CGAL on
+five scans; writes the section "Decimation" of docs/benchmarks.md and its plots.
+
+Every peer is bisected to its fewest triangles within the same one-sided bound. Each result is kept
+in build/bench/decimation/, so that a measurement can be interrupted and continued; --fresh begins
+anew, --fresh-own measures only emax anew, --scans and --tools measure some, --only-write writes
+from what is there. All of it takes about two hours of one core; --quick, which prints one small
+case and writes nothing, a minute.
+"""
+
+import argparse
+import json
+import math
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import sections
+
+HERE = Path("tests/benchmarks")
+PROGRAM = Path("build/bench/bin/emax_decimation_benchmark")
+FOLDER = Path("build/bench/decimation")
+PLOTS = Path("docs/plots")
+FANDISK = Path("data/fandisk.off")
+FANDISK_SHA256 = "edffb263f037b023757259befd5532fccb48bdc3c35a1da2e11e235a647bd050"
+PACKAGE, ARCHIVE = "libcgal-demo", "./usr/share/doc/libcgal-dev/data.tar.gz"
+MEMBER = "data/meshes/fandisk.off"
+
+# Percent of the width.
+BOUNDS = {"bunny": [0.642, 0.321, 0.193, 0.0642], "fandisk": [0.5, 0.1, 0.02], "torus": [0.25], "building": [0.5],
+          "dragon": [0.2]}
+QUICK = ("fandisk", 0.1)
+PEERS = ["openmesh", "vtk-quadric", "vtk-pro", "meshoptimizer", "cgal-lt", "cgal-gh", "cgal-envelope"]
+TWO, ONE = "emax-two-sided", "emax-one-sided"
+OWN = [TWO, TWO + "-deep", ONE, ONE + "-deep"]
+# The envelope's test of every collapse takes hours on the large scans.
+TOO_SLOW = {("cgal-envelope", scan) for scan in ("dragon", "building", "torus")}
+POINTS = [10000, 30000, 100000, 300000, 1000000]
+POINTS_PERCENT = 0.25
+POINTS_TOOLS = [TWO, ONE, "openmesh", "vtk-quadric", "vtk-pro", "meshoptimizer", "cgal-lt", "cgal-gh"]
+TIME_LIMIT = 3600
+NOTHING_GONE = 0.98  # of the triangles of the start: the tool found nothing to remove
+
+
+def say(text):
+    print(f"bench: {text}", flush=True)
+
+
+def fetch_fandisk():
+    import hashlib
+    def there():
+        return FANDISK.exists() and hashlib.sha256(FANDISK.read_bytes()).hexdigest() == FANDISK_SHA256
+    if there():
+        return
+    say(f"fetching fandisk.off from Debian's {PACKAGE}")
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["apt-get", "-q", "-o", "APT::Sandbox::User=root", "download", PACKAGE], cwd=folder, check=True,
+                       stdout=subprocess.DEVNULL)
+        deb = next(Path(folder).glob("*.deb"))
+        command = f"dpkg-deb --fsys-tarfile '{deb}' | tar -xO {ARCHIVE} | tar -xzO {MEMBER}"
+        FANDISK.write_bytes(subprocess.run(command, shell=True, check=True, stdout=subprocess.PIPE).stdout)
+    if not there():
+        sys.exit(f"bench: the fandisk.off of {PACKAGE} is not the one that is measured here")
+
+
+class Store:
+    """One JSON object a result; a later one of the same key stands."""
+
+    def __init__(self, file):
+        self.file, self.results = file, {}
+        file.parent.mkdir(parents=True, exist_ok=True)
+        for line in file.read_text().splitlines() if file.exists() else []:
+            try:
+                result = json.loads(line)
+                self.results[tuple(result["key"])] = result
+            except (ValueError, KeyError):  # torn by an interruption
+                pass
+
+    def get(self, *key):
+        return self.results.get(key)
+
+    def put(self, key, result):
+        result["key"] = list(key)
+        self.results[key] = result
+        with self.file.open("a") as file:
+            file.write(json.dumps(result) + "\n")
+
+    def measure(self, key, arguments):
+        """Kept, whatever comes of it; a tool that crashes or hangs is told as that."""
+        start = time.monotonic()
+        try:
+            ended = subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            result = {"failure": f"not within {TIME_LIMIT / 60:.0f} minutes"}
+        else:
+            if ended.returncode < 0:
+                result = {"failure": f"ended by signal {-ended.returncode}"}
+            elif ended.returncode > 0:
+                sys.exit(ended.stderr.strip() or f"bench: {PROGRAM} failed")
+            else:
+                result = json.loads(ended.stdout)
+        result["wall"] = time.monotonic() - start
+        self.put(key, result)
+        say(f"{' '.join(map(str, key))}: {outcome(result)}, {result['wall']:.0f} s")
+
+
+def outcome(result):
+    if not succeeded(result):
+        return result.get("failure", "cannot")
+    return f"{result['triangles']} triangles" if "triangles" in result else "timed"
+
+
+def measure(store, scans, tools):
+    for scan in scans:
+        for percent in BOUNDS[scan]:
+            for tool in tools:
+                key = scan, percent, tool
+                if (tool, scan) not in TOO_SLOW and not store.get(*key):
+                    store.measure(key, ["--scan", scan, "--percent", percent, "--tool", tool])
+    for points in POINTS:
+        for tool in POINTS_TOOLS:
+            key = "points", points, tool
+            if "torus" in scans and tool in tools and not store.get(*key):
+                store.measure(key, ["--points", points, "--percent", POINTS_PERCENT, "--tool", tool])
+
+
+def succeeded(result):
+    return result and "failure" not in result and (
+        "triangles" not in result and "seconds" in result or
+        result.get("triangles", math.inf) < NOTHING_GONE * result.get("start", math.inf))
+
+
+def number(value, digits=3):
+    """So many digits, never an exponent."""
+    if value == 0:
+        return "0"
+    places = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{min(places, 6)}f}"
+
+
+def row(tool, result, compared):
+    name = result.get("name", tool)
+    if not succeeded(result):
+        least = result.get("least_error")
+        why = result.get("failure", "cannot" + (f": its nearest is {number(least)}" if least else ""))
+        cells = [why] + ["–"] * (8 + compared)
+    else:
+        cells = [str(result["triangles"]), number(result["e_max"]), number(result["back"]),
+                 str(result["intersecting"]), str(result["non_manifold"])]
+        if compared:
+            cells += [f"{number(result['true_greatest'])}; {number(result['true_rms'])}"]
+        cells += [number(result["seconds"]), number(result["search_seconds"]), str(result["search_calls"]),
+                  result.get("options", "")]
+    return f"| {name} | " + " | ".join(cells) + " |"
+
+
+def table(store, scan, percent, tools):
+    results = [(tool, store.get(scan, percent, tool)) for tool in tools]
+    results = [(tool, result) for tool, result in results if result]
+    if not results:
+        return ""
+    told = next((result for _, result in results if "text" in result), {})
+    compared = any("true_rms" in result for _, result in results)
+    head = ["tool", "triangles", "e_max, %", "back, %", "self-intersecting triangles", "non-manifold edges"]
+    head += ["to the true surface, %: greatest; root mean square"] if compared else []
+    head += ["s", "s, all calls", "calls", "options"]
+    lines = [f"### {scan}, {percent:g} % of the width\n"]
+    if told:
+        left = f", {told['left_out']} left out that cannot be joined to the mesh" if told["left_out"] else ""
+        lines.append(f"{told['text'][0].upper()}{told['text'][1:]}: {told['points']} points{left}; the start has "
+                     f"{told['start']} triangles.\n")
+    lines += ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 2) + "---|"]
+    lines += [row(tool, result, compared) for tool, result in results]
+    return "\n".join(lines) + "\n"
+
+
+def best_peer(store, scan, percent):
+    found = [store.get(scan, percent, tool) for tool in PEERS]
+    return min((result for result in found if succeeded(result)), key=lambda result: result["triangles"], default=None)
+
+
+def fewer(own, peer):
+    if not succeeded(own) or not peer:
+        return "–"
+    return f"{own['triangles']} ({100 * own['triangles'] / peer['triangles'] - 100:+.0f} %)"
+
+
+def summary(store):
+    lines = ["| scan | bound, % | best peer | its triangles | its back, % | emax one-sided | deep | emax two-sided | deep |",
+             "|---|---:|---|---:|---:|---:|---:|---:|---:|"]
+    for scan, bounds in BOUNDS.items():
+        for percent in bounds:
+            peer = best_peer(store, scan, percent)
+            told = [peer["name"], str(peer["triangles"]), number(peer["back"])] if peer else ["none", "–", "–"]
+            own = [fewer(store.get(scan, percent, tool), peer) for tool in (ONE, ONE + "-deep", TWO, TWO + "-deep")]
+            lines.append(f"| {scan} | {percent:g} | " + " | ".join(told + own) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def line(title, at, values):
+    return {"title": title, "at": at, "median": values, "least": values, "greatest": values}
+
+
+def curves(store):
+    plots = []
+    for scan, bounds in BOUNDS.items():
+        lines = []
+        for tool in OWN + PEERS if len(bounds) > 2 else []:
+            found = [(percent, store.get(scan, percent, tool)) for percent in sorted(bounds)]
+            found = [(percent, result) for percent, result in found if succeeded(result)]
+            if found:
+                lines.append(line(found[0][1]["name"], [percent for percent, _ in found],
+                                  [result["triangles"] for _, result in found]))
+        if lines:
+            plots.append({"name": f"decimation_{scan}", "axis": "ε, % of the width", "unit": "triangles",
+                          "title": f"{scan}: triangles by ε", "lines": lines})
+    lines = []
+    for tool in POINTS_TOOLS:
+        found = [result for points in POINTS if succeeded(result := store.get("points", points, tool))]
+        if found:
+            lines.append(line(found[0]["name"], [result["points"] for result in found],
+                              [result["seconds"] for result in found]))
+    own = [result for points in POINTS if succeeded(result := store.get("points", points, TWO))]
+    if own:
+        first = own[0]
+        scale = first["seconds"] / (first["points"] * math.log(first["points"]))
+        lines.append(line("n log n", [result["points"] for result in own],
+                          [scale * result["points"] * math.log(result["points"]) for result in own]))
+        plots.append({"name": "decimation_time", "axis": "points", "unit": "s", "title": "s by points", "lines": lines})
+    return plots
+
+
+def growth(store):
+    """How the time of a point grows, beside that of n log n."""
+    text = []
+    for tool in (TWO, ONE):
+        found = [result for points in POINTS if succeeded(result := store.get("points", points, tool))]
+        if len(found) < 2:
+            continue
+        first, last = found[0], found[-1]
+        ratio = last["seconds"] / first["seconds"]
+        even = last["points"] * math.log(last["points"]) / (first["points"] * math.log(first["points"]))
+        text.append(f"{first['name']} takes {number(first['seconds'])} s for {first['points']} points and "
+                    f"{number(last['seconds'])} s for {last['points']}: {ratio / even:.2f} of what n log n would be")
+    return "; ".join(text) + ".\n" if text else ""
+
+
+def machine():
+    for entry in Path("/proc/cpuinfo").read_text().splitlines():
+        if entry.startswith("model name"):
+            return entry.split(":")[1].strip()
+    return platform.processor()
+
+
+def section(store, plots):
+    results = list(store.results.values())
+    versions = {result["name"].split(",")[0]: result["version"] for result in results if "version" in result}
+    seconds = sum(result.get("all_seconds", result.get("seconds", 0)) for result in results)
+    parts = ["## Decimation\n",
+             "Written by `./dev bench --decimate`. The fewest triangles such that every point of the cloud is within ε "
+             "of the mesh (one-sided, e_max). emax is called once. Every peer is bisected over its own parameter, a "
+             "number of triangles or its own bound, to the fewest triangles whose e_max, by our engine, is within "
+             "the same ε; several sets of options are tried, and the best is told. CGAL's AABB-tree confirms e_max of "
+             "every result. All start from the same mesh: manifold and free of self-intersections, with points "
+             "farther than ε/2 joined to it, as emax starts; what that takes is in no time here. Back: the greatest "
+             "distance from any point of the result to that start, which two-sided emax holds to ε too and the "
+             "others do not bound. \"s\" is the call that gave the result, \"all calls\" the whole bisection with "
+             "these options. Time of the processor, one thread.\n",
+             f"{machine()}; " + ", ".join(f"{name} {version}" for name, version in sorted(versions.items())) +
+             f"; {seconds / 60:.0f} minutes of the tools' own time in all.\n",
+             "Triangles, and in brackets against the best peer's, which is one-sided in every row:\n", summary(store)]
+    parts += [f"![{plot['title']}](plots/{plot['name']}.svg)" for plot in plots]
+    if plots:
+        parts.append("")
+    if told := growth(store):
+        parts.append(f"Time by points: one call on a torus with little noise, ε {POINTS_PERCENT} % of the width; the "
+                     f"peers go to 2000 triangles, OpenMesh to its own bound of ε. {told}")
+    for scan, bounds in BOUNDS.items():
+        parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + PEERS))]
+    skipped = sorted({scan for _, scan in TOO_SLOW})
+    parts.append(f"CGAL's polyhedral envelope is not measured on {', '.join(skipped)}: it would take hours.\n")
+    return "\n".join(parts)
+
+
+def quick():
+    scan, percent = QUICK
+    with tempfile.TemporaryDirectory() as folder:
+        store = Store(Path(folder) / "quick.jsonl")
+        for tool in OWN + PEERS:
+            store.measure((scan, percent, tool), ["--scan", scan, "--percent", percent, "--tool", tool, "--quick"])
+        print("\n" + table(store, scan, percent, OWN + PEERS))
+
+
+def main(words, is_quick, python):
+    parser = argparse.ArgumentParser(prog="./dev bench --decimate", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scans", nargs="+", choices=BOUNDS, default=list(BOUNDS))
+    parser.add_argument("--tools", nargs="+", choices=OWN + PEERS, default=OWN + PEERS)
+    parser.add_argument("--fresh", action="store_true", help="forget earlier results")
+    parser.add_argument("--fresh-own", action="store_true", help="forget emax's own earlier results")
+    parser.add_argument("--only-write", action="store_true", help="from the results that are there")
+    options = parser.parse_args(words)
+    fetch_fandisk()
+    if is_quick:
+        quick()
+        return
+    if options.fresh:
+        shutil.rmtree(FOLDER, ignore_errors=True)
+    store = Store(FOLDER / "results.jsonl")
+    if options.fresh_own:
+        store.results = {key: result for key, result in store.results.items() if key[2] not in OWN}
+    if not options.only_write:
+        measure(store, options.scans, options.tools)
+    plots = curves(store)
+    sections.put("decimation", section(store, plots))
+    if python:
+        file = FOLDER / "curves.json"
+        file.write_text(json.dumps(plots))
+        PLOTS.mkdir(exist_ok=True)
+        subprocess.run([python, "-B", HERE / "peers/plot.py", file, PLOTS], check=True)
+    else:
+        say(f"{PLOTS} is left as it was: Matplotlib could not be installed")
