@@ -161,7 +161,7 @@ class DecimateCommand {
     certificate.vertices = result_.mesh.vertices.size();
     certificate.triangles = result_.mesh.triangles.size();
     certificate.validity = result_.validity;
-    certificate.transform = PreparedCloud(scan_.cloud.points).normalization();
+    certificate.transform = normalization_of(scan_.cloud.points);
     certificate.chain = {
         "none", "bounded", {{"bounded.effort", static_cast<double>(settings_.decimation.effort)}}};
     std::vector<ResultFile> files;
@@ -245,7 +245,7 @@ class DecimateCommand {
     report.certified = in_file_indices(result_.points, scan_.cloud);
     report.kernel = kernel_;
     report.points = scan_.cloud.points.size();
-    report.transform = PreparedCloud(scan_.cloud.points).normalization();
+    report.transform = normalization_of(scan_.cloud.points);
     report.reconstruction_triangles = given_.triangles.size();
     report.device = "cpu";
     if (options_.two_sided) report.reference = bound("");

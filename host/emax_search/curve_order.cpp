@@ -101,7 +101,12 @@ CurveOrder::CurveOrder(MeshView mesh, const Normalization& normalization, std::s
               make_codes(vertices, mesh.triangles, first, last, unsorted);
             });
   radix_sort(unsorted, {keys_.get(), triangle_count_});
-  for (std::size_t i = 0; i < triangle_count_; ++i) corners_[i] = mesh.triangles[keys_[i].triangle];
+  in_pieces(threads, triangle_count_, kPiece,
+            [&](std::size_t, std::size_t first, std::size_t last) {
+              for (std::size_t i = first; i < last; ++i) {
+                corners_[i] = mesh.triangles[keys_[i].triangle];
+              }
+            });
 }
 
 }  // namespace emax

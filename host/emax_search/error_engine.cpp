@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kSeedStride = 256;     // packets
 constexpr std::size_t kMostRemembered = 16;  // packets
 constexpr std::size_t kPiece = 32;           // supergroups
+constexpr std::size_t kSeedPiece = 16;       // packets
 constexpr std::uint32_t kNeverEnough = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
@@ -90,10 +91,12 @@ EmaxResult ErrorEngine::e_max(const PreparedMesh& mesh) {
       seeds.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  {
-    const ScopedFlushMode flush;
-    target_.search_packets(job(mesh, worst, kNeverEnough, raised[0]), seeds);
-  }
+  in_pieces(options_.threads, seeds.size(), kSeedPiece,
+            [&](std::size_t thread, std::size_t first, std::size_t last) {
+              const ScopedFlushMode flush;
+              target_.search_packets(job(mesh, worst, kNeverEnough, raised[thread]),
+                                     std::span(seeds).subspan(first, last - first));
+            });
   in_supergroups([&](std::size_t thread, std::size_t first, std::size_t last) {
     target_.search_supergroups(job(mesh, worst, kNeverEnough, raised[thread]), first, last);
   });

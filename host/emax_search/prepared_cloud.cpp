@@ -3,13 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace emax {
 namespace {
 
-Point widened(const Vector3<float>& p) { return {p.x, p.y, p.z}; }
+void extend(FloatBox& box, const std::array<float, 3>& lo, const std::array<float, 3>& hi) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = std::min(box.lo[axis], lo[axis]);
+    box.hi[axis] = std::max(box.hi[axis], hi[axis]);
+  }
+}
+
+Eigen::AlignedBox3d widened(const FloatBox& box) {
+  return {Point(box.lo[0], box.lo[1], box.lo[2]), Point(box.hi[0], box.hi[1], box.hi[2])};
+}
 
 }  // namespace
 
@@ -19,17 +27,16 @@ PreparedCloud::PreparedCloud(std::span<const Point> cloud)
   packets_.reserve(packets);
   boxes_.reserve(packets);
   groups_.reserve(packets);
-  std::vector<std::uint32_t> order(points_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  split(order);
+  std::vector<IndexedPoint> points;
+  points.reserve(points_.size());
+  for (const Vector3<float>& p : points_) {
+    points.push_back({{p.x, p.y, p.z}, static_cast<std::uint32_t>(points.size())});
+  }
+  split(points);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     if (i % kSupergroupPackets == 0) supergroups_.push_back(boxes_[i]);
     add_ball(i);
-    FloatBox& box = supergroups_.back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.lo[axis] = std::min(box.lo[axis], boxes_[i].lo[axis]);
-      box.hi[axis] = std::max(box.hi[axis], boxes_[i].hi[axis]);
-    }
+    extend(supergroups_.back(), boxes_[i].lo, boxes_[i].hi);
   }
 }
 
@@ -53,48 +60,42 @@ void PreparedCloud::add_ball(std::size_t packet) {
       std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
 }
 
-Eigen::AlignedBox3d PreparedCloud::box_of(std::span<const std::uint32_t> order) const {
-  Eigen::AlignedBox3d box;
-  for (const std::uint32_t i : order) box.extend(widened(points_[i]));
-  return box;
-}
-
 // A kd-split at the median of the longest side, at whole supergroups, then at whole packets. Equal
 // coordinates are ordered by index, so the packets are the same with every standard library.
-void PreparedCloud::split(std::span<std::uint32_t> order) {
-  const Eigen::AlignedBox3d box = box_of(order);
-  if (order.size() <= kPacketPoints) {
-    std::sort(order.begin(), order.end());
-    add_packet(order, box);
+void PreparedCloud::split(std::span<IndexedPoint> points) {
+  FloatBox box = {points.front().at, points.front().at};
+  for (const IndexedPoint& p : points) extend(box, p.at, p.at);
+  if (points.size() <= kPacketPoints) {
+    add_packet(points, box);
     return;
   }
-  Eigen::Index axis = 0;
-  box.sizes().maxCoeff(&axis);
+  Eigen::Index longest = 0;
+  widened(box).sizes().maxCoeff(&longest);
+  const auto axis = static_cast<std::size_t>(longest);
   constexpr std::size_t kSupergroupPoints = kSupergroupPackets * kPacketPoints;
-  const std::size_t unit = order.size() > kSupergroupPoints ? kSupergroupPoints : kPacketPoints;
-  const std::size_t middle = (order.size() + unit - 1) / unit / 2 * unit;
-  const auto key = [&](std::uint32_t i) { return std::pair(widened(points_[i])[axis], i); };
-  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  split(order.first(middle));
-  split(order.subspan(middle));
+  const std::size_t unit = points.size() > kSupergroupPoints ? kSupergroupPoints : kPacketPoints;
+  const std::size_t middle = (points.size() + unit - 1) / unit / 2 * unit;
+  std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle),
+                   points.end(), [axis](const IndexedPoint& a, const IndexedPoint& b) {
+                     return a.at[axis] < b.at[axis] ||
+                            (a.at[axis] == b.at[axis] && a.index < b.index);
+                   });
+  split(points.first(middle));
+  split(points.subspan(middle));
 }
 
-void PreparedCloud::add_packet(std::span<std::uint32_t> order, const Eigen::AlignedBox3d& box) {
+void PreparedCloud::add_packet(std::span<IndexedPoint> points, const FloatBox& box) {
+  std::ranges::sort(points, {}, &IndexedPoint::index);
   Packet& packet = packets_.emplace_back();
   for (std::size_t i = 0; i < kPacketPoints; ++i) {
-    packet.index[i] = order[std::min(i, order.size() - 1)];
-    const Vector3<float>& p = points_[packet.index[i]];
-    packet.x[i] = p.x;
-    packet.y[i] = p.y;
-    packet.z[i] = p.z;
+    const IndexedPoint& p = points[std::min(i, points.size() - 1)];
+    packet.index[i] = p.index;
+    packet.x[i] = p.at[0];
+    packet.y[i] = p.at[1];
+    packet.z[i] = p.at[2];
   }
-  groups_.push_back({std::span(packet.index).first(order.size()), box});
-  FloatBox& bounds = boxes_.emplace_back();
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {  // exact: the corners are binary32
-    bounds.lo[static_cast<std::size_t>(axis)] = static_cast<float>(box.min()[axis]);
-    bounds.hi[static_cast<std::size_t>(axis)] = static_cast<float>(box.max()[axis]);
-  }
+  groups_.push_back({std::span(packet.index).first(points.size()), widened(box)});
+  boxes_.push_back(box);
 }
 
 std::size_t PreparedCloud::memory_bytes() const {

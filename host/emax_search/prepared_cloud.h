@@ -32,10 +32,13 @@ class PreparedCloud {
   std::size_t memory_bytes() const;
 
  private:
-  void split(std::span<std::uint32_t> order);
+  struct IndexedPoint {
+    std::array<float, 3> at;
+    std::uint32_t index;
+  };
+  void split(std::span<IndexedPoint> points);
+  void add_packet(std::span<IndexedPoint> points, const FloatBox& box);
   void add_ball(std::size_t packet);
-  void add_packet(std::span<std::uint32_t> order, const Eigen::AlignedBox3d& box);
-  Eigen::AlignedBox3d box_of(std::span<const std::uint32_t> order) const;
 
   Normalization normalization_;
   std::vector<Vector3<float>> points_;

@@ -115,10 +115,16 @@ bool TextLines::next() {
 }
 
 void TextLines::require_next(std::string_view wanted) {
-  if (!next()) {
-    input_.fail(fmt::format("the file ends after line {} where {} must follow", line_, wanted),
-                kExportAgain);
-  }
+  if (!next()) fail_at_end(wanted);
+}
+
+void TextLines::require_next(std::string_view item, std::size_t index, std::size_t count) {
+  if (!next()) fail_at_end(fmt::format("{} {} of {}", item, index, count));
+}
+
+void TextLines::fail_at_end(std::string_view wanted) const {
+  input_.fail(fmt::format("the file ends after line {} where {} must follow", line_, wanted),
+              kExportAgain);
 }
 
 void TextLines::set_separator(char separator) {

@@ -46,6 +46,8 @@ class TextLines {
   bool next();
   // As next(), but throws Error naming `wanted` at the end of the file.
   void require_next(std::string_view wanted);
+  // The same for item `index` of `count`.
+  void require_next(std::string_view item, std::size_t index, std::size_t count);
   // Splits this line and all that follow at `separator`; ' ' stands for blanks.
   void set_separator(char separator);
 
@@ -68,6 +70,7 @@ class TextLines {
 
  private:
   void split();
+  [[noreturn]] void fail_at_end(std::string_view wanted) const;
 
   const InputFile& input_;
   Comments comments_;

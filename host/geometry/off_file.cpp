@@ -36,7 +36,7 @@ FileContent read_off(const InputFile& input) {
   FileContent content;
   content.vertices.reserve(vertices);
   for (std::uint64_t i = 0; i < vertices; ++i) {
-    lines.require_next(fmt::format("vertex {} of {}", i, vertices));
+    lines.require_next("vertex", i, vertices);
     const std::size_t colours = lines.size() - std::min(columns, lines.size());
     if (lines.size() < columns || !(has_colours ? colours == 3 || colours == 4 : colours == 0)) {
       lines.fail(fmt::format("{} columns do not make a vertex of {}", lines.size(), keyword));
@@ -48,7 +48,7 @@ FileContent read_off(const InputFile& input) {
 
   std::vector<std::int64_t> polygon;
   for (std::uint64_t i = 0; i < faces; ++i) {
-    lines.require_next(fmt::format("face {} of {}", i, faces));
+    lines.require_next("face", i, faces);
     const std::uint64_t corners = lines.count(0);
     if (corners >= lines.size()) {
       lines.fail(fmt::format("{} columns do not hold a face of {} corners", lines.size(), corners));

@@ -225,7 +225,7 @@ FileContent read_pcd(const InputFile& input) {
     check_count(input, header.points, "points", 2 * header.columns(), room + 1);
     TextLines lines(input, TextLines::Comments::kNone, header.body, header.last_line);
     const auto next_line = [&](std::size_t i) {
-      lines.require_next(fmt::format("point {} of {}", i, header.points));
+      lines.require_next("point", i, header.points);
       if (lines.size() != header.columns()) {
         lines.fail(
             fmt::format("{} columns where the header promises {}", lines.size(), header.columns()));

@@ -131,7 +131,7 @@ class TextValues {
       : lines_(input, TextLines::Comments::kNone, header.body, header.last_line) {}
 
   void begin_item(const Element& element, std::uint64_t index) {
-    lines_.require_next(fmt::format("{} {} of {}", element.name, index, element.count));
+    lines_.require_next(element.name, index, element.count);
     field_ = 0;
   }
   double number(Type) { return lines_.number(take()); }
