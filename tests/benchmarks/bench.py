@@ -19,6 +19,7 @@ import tempfile
 from pathlib import Path
 
 import decimation_bench
+import error_bench
 import search_bench
 import sections
 
@@ -76,7 +77,7 @@ def install_peers():
     wanted = REQUIREMENTS.read_text()
     if stamp.exists() and stamp.read_text() == wanted:
         return python
-    say(f"installing Open3D, FCPW, Matplotlib, pygmo and NLopt from PyPI (log: {LOG})")
+    say(f"installing Open3D, FCPW, MeshLab, Matplotlib, pygmo and NLopt from PyPI (log: {LOG})")
     shutil.rmtree(ENVIRONMENT, ignore_errors=True)
     pip = [python, "-m", "pip", "install", "--no-deps", "--require-hashes", "--only-binary", ":all:", "-r", REQUIREMENTS]
     if not logged(sys.executable, "-m", "venv", ENVIRONMENT):
@@ -91,11 +92,13 @@ def install_peers():
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="./dev bench", description="\n".join([__doc__, search_bench.__doc__, decimation_bench.__doc__]),
+        prog="./dev bench", description="\n".join([__doc__, error_bench.__doc__, search_bench.__doc__, decimation_bench.__doc__]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Other arguments go to the program, which then prints and writes no file; "
                f"{PROGRAM} --help lists them, and --benchmark_filter=REGEX is Google Benchmark's.")
     parser.add_argument("--quick", action="store_true", help="one round of the smallest case; print, write no file")
+    parser.add_argument("--error", action="store_true",
+                        help="measure `emax error` alone, beside other tools")
     parser.add_argument("--search", action="store_true",
                         help="measure the optimizer instead")
     parser.add_argument("--decimate", action="store_true", help="measure the bounded decimator instead")
@@ -108,6 +111,9 @@ def main():
         if not arguments.quick:
             fetch_dragon()
         decimation_bench.main(others, arguments.quick, None if arguments.quick else install_peers())
+        return
+    if arguments.error:
+        error_bench.main(install_peers())
         return
     kept = sections.kept()
     if not arguments.quick:
@@ -124,8 +130,8 @@ def main():
     status = subprocess.run(command).returncode
     if status == 0 and writing:
         sections.put_back(kept)
-    if status == 0 and writing:
         if python:
+            error_bench.main(python)
             PLOTS.mkdir(exist_ok=True)
             status = subprocess.run([python, "-B", HERE / "peers/plot.py", CURVES, PLOTS]).returncode
         else:

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 DOCUMENT = Path("docs/benchmarks.md")
-NAMES = ["search", "decimation"]
+NAMES = ["error", "search", "decimation"]
 
 
 def marks(name):
