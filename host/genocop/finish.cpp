@@ -21,10 +21,12 @@ constexpr double kPoised = 0.1;        // share of a step that must be new to th
 
 Finish::Finish(const LinearDomain& domain, const Problem& problem,
                std::vector<std::size_t> coordinates)
-    : space_(domain, problem, std::move(coordinates)) {}
+    : domain_(domain), problem_(problem), coordinates_(std::move(coordinates)) {}
 
 void Finish::start(const Genes& free, const Evaluation& evaluation, double radius) {
   stop();
+  space_.emplace(domain_, problem_, coordinates_, free);
+  if (space_->size() == 0) return;
   running_ = true;
   radius_ = radius;
   penalty_ = 0;
@@ -63,8 +65,8 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
                                   [&](const Trial& trial) { return trial.free == free; });
   const bool own = found != trials_.end();
   const LocalPoint* added = nullptr;
-  if (points_.empty() || space_.same_rest(free, *centre())) {
-    std::optional<LocalPoint> point = space_.point(free, evaluation);
+  if (points_.empty() || space_->same_rest(free, *centre())) {
+    std::optional<LocalPoint> point = space_->point(free, evaluation);
     if (point && (own || points_.empty() ||
                   (point->at - points_[centre_].at).cwiseAbs().maxCoeff() <= kNear * radius_)) {
       points_.push_back(std::move(*point));
@@ -107,7 +109,7 @@ void Finish::shrink(double factor) {
 // pivoted Gram-Schmidt process); a direction left open is answered with the point that fills it
 // best. Trials in flight count as there.
 Finish::Selection Finish::select() const {
-  const Eigen::Index n = space_.size();
+  const Eigen::Index n = space_->size();
   const Vector& origin = points_[centre_].at;
   struct Entry {
     double distance;
@@ -158,8 +160,8 @@ Finish::Selection Finish::select() const {
     if (open.norm() < 1e-6) continue;
     for (const Vector& direction : {Vector(Vector::Unit(n, axis)), Vector(open.normalized())}) {
       for (const double sign : {1.0, -1.0}) {
-        Genes free = space_.moved(points_[centre_].free, sign * radius_ * direction);
-        const Vector step = space_.position(free) - origin;
+        Genes free = space_->moved(points_[centre_].free, sign * radius_ * direction);
+        const Vector step = space_->position(free) - origin;
         const double gain = rest(step).norm();
         // Barely enough would not be seen as enough next time.
         if (gain <= 1.001 * best || gain < 1.001 * kPoised * step.norm()) continue;
@@ -174,7 +176,7 @@ Finish::Selection Finish::select() const {
 LocalModel Finish::fit(const std::vector<std::size_t>& chosen) {
   const LocalPoint& centre = points_[centre_];
   const auto rows = static_cast<Eigen::Index>(chosen.size());
-  Matrix steps(rows, space_.size());
+  Matrix steps(rows, space_->size());
   Matrix values(rows, centre.responses.size());
   for (Eigen::Index i = 0; i < rows; ++i) {
     const LocalPoint& point = points_[chosen[static_cast<std::size_t>(i)]];
@@ -195,7 +197,7 @@ std::optional<Genes> Finish::propose() {
     }
     Selection selection = select();
     if (selection.missing) {
-      const Vector at = space_.position(*selection.missing);
+      const Vector at = space_->position(*selection.missing);
       next_ = Trial{*selection.missing, at, std::nullopt};
       return selection.missing;
     }
@@ -205,7 +207,7 @@ std::optional<Genes> Finish::propose() {
       break;
     }
     const LocalModel model = fit(selection.points);
-    const LocalStep step = best_step(space_, *centre(), model, radius_, penalty_);
+    const LocalStep step = best_step(*space_, *centre(), model, radius_, penalty_);
     // A penalty from afar would make every curved constraint a wall.
     constexpr double kAmple = 10;
     if (points_[centre_].violation <= 0 && penalty_ > kAmple * step.multipliers) {
@@ -221,8 +223,8 @@ std::optional<Genes> Finish::propose() {
       shrink(0.1);
       continue;
     }
-    Genes free = space_.moved(*centre(), step.step);
-    const Vector at = space_.position(free);
+    Genes free = space_->moved(*centre(), step.step);
+    const Vector at = space_->position(free);
     if ((at - points_[centre_].at).cwiseAbs().maxCoeff() < 1e-13) {
       shrink(0.1);
       continue;

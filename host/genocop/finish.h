@@ -16,7 +16,8 @@ namespace emax {
 // it may start and pass outside the constraints.
 class Finish {
  public:
-  // `coordinates`: continuous and movable ones of the domain, at least one.
+  // `coordinates`: continuous and movable ones of the domain, at least one. Domain and problem
+  // outlive it.
   Finish(const LinearDomain& domain, const Problem& problem, std::vector<std::size_t> coordinates);
 
   // Runs unless the evaluation is one that no model can start from (LocalSpace::point).
@@ -53,7 +54,10 @@ class Finish {
   LocalModel fit(const std::vector<std::size_t>& chosen);
   void shrink(double factor);
 
-  LocalSpace space_;
+  const LinearDomain& domain_;
+  const Problem& problem_;
+  std::vector<std::size_t> coordinates_;
+  std::optional<LocalSpace> space_;  // of the search that runs
   bool running_ = false;
   double radius_ = 0;
   double penalty_ = 0;

@@ -284,23 +284,27 @@ bool Genocop::start_repair(const Individual& individual, std::optional<std::size
 }
 
 void Genocop::finish_repair(RepairChain chain, const Individual& point, RandomStream& random) {
-  if (!point.evaluation.feasible()) {
-    if (chain.tries() < settings_.max_repair_tries) {
-      repairs_.push_back(std::move(chain));
-    } else if (chain.bred_by) {
-      reward(*chain.bred_by, false);
-    }
+  const bool feasible = point.evaluation.feasible();
+  if (!feasible && chain.tries() < settings_.max_repair_tries) {
+    repairs_.push_back(std::move(chain));
     return;
   }
-  if (chain.bred_by) {
-    reward(*chain.bred_by, point.evaluation.objective < chain.reference_objective);
-  }
+  end_repair(chain, point.evaluation);
+  if (!feasible) return;
   enter_references(point, chain.reference_id);
-  const bool replace = random.chance(settings_.replacement_probability);
+  if (!random.chance(settings_.replacement_probability)) return;
   for (Individual& member : search_) {
-    if (member.id != chain.search_id) continue;
-    member.repaired_objective = point.evaluation.objective;
-    if (replace) member = point;
+    if (member.id == chain.search_id) member = point;
+  }
+}
+
+// By the result that ended it, which may be one known before.
+void Genocop::end_repair(const RepairChain& chain, const Evaluation& result) {
+  const bool gained = result.feasible() && result.objective < chain.reference_objective;
+  if (chain.bred_by) reward(*chain.bred_by, gained);
+  if (!result.feasible()) return;
+  for (Individual& member : search_) {
+    if (member.id == chain.search_id) member.repaired_objective = result.objective;
   }
 }
 

@@ -27,6 +27,8 @@ struct Candidate {
   // The earlier candidate with the same genes, when nothing new was found in a bounded number of
   // draws; its evaluation is to be told again instead of being made again.
   std::optional<std::uint64_t> same_as;
+  // Likewise the result that Problem::known gave for these genes.
+  std::optional<Evaluation> known;
 };
 
 // The index of a point that Problem::known gave.
@@ -107,6 +109,7 @@ class Genocop {
   bool start_repair(const Individual& individual, std::optional<std::size_t> bred_by,
                     RandomStream& random);
   void finish_repair(RepairChain chain, const Individual& point, RandomStream& random);
+  void end_repair(const RepairChain& chain, const Evaluation& result);
   void reward(std::size_t entry, bool success);
 
   // proposals.cpp: what is asked

@@ -32,6 +32,19 @@ void check(const Problem& problem) {
                       gene.name, gene.lower, gene.upper, integer ? "integer" : "number"));
     }
   }
+  for (const Gene& gene : problem.genes) {
+    if (!gene.only_with) continue;
+    const auto [other, category] = *gene.only_with;
+    const bool sound = other < problem.genes.size() &&
+                       problem.genes[other].kind == Gene::Kind::kCategorical &&
+                       !problem.genes[other].only_with && category == std::round(category);
+    if (!sound) {
+      throw Error(fmt::format(
+          "gene {}: only_with must name a categorical gene that is itself unconditional, and "
+          "a whole number",
+          gene.name));
+    }
+  }
   for (const LinearConstraint& constraint : problem.linear) {
     for (const auto& [gene, coefficient] : constraint.terms) {
       if (problem.genes[gene].kind != Gene::Kind::kCategorical) continue;
@@ -61,8 +74,17 @@ LinearDomain::LinearDomain(const Problem& problem) : genes_(problem.genes) {
   reduce_inequalities();
   for (std::size_t k = 0; k < size(); ++k) {
     if (gene(k).lower < gene(k).upper) movable_.push_back(k);
+    const auto& condition = gene(k).only_with;
+    conditions_.emplace_back();
+    if (condition) conditions_.back().emplace(coordinate(condition->gene), condition->category);
   }
   find_inside(problem);
+}
+
+std::vector<std::size_t> LinearDomain::movable_with_meaning(const Genes& free) const {
+  std::vector<std::size_t> chosen = movable_;
+  std::erase_if(chosen, [&](std::size_t k) { return !has_meaning(free, k); });
+  return chosen;
 }
 
 // Gauss-Jordan elimination; each equality is solved for the continuous gene with the greatest

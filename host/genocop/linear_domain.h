@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/genocop/problem.h"
@@ -21,7 +23,7 @@ class LinearDomain {
  public:
   // Throws emax::Error when a domain is empty, a start lies outside, the equalities contradict each
   // other or leave no continuous gene to solve for, a linear constraint names a categorical gene,
-  // or no point is found inside.
+  // Gene::only_with is not as its declaration says, or no point is found inside.
   explicit LinearDomain(const Problem& problem);
 
   std::size_t size() const { return free_.size(); }
@@ -43,6 +45,13 @@ class LinearDomain {
   // A point for each unit-cube position; outside the constraints it is replaced by a random walk.
   Genes from_unit_cube(const std::vector<double>& position, RandomStream& random) const;
   Genes sample(RandomStream& random) const;
+
+  // Whether coordinate k means anything beside the categories of the point (Gene::only_with).
+  bool has_meaning(const Genes& free, std::size_t k) const {
+    return !conditions_[k] || free[conditions_[k]->first] == conditions_[k]->second;
+  }
+  // Coordinates that may move and mean something there.
+  std::vector<std::size_t> movable_with_meaning(const Genes& free) const;
 
   const Genes& inside() const { return inside_; }  // one point that is inside
   const Gene& gene(std::size_t k) const { return genes_[free_[k]]; }
@@ -73,6 +82,7 @@ class LinearDomain {
   std::vector<LinearConstraint> inequalities_;
   std::vector<std::size_t> free_;
   std::vector<std::size_t> movable_;
+  std::vector<std::optional<std::pair<std::size_t, double>>> conditions_;  // coordinate, category
   std::vector<Solved> solved_;
   std::vector<Row> rows_;
   Genes inside_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace emax {
 // the best point's, and only points that share them count.
 class LinearStep {
  public:
-  // `coordinates`: movable ones that have an order, at least one.
+  // `coordinates`: movable ones that have an order, at least one. Domain and problem outlive it.
   LinearStep(const LinearDomain& domain, const Problem& problem,
              std::vector<std::size_t> coordinates);
 
@@ -28,8 +29,17 @@ class LinearStep {
   double radius() const { return radius_; }
 
  private:
-  LocalSpace space_;
-  std::vector<LocalPoint> points_;
+  // Points in which the same coordinates have a meaning.
+  struct Region {
+    LocalSpace space;
+    std::vector<LocalPoint> points;
+  };
+  std::vector<bool> meanings(const Genes& free) const;
+
+  const LinearDomain& domain_;
+  const Problem& problem_;
+  std::vector<std::size_t> coordinates_;
+  std::map<std::vector<bool>, Region> regions_;
   double radius_;
 };
 

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host/genocop/convex_program.h"
 
@@ -34,13 +35,12 @@ Matrix convex(const Matrix& symmetric) {
 }  // namespace
 
 LocalSpace::LocalSpace(const LinearDomain& domain, const Problem& problem,
-                       std::vector<std::size_t> coordinates)
-    : domain_(domain),
-      coordinates_(std::move(coordinates)),
-      is_rest_(domain.size(), true),
-      widths_(size()),
-      constraints_(problem.nonlinear),
-      single_(problem.nonlinear.empty()) {
+                       const std::vector<std::size_t>& coordinates, const Genes& at)
+    : domain_(domain), constraints_(problem.nonlinear), single_(problem.nonlinear.empty()) {
+  for (std::size_t k = 0; k < domain.size(); ++k) is_rest_.push_back(domain.has_meaning(at, k));
+  std::ranges::copy_if(coordinates, std::back_inserter(coordinates_),
+                       [&](std::size_t k) { return is_rest_[k]; });
+  widths_.resize(size());
   for (Eigen::Index i = 0; i < size(); ++i) {
     const std::size_t k = coordinates_[static_cast<std::size_t>(i)];
     is_rest_[k] = false;

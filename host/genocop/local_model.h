@@ -20,11 +20,12 @@ struct LocalPoint {
 };
 
 // Some coordinates of the domain as a space of its own, each scaled by its gene's width; the other
-// coordinates stay as they are at the centre of a local search.
+// coordinates stay as they are at the centre of a local search. Coordinates without a meaning
+// beside the categories of `at` are in neither.
 class LocalSpace {
  public:
   LocalSpace(const LinearDomain& domain, const Problem& problem,
-             std::vector<std::size_t> coordinates);
+             const std::vector<std::size_t>& coordinates, const Genes& at);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates_.size()); }
   Eigen::VectorXd position(const Genes& free) const;

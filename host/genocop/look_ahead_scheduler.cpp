@@ -15,8 +15,13 @@ std::optional<Candidate> LookAheadScheduler::next() {
     if (search_.told() < known) return std::nullopt;
     Candidate candidate = search_.ask();
     out_.try_emplace(candidate.index);
-    if (!candidate.same_as) return candidate;
-    repeats_[candidate.index] = *candidate.same_as;
+    if (candidate.known) {
+      out_[candidate.index] = results_[candidate.index] = *candidate.known;
+    } else if (candidate.same_as) {
+      repeats_[candidate.index] = *candidate.same_as;
+    } else {
+      return candidate;
+    }
   }
   tell_up_to(budget_);
   return std::nullopt;

@@ -19,8 +19,11 @@ double mixed(const LinearDomain& domain, std::size_t k, double p, double q, doub
   return random.chance(0.5) ? p : q;
 }
 
-std::size_t random_movable(const LinearDomain& domain, RandomStream& random) {
-  return domain.movable()[random.below(domain.movable().size())];
+// One that means something; there always is one, unless all that has a meaning is fixed.
+std::size_t random_movable(const LinearDomain& domain, const Genes& parent, RandomStream& random) {
+  std::vector<std::size_t> movable = domain.movable_with_meaning(parent);
+  if (movable.empty()) movable = domain.movable();
+  return movable[random.below(movable.size())];
 }
 
 // Sets one coordinate and keeps the child inside.
@@ -112,7 +115,7 @@ Genes heuristic_crossover(const OperatorInput& input, RandomStream& random) {
 }
 
 Genes uniform_mutation(const OperatorInput& input, RandomStream& random) {
-  const std::size_t k = random_movable(input.domain, random);
+  const std::size_t k = random_movable(input.domain, input.parents[0], random);
   return uniform_in_range(input.domain, input.parents[0], k, random);
 }
 
@@ -125,7 +128,7 @@ Genes whole_uniform_mutation(const OperatorInput& input, RandomStream& random) {
 }
 
 Genes boundary_mutation(const OperatorInput& input, RandomStream& random) {
-  const std::size_t k = random_movable(input.domain, random);
+  const std::size_t k = random_movable(input.domain, input.parents[0], random);
   if (is_category(input.domain, k)) {
     return other_category(input.domain, input.parents[0], k, random);
   }
@@ -135,8 +138,8 @@ Genes boundary_mutation(const OperatorInput& input, RandomStream& random) {
 }
 
 Genes non_uniform_mutation(const OperatorInput& input, RandomStream& random) {
-  return non_uniform_step(input, input.parents[0], random_movable(input.domain, random), true,
-                          random);
+  const std::size_t k = random_movable(input.domain, input.parents[0], random);
+  return non_uniform_step(input, input.parents[0], k, true, random);
 }
 
 Genes whole_non_uniform_mutation(const OperatorInput& input, RandomStream& random) {
@@ -148,8 +151,8 @@ Genes whole_non_uniform_mutation(const OperatorInput& input, RandomStream& rando
 }
 
 Genes gaussian_mutation(const OperatorInput& input, RandomStream& random) {
-  const std::size_t k = random_movable(input.domain, random);
   const Genes& parent = input.parents[0];
+  const std::size_t k = random_movable(input.domain, parent, random);
   if (is_category(input.domain, k)) return other_category(input.domain, parent, k, random);
   const Interval range = input.domain.range(parent, k);
   const double step =

@@ -66,13 +66,18 @@ Candidate Genocop::ask() {
   }
   RandomStream random(seed_, index, RandomStream::Purpose::kAsk);
   Proposal proposal = propose(random);
-  const auto [entry, fresh] = first_.try_emplace(cache_key(proposal.free), index);
-  Candidate candidate{index, domain_.complete(proposal.free), proposal.origin, std::nullopt};
-  if (!fresh) candidate.same_as = entry->second;
+  const Genes key = cache_key(proposal.free);
+  const auto [entry, fresh] = first_.try_emplace(key, index);
+  Candidate candidate{index, domain_.complete(proposal.free), proposal.origin, {}, {}};
+  if (!fresh) {
+    candidate.same_as = entry->second;
+  } else if (const auto before = known_.find(key); before != known_.end()) {
+    candidate.known = before->second;
+  }
   if (monotone_) monotone_->asked(proposal.free);
   if (proposal.role == Role::kFinish) finish_->asked(proposal.free);
-  records_.push_back({std::move(proposal.free), proposal.role, !fresh, std::move(proposal.chain),
-                      proposal.bred, std::nullopt});
+  records_.push_back({std::move(proposal.free), proposal.role, !fresh || candidate.known,
+                      std::move(proposal.chain), proposal.bred, std::nullopt});
   return candidate;
 }
 
@@ -82,12 +87,9 @@ Genes Genocop::cache_key(const Genes& free) const {
   Genes key = free;
   for (std::size_t k = 0; k < key.size(); ++k) {
     const Gene& gene = domain_.gene(k);
-    if (gene.only_with) {
-      const std::size_t category = domain_.coordinate(gene.only_with->gene);
-      if (free[category] != gene.only_with->category) {
-        key[k] = 0;
-        continue;
-      }
+    if (!domain_.has_meaning(free, k)) {
+      key[k] = 0;
+      continue;
     }
     const double grain = settings_.cache_resolution * (gene.upper - gene.lower);
     if (!gene.is_whole() && grain > 0) key[k] = std::floor((free[k] - gene.lower) / grain + 0.5);
@@ -108,7 +110,7 @@ std::optional<Evaluation> Genocop::result_of(const Genes& cached) const {
 Genocop::Proposal Genocop::propose(RandomStream& random) {
   if (asked() < starts_.size()) {
     if (const Genes& start = starts_[asked()]; is_new(start)) return {start, "start"};
-  } else {
+  } else if (settings_.first_phase || !references_.empty()) {
     if (monotone_) {
       if (std::optional<Genes> trial = monotone_->climb(); trial && is_new(*trial)) {
         return {std::move(*trial), "climb", Role::kClimb};
@@ -121,8 +123,7 @@ Genocop::Proposal Genocop::propose(RandomStream& random) {
     if (linear_ && random.chance(settings_.linear_share)) {
       if (std::optional<Proposal> step = next_linear(random)) return std::move(*step);
     }
-    const bool breeding = settings_.first_phase || !references_.empty();
-    for (int draw = 0; breeding && draw < kRedraws; ++draw) {
+    for (int draw = 0; draw < kRedraws; ++draw) {
       std::optional<Proposal> child = offspring(random);
       if (!child) break;
       if (is_new(child->free)) return std::move(*child);
@@ -168,6 +169,7 @@ bool Genocop::start_finish() {
   const auto apart = [&](const Genes& free) {
     return std::none_of(finished_.begin(), finished_.end(), [&](const Genes& other) {
       for (std::size_t k : domain_.movable()) {
+        if (!domain_.has_meaning(free, k)) continue;
         const Gene& gene = domain_.gene(k);
         const double distance = std::abs(free[k] - other[k]) / (gene.upper - gene.lower);
         if (gene.is_whole() ? distance > 0 : distance > kApart) return false;
@@ -199,6 +201,8 @@ std::optional<Genocop::Proposal> Genocop::next_repair(RandomStream& random) {
     chain.tell(*evaluation);
     if (!evaluation->feasible() && chain.tries() < settings_.max_repair_tries) {
       repairs_.push_front(std::move(chain));
+    } else {
+      end_repair(chain, *evaluation);
     }
   }
   return std::nullopt;

@@ -319,41 +319,23 @@ TEST(Genocop, TheOriginalUsesNothingElse) {
   EXPECT_TRUE(best->evaluation.feasible());
 }
 
-// Results of an earlier run enter for nothing: they are best from the first moment, never asked for
-// again, and the search goes on from them.
-TEST(Genocop, KnownResultsAreAWarmStart) {
-  BenchmarkProblem bench = benchmark::g04();
+// Without the first phase nothing is done about the violation: points are drawn until one is
+// feasible.
+TEST(Genocop, WithoutTheFirstPhasePointsAreDrawnAtRandom) {
+  BenchmarkProblem bench;
+  bench.problem.genes = benchmark::continuous_genes(3, 0, 1);
+  bench.problem.monotone_gene = 0;
+  bench.evaluate = [](const Genes& g) { return Evaluation{true, g[0], 1 + g[1] + g[2]}; };
   Settings settings;
-  settings.budget = 150;
-  std::set<Genes> seen;
-  const auto first =
-      run(bench, settings, 69, [&](const Genocop&, const Candidate& c, const Evaluation& e) {
-        bench.problem.known.emplace_back(c.genes, e);
-        seen.insert(c.genes);
-      });
-  const Genocop warm(bench.problem, settings, 70);
-  EXPECT_EQ(warm.best()->index, kKnownBefore);
-  EXPECT_EQ(warm.best()->genes, first->genes);
-  EXPECT_EQ(warm.asked(), 0u);
-  settings.budget = 60;
-  const auto best = run(bench, settings, 70, [&](const Genocop&, const Candidate& c, auto&&) {
-    EXPECT_FALSE(seen.contains(c.genes)) << "candidate " << c.index;
-  });
-  EXPECT_LE(best->evaluation.objective, first->evaluation.objective);
-
-  bench.problem.known = {{{0, 0, 0, 0, 0}, bench.evaluate({0, 0, 0, 0, 0})}};
-  EXPECT_THROW(Genocop(bench.problem, settings, 1), Error);
-}
-
-TEST(Genocop, KnownResultsAreCheckedLikeThoseThatAreTold) {
-  BenchmarkProblem bench = benchmark::g04();
-  const Genes genes = LinearDomain(bench.problem).inside();
-  Evaluation evaluation = bench.evaluate(genes);
-  evaluation.objective = -HUGE_VAL;
-  bench.problem.known = {{genes, evaluation}};
-  EXPECT_FALSE(Genocop(bench.problem, {}, 1).best());
-  bench.problem.known = {{genes, {true, 1, -1}}};  // no value of a constraint
-  EXPECT_THROW(Genocop(bench.problem, {}, 1), Error);
+  settings.budget = 200;
+  settings.first_phase = false;
+  for (const bool monotone : {true, false}) {
+    settings.monotone_step = monotone;
+    run(bench, settings, 75, [&](const Genocop&, const Candidate& c, auto&&) {
+      const bool drawn = c.origin == "start" || c.origin == "sample";
+      EXPECT_TRUE(drawn) << "candidate " << c.index << ", " << c.origin;
+    });
+  }
 }
 
 // Nothing can be modelled there, so no local search starts.
