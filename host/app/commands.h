@@ -16,7 +16,8 @@ struct OptimizeOptions {
   std::string max_error;
   std::string output;
   std::string method = "gp3";
-  std::string decimator = "schroeder";
+  std::string decimator = "bounded";
+  std::string bound;  // empty: two-sided where the decimator can hold it
   std::string config;
   std::optional<std::uint64_t> budget;  // of the configuration, if not given
   std::optional<double> seconds;

@@ -45,8 +45,11 @@ void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
   command.add_option("--method", method, "reconstruction")
       ->check(CLI::IsMember({"gp3", "poisson", "hoppe"}))
       ->capture_default_str();
-  command.add_option("--decimator", decimator, "decimation")
-      ->check(CLI::IsMember({"schroeder"}))
+  command
+      .add_option(
+          "--decimator", decimator,
+          "decimation: under the bound itself, or the paper's, whose error is measured after")
+      ->check(CLI::IsMember({"bounded", "schroeder"}))
       ->capture_default_str();
 }
 
@@ -72,11 +75,13 @@ int run(int argc, char** argv) {
   optimize_command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off")
       ->required();
   add_chain(optimize_command, optimize.method, optimize.decimator);
-  std::string bound = "one-sided";
   optimize_command
-      .add_option("--bound", bound, "one-sided: every point of the cloud within the tolerance")
-      ->check(CLI::IsMember({"one-sided"}))
-      ->capture_default_str();
+      .add_option(
+          "--bound", optimize.bound,
+          "one-sided: every point of the cloud within the tolerance of the mesh; two-sided: "
+          "also all of the mesh within it of a reference surface (default: two-sided, but "
+          "one-sided with --decimator schroeder)")
+      ->check(CLI::IsMember({"two-sided", "one-sided"}));
   optimize_command.add_option("--budget", optimize.budget, "evaluations (default: as configured)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   optimize_command.add_option("--time", optimize.seconds, "stop after this many seconds")
@@ -199,7 +204,7 @@ int run(int argc, char** argv) {
                             "certificate nor here");
   verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
 
-  std::string config_method = "gp3", config_decimator = "schroeder";
+  std::string config_method = "gp3", config_decimator = "bounded";
   CLI::App& config_command =
       *app.add_subcommand("config", "print the default settings and domains, commented");
   add_chain(config_command, config_method, config_decimator);

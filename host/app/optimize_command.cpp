@@ -9,11 +9,13 @@
 #include "host/app/progress.h"
 #include "host/app/result_files.h"
 #include "host/app/run_identity.h"
+#include "host/decimate/certified_decimation.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/sha256.h"
 #include "host/geometry/tolerance.h"
 #include "host/optimize/optimize.h"
+#include "host/optimize/run_bound.h"
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
 #include "sw_model/error.h"
@@ -82,11 +84,18 @@ class OptimizeCommand {
         device_(make_evaluator(address_)) {
     const double share = parse_share(options.common.excluded_share);
     const Tolerance tolerance = parse_tolerance(options.max_error);
+    const bool bounded = options.decimator == "bounded";
+    const bool two_sided = options.bound.empty() ? bounded : options.bound == "two-sided";
+    if (two_sided && !bounded) {
+      throw Error(
+          "--bound two-sided needs --decimator bounded; the paper's chain bounds the points");
+    }
     check_output(options.output, mesh_endings());
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
     cloud_sha256_ = sha256_of_file(scan_.path);
     epsilon_ = tolerance.in_units(scan_.width);
+    if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
     settings_.limits = evaluation_limits(options, scan_.cloud.points.size(), settings_.jobs);
     log_.emplace(options.resume.empty() ? options.output + ".run" : options.resume,
@@ -95,7 +104,8 @@ class OptimizeCommand {
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), scan_.width);
-    fmt::print("tolerance      {}\n", to_text(tolerance, scan_.width));
+    fmt::print("tolerance      {}, {}\n", to_text(tolerance, scan_.width),
+               two_sided ? "two-sided" : "one-sided");
     fmt::print("search         {} + {}, {} evaluations, seed {}, {} jobs, device {}\n",
                settings_.method, settings_.decimator, settings_.config.search.budget,
                settings_.seed, settings_.jobs, options.common.device);
@@ -103,6 +113,7 @@ class OptimizeCommand {
   }
 
   int run() {
+    fix_bound();
     try {
       return search();
     } catch (const Error& error) {
@@ -154,6 +165,21 @@ class OptimizeCommand {
     return state_.best ? kExitOk : kExitNo;
   }
 
+  void fix_bound() {
+    settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, settings_);
+    if (settings_.decimator == "bounded") log_->settle(kBoundSetting, checksum(settings_.bound));
+    if (!settings_.bound.outliers.empty()) {
+      fmt::print(
+          "outliers       {} points farther than that from the reconstruction are left out\n",
+          grouped(settings_.bound.outliers.size()));
+    }
+    if (settings_.epsilon_back) {
+      fmt::print("reference      {} triangles\n",
+                 grouped(settings_.bound.reference.triangles.size()));
+    }
+    std::fflush(stdout);
+  }
+
   // A run that was cut short may go on; one that ended has left what was asked for.
   void end_run() {
     said_what_is_kept_ = true;
@@ -190,19 +216,59 @@ class OptimizeCommand {
     certificate.chain = {settings_.method, settings_.decimator, best.parameters};
     certificate.seed = settings_.seed;
     certificate.evaluations = state_.evaluations;
-    const ResultFile files[] = {{options_.output, bytes},
-                                {certificate_path(options_.output), to_json_text(certificate)}};
+    std::vector<ResultFile> files;
+    if (settings_.epsilon_back) {
+      files.push_back({options_.output + ".reference.ply",
+                       mesh_bytes(settings_.bound.reference, MeshFormat::kPly)});
+      certificate.reference = certified_reference(best, files.back());
+    }
+    files.push_back({options_.output, bytes});
+    files.push_back({certificate_path(options_.output), to_json_text(certificate)});
     write_together(files);
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(best.mesh.triangles.size()), describe(validity_));
     fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",
                certified_.e_max_upper, epsilon_, 100 * certified_.e_max_upper / scan_.width);
+    if (certificate.reference) {
+      fmt::print("back           {:.9g} certified, at most {:.9g}: all of the mesh to {}\n",
+                 certificate.reference->mesh_to_reference, epsilon_, files.front().path.string());
+    }
     fmt::print("certificate    {}\n", certificate_path(options_.output).string());
+    reference_ = certificate.reference;
+  }
+
+  ReferenceBound certified_reference(const BestMesh& best, const ResultFile& file) const {
+    const SurfaceDistance back = decided_distance(
+        best.mesh.view(), ExactMesh(settings_.bound.reference.view()), *settings_.epsilon_back);
+    if (!back.within(*settings_.epsilon_back)) {
+      throw Error(
+          fmt::format("the certificate ({:.9g}) contradicts the decimator's back bound: "
+                      "nothing is written; this is a defect of the program, please report "
+                      "it",
+                      back.upper));
+    }
+    ReferenceBound bound;
+    bound.file = file.path.filename().string();
+    bound.sha256 = sha256(file.bytes);
+    bound.triangles = settings_.bound.reference.triangles.size();
+    bound.epsilon_back = *settings_.epsilon_back;
+    bound.mesh_to_reference = back.upper;
+    bound.points_to_reference =
+        certify(scan_.cloud.points, settings_.bound.reference.view(), best.error.excluded)
+            .e_max_upper;
+    return bound;
   }
 
   void refuse(const BestMesh& least) const {
     fmt::print("result         infeasible: no mesh within {:.9g} was found, none is written\n",
                epsilon_);
+    if (certified_.within(epsilon_)) {
+      fmt::print(
+          "back           {:.4g} times the bound is the least found, with {} triangles; raise "
+          "--max-error, raise --budget or take --bound one-sided\n",
+          1 + least.violation, grouped(least.mesh.triangles.size()));
+      return;
+    }
     fmt::print(
         "e_max          {:.9g} is the least found ({:.4g}% of the width), with {} "
         "triangles; raise --max-error, raise --budget or exclude outliers\n",
@@ -247,6 +313,7 @@ class OptimizeCommand {
     report.device = options_.common.device;
     report.counters = counters_;
     report.board = address_.board;
+    report.reference = reference_;
     if (cpu_) report.cpu_seconds = cpu_->seconds();
     write_atomically(options_.common.json, to_json_text(report));
   }
@@ -263,7 +330,8 @@ class OptimizeCommand {
   bool said_what_is_kept_ = false;
   OptimizeState state_;
   std::optional<DeviceCounters> counters_;
-  std::optional<CpuTwin> cpu_;  // with a board to compare with
+  std::optional<CpuTwin> cpu_;               // with a board to compare with
+  std::optional<ReferenceBound> reference_;  // of the mesh that was written
   MeshValidity validity_;
   CertifiedError certified_;
 };

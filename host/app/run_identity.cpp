@@ -6,6 +6,7 @@
 
 #include "hls/kernel/command_words.h"
 #include "host/geometry/input_file.h"
+#include "host/geometry/mesh_file.h"
 #include "host/geometry/sha256.h"
 
 namespace emax {
@@ -38,9 +39,11 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"exclude_outliers", fmt::format("{}", parse_share(options.common.excluded_share))},
       {"method", settings.method},
       {"decimator", settings.decimator},
+      {"bound", settings.epsilon_back ? "two-sided" : "one-sided"},
       {"mesh.ending", lower_case_ending(settings.output)},
       {"seed", fmt::format("{}", settings.seed)},
   };
+  if (settings.decimator == "bounded") run.emplace_back(kBoundSetting, "");
   for (auto& value : named_values(settings.config)) run.push_back(std::move(value));
   run.emplace_back("emax", EMAX_VERSION);
   run.emplace_back("kernel", fmt::format("{}", kKernelVersion));
@@ -48,6 +51,12 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
   run.emplace_back("processor", processor());
   run.emplace_back("build", build());
   return run;
+}
+
+std::string checksum(const DecimationBound& bound) {
+  std::string bytes = mesh_bytes(bound.reference, MeshFormat::kPly);
+  for (const std::uint32_t outlier : bound.outliers) bytes += fmt::format(" {}", outlier);
+  return sha256(bytes);
 }
 
 std::string describe(const RunLog& log, std::uint64_t budget) {

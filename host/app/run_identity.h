@@ -14,6 +14,10 @@ namespace emax {
 RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings& settings,
                          const std::string& cloud_sha256, double epsilon);
 
+// What run_settings() leaves open until the bound has been made: reference and outliers.
+inline constexpr const char* kBoundSetting = "reference.sha256";
+std::string checksum(const DecimationBound& bound);
+
 // "starts in FOLDER" or "continues in FOLDER: 37 of 150 evaluations are there".
 std::string describe(const RunLog& log, std::uint64_t budget);
 

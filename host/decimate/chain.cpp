@@ -1,42 +1,80 @@
 #include "host/decimate/chain.h"
 
-#include <algorithm>
+#include <chrono>
 
 #include "host/decimate/decimate.h"
 #include "sw_model/error.h"
 
 namespace emax {
+namespace {
 
-const Reconstruction& StageCache::reconstruct(std::span<const Point> points,
-                                              const ChainSettings& settings) {
-  const ReconstructionMethod& method = reconstruction_method(settings.method);
-  Key key{settings.method, {}};
-  for (const ParameterSpec& spec : method.parameters()) {
-    const auto value = settings.parameters.find(spec.name);
-    if (value != settings.parameters.end()) key.second.insert(*value);
+// Since it was made or last asked.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> took = now - std::exchange(last_, now);
+    return took.count();
   }
-  const auto known = std::find_if(recent_.begin(), recent_.end(),
-                                  [&](const auto& entry) { return entry.first == key; });
-  if (known != recent_.end()) {
-    std::rotate(recent_.begin(), known, known + 1);
-  } else {
-    recent_.emplace_front(key, method.reconstruct(points, key.second));
-    if (recent_.size() > capacity_) recent_.pop_back();
-  }
-  return recent_.front().second;
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Chain::Chain(std::vector<Point> points, DecimationBound bound, std::size_t cache_bytes)
+    : points_(std::move(points)),
+      bounded_(points_, std::move(bound)),
+      reconstructions_(cache_bytes),
+      surfaces_(cache_bytes) {}
+
+const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSeconds& seconds) {
+  return reconstructions_.get(reconstruction_key(settings), [&] {
+    Stopwatch watch;
+    Reconstructed made{
+        reconstruction_method(settings.method).reconstruct(points_, settings.parameters)};
+    seconds.reconstruct = watch.lap();
+    return made;
+  });
 }
 
-ChainResult run_chain(std::span<const Point> points, const ChainSettings& settings,
-                      StageCache& cache) {
+const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds) {
+  const bool bounded = settings.decimator == "bounded";
+  return surfaces_.get({surface_key(settings), bounded}, [&] {
+    const Reconstruction& reconstruction = reconstruct(settings, seconds);
+    Stopwatch watch;
+    TriangleMesh filled = fill_holes(reconstruction.mesh, settings.parameters.at("fill.size"));
+    if (bounded) filled = bounded_.start(filled);
+    seconds.prepare = watch.lap();
+    return Surface{std::move(filled), reconstruction.mesh.triangles.size(),
+                   reconstruction.unmeshed_points};
+  });
+}
+
+ChainResult Chain::run(const ChainSettings& settings) {
   for (const ParameterSpec& spec : chain_parameters(settings.method, settings.decimator)) {
     if (!settings.parameters.contains(spec.name)) {
       throw Error("the parameter " + spec.name + " has no value");
     }
   }
-  const Reconstruction& reconstruction = cache.reconstruct(points, settings);
-  const TriangleMesh filled = fill_holes(reconstruction.mesh, settings.parameters.at("fill.size"));
-  return {decimate_schroeder(filled, settings.parameters), reconstruction.mesh.triangles.size(),
-          reconstruction.unmeshed_points};
+  ChainResult result;
+  const Surface& start = surface(settings, result.seconds);
+  result.reconstruction_triangles = start.reconstruction_triangles;
+  result.unmeshed_points = start.unmeshed_points;
+  Stopwatch watch;
+  if (settings.decimator == "bounded") {
+    result.mesh = bounded_.decimate(start.mesh, settings.parameters);
+    result.seconds.decimate = watch.lap();
+    result.back_distance = bounded_.back_distance(result.mesh);
+    result.seconds.check = watch.lap();
+  } else if (settings.decimator == kNoDecimator) {
+    result.mesh = start.mesh;
+  } else {
+    result.mesh = decimate_schroeder(start.mesh, settings.parameters);
+    result.seconds.decimate = watch.lap();
+  }
+  return result;
 }
 
 }  // namespace emax

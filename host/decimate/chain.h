@@ -1,35 +1,54 @@
 #pragma once
 
-#include <deque>
+#include <cstddef>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "host/decimate/bounded_chain.h"
 #include "host/decimate/chain_parameters.h"
+#include "host/decimate/stage_cache.h"
 #include "host/reconstruct/reconstruction.h"
 
 namespace emax {
 
-// The last few reconstructions of one cloud by their exact parameters: candidates that differ in
-// decimation alone share one. Reconstruction is a pure function, so no result depends on the cache.
-class StageCache {
+// Kept of each stage, in bytes: a surface of the 437,645 points of the dragon takes 21 MB.
+inline constexpr std::size_t kStageCacheBytes = std::size_t{1} << 27;
+
+// The chain from one cloud to decimated meshes: reconstruct -> fill holes -> decimate; or, in place
+// of the last, see kNoDecimator. Results of the stages before decimation are kept by the values of
+// their genes, so candidates that differ in decimation alone share them.
+class Chain {
  public:
-  explicit StageCache(std::size_t capacity = 4) : capacity_(capacity) {}
+  explicit Chain(std::vector<Point> points, DecimationBound bound = {},
+                 std::size_t cache_bytes = kStageCacheBytes);
 
-  // Throws what the reconstruction throws; that is not kept.
-  const Reconstruction& reconstruct(std::span<const Point> points, const ChainSettings& settings);
+  // A pure function of points, bound and settings. Throws Error when a stage leaves nothing or a
+  // parameter has no value.
+  ChainResult run(const ChainSettings& settings);
 
-  std::size_t size() const { return recent_.size(); }
+  std::size_t reconstructions() const { return reconstructions_.made(); }
+  std::size_t surfaces() const { return surfaces_.made(); }
 
  private:
-  using Key = std::pair<std::string, ParameterValues>;
+  struct Reconstructed : Reconstruction {
+    std::size_t size_in_bytes() const { return emax::size_in_bytes(mesh); }
+  };
+  // What a decimator starts from.
+  struct Surface {
+    TriangleMesh mesh;
+    std::size_t reconstruction_triangles, unmeshed_points;
+    std::size_t size_in_bytes() const { return emax::size_in_bytes(mesh); }
+  };
 
-  std::size_t capacity_;
-  std::deque<std::pair<Key, Reconstruction>> recent_;  // most recent first
+  const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds);
+  const Surface& surface(const ChainSettings& settings, StageSeconds& seconds);
+
+  std::vector<Point> points_;
+  BoundedStage bounded_;
+  StageCache<StageKey, Reconstructed> reconstructions_;
+  StageCache<std::pair<StageKey, bool>, Surface>
+      surfaces_;  // true: as the bounded decimator's start
 };
-
-// reconstruct -> fill holes -> decimate. `cache` always goes with the same points.
-// Throws Error when a stage leaves nothing or a parameter has no value.
-ChainResult run_chain(std::span<const Point> points, const ChainSettings& settings,
-                      StageCache& cache);
 
 }  // namespace emax

@@ -32,16 +32,31 @@ const std::vector<ParameterSpec>& schroeder() {
   return specs;
 }
 
+const std::vector<ParameterSpec>& bounded() {
+  static const std::vector<ParameterSpec> specs = {
+      {"bounded.effort", kInteger, 0, 2, 1,
+       "0: edge collapses; 1: then moves, turns and mended collapses; 2: until nothing is gained"},
+      {"bounded.normal_cosine", kContinuous, -0.5, 0.9, 0.2,
+       "least cosine between a triangle and the one that it replaces"},
+      {"bounded.flatness", kContinuous, 1e-4, 0.1, 1e-3,
+       "least height of a new triangle over its longest side"},
+  };
+  return specs;
+}
+
 }  // namespace
 
 std::span<const std::string_view> decimators() {
-  static constexpr std::array<std::string_view, 1> kDecimators = {"schroeder"};
+  static constexpr std::array<std::string_view, 2> kDecimators = {"bounded", "schroeder"};
   return kDecimators;
 }
 
 std::span<const ParameterSpec> decimation_parameters(std::string_view decimator) {
+  if (decimator == "bounded") return bounded();
   if (decimator == "schroeder") return schroeder();
-  throw Error("there is no decimator '" + std::string(decimator) + "'; choose schroeder");
+  if (decimator == kNoDecimator) return {};
+  throw Error("there is no decimator '" + std::string(decimator) +
+              "'; choose bounded or schroeder");
 }
 
 std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string_view decimator) {
@@ -51,6 +66,30 @@ std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string
   chain.push_back(fill_size());
   chain.insert(chain.end(), decimation.begin(), decimation.end());
   return chain;
+}
+
+namespace {
+
+void add_values(const ChainSettings& settings, std::span<const ParameterSpec> specs,
+                ParameterValues& values) {
+  for (const ParameterSpec& spec : specs) {
+    const auto value = settings.parameters.find(spec.name);
+    if (value != settings.parameters.end()) values.insert(*value);
+  }
+}
+
+}  // namespace
+
+StageKey reconstruction_key(const ChainSettings& settings) {
+  StageKey key{settings.method, {}};
+  add_values(settings, reconstruction_parameters(settings.method), key.second);
+  return key;
+}
+
+StageKey surface_key(const ChainSettings& settings) {
+  StageKey key = reconstruction_key(settings);
+  add_values(settings, {&fill_size(), 1}, key.second);
+  return key;
 }
 
 ParameterValues standard_values(std::span<const ParameterSpec> parameters) {

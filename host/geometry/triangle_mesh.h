@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "sw_model/mesh_view.h"
@@ -13,5 +14,9 @@ struct TriangleMesh {
 
   MeshView view() const { return {vertices, triangles}; }
 };
+
+inline std::size_t size_in_bytes(const TriangleMesh& mesh) {
+  return mesh.vertices.size() * sizeof(Point) + mesh.triangles.size() * sizeof(Triangle);
+}
 
 }  // namespace emax

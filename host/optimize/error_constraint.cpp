@@ -6,6 +6,7 @@
 
 #include "host/emax_search/simd_evaluator.h"
 #include "sw_model/emax_model.h"
+#include "sw_model/error.h"
 #include "sw_model/error_bound.h"
 
 namespace emax {
@@ -35,6 +36,18 @@ std::optional<std::uint32_t> ErrorConstraint::threshold(MeshView mesh) const {
   const double epsilon = normalization.length(epsilon_);
   const double reach = epsilon + 2 * normalization.length(longest) + normalization.length(farthest);
   return largest_feasible_bits(epsilon, reach);
+}
+
+double ErrorConstraint::provable_distance() const {
+  const double epsilon = cloud_.normalization().length(epsilon_);
+  // Normalized, the cloud's box is within [-1, 1]^3.
+  const double corner = std::sqrt(3.0) * (1 + epsilon);
+  const std::optional<std::uint32_t> bits =
+      largest_feasible_bits(epsilon, epsilon + 2 * 2 * corner + corner);
+  if (!bits || *bits == 0) {
+    throw Error("the tolerance is below what the kernel can tell apart; raise --max-error");
+  }
+  return in_file_units(*bits);
 }
 
 MeasuredError ErrorConstraint::measure(MeshView mesh, const std::function<bool()>& interrupted) {

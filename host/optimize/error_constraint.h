@@ -39,6 +39,10 @@ class ErrorConstraint {
   // In blocks on a device.
   MeasuredError measure(MeshView mesh, Evaluator& device, const SearchOptions& options = {}) const;
 
+  // A distance, in the cloud's unit, within which the kernel's numbers prove epsilon for any mesh
+  // that strays less than epsilon from the cloud's box. Throws Error where there is none.
+  double provable_distance() const;
+
   const PreparedCloud& cloud() const { return cloud_; }
   double epsilon() const { return epsilon_; }
   std::size_t excludable() const { return excludable_; }  // points

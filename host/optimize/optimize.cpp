@@ -11,21 +11,9 @@
 namespace emax {
 namespace {
 
-constexpr std::chrono::milliseconds kHeartbeat{100};
-
 // The gene along which triangles fall and e_max rises, by decimator.
 std::string_view monotone_gene(std::string_view decimator) {
   return decimator == "schroeder" ? "schroeder.reduction" : "";
-}
-
-WorkerPoolOptions pool_options(std::size_t points, const OptimizeSettings& settings) {
-  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points, settings.jobs));
-  WorkerPoolOptions options;
-  options.jobs = settings.jobs;
-  options.time_limit = limits.time;
-  options.memory_limit = limits.memory;
-  options.allow_test_methods = settings.allow_test_methods;
-  return options;
 }
 
 bool same_bits(const Genes& a, const Genes& b) {
@@ -67,7 +55,7 @@ class Run {
 
   OptimizeState run() {
     const auto start = Clock::now();
-    pool_.emplace(cloud_, pool_options(cloud_.size(), settings_));
+    pool_.emplace(cloud_, settings_.bound, worker_pool_options(cloud_.size(), settings_));
     while (!scheduler_.finished() && !cut_short() && !reached_its_end()) {
       state_.interrupted = settings_.interrupted();
       state_.out_of_time = settings_.time && Clock::now() - start > *settings_.time;
@@ -186,6 +174,10 @@ class Run {
     settings_.measured(result.mesh.view(), result.error);
     e.triangles = result.mesh.triangles.size();
     e.violation = result.error.violation;
+    if (settings_.bound.epsilon_back > 0) {
+      const double back = made.back_distance / settings_.bound.epsilon_back - 1;
+      e.violation = std::max(e.violation, back);
+    }
     e.squared_bits = result.error.kept.squared_bits;
     e.reconstruction_triangles = made.reconstruction_triangles;
     e.unmeshed_points = made.unmeshed_points;
@@ -234,10 +226,10 @@ class Run {
     if (!feasible && state_.best) return false;
     const std::optional<BestMesh>& place = feasible ? state_.best : state_.least_error;
     const LoggedEvaluation& e = result.evaluation;
-    return !place || (feasible ? std::pair(e.triangles, e.index) <
-                                     std::pair(std::uint64_t{place->triangles}, place->index)
-                               : std::pair(e.squared_bits, e.index) <
-                                     std::pair(place->squared_bits, place->index));
+    return !place ||
+           (feasible ? std::pair(e.triangles, e.index) <
+                           std::pair(std::uint64_t{place->triangles}, place->index)
+                     : std::pair(e.violation, e.index) < std::pair(place->violation, place->index));
   }
 
   void enter(Result result) {
@@ -257,6 +249,7 @@ class Run {
     }
     place = BestMesh{e.index,
                      e.triangles,
+                     e.violation,
                      e.squared_bits,
                      values_of(e.genes),
                      e.reconstruction_triangles,
@@ -287,9 +280,9 @@ class Run {
   }
 
   TriangleMesh make_again(const LoggedEvaluation& known) const {
-    WorkerPoolOptions options = pool_options(cloud_.size(), settings_);
+    WorkerPoolOptions options = worker_pool_options(cloud_.size(), settings_);
     options.jobs = 1;
-    WorkerPool pool(cloud_, options);
+    WorkerPool pool(cloud_, settings_.bound, options);
     pool.submit(known.index, chain(known.genes));
     Completed completed = pool.wait();
     if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
@@ -320,6 +313,16 @@ class Run {
 };
 
 }  // namespace
+
+WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings) {
+  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points, settings.jobs));
+  WorkerPoolOptions options;
+  options.jobs = settings.jobs;
+  options.time_limit = limits.time;
+  options.memory_limit = limits.memory;
+  options.allow_test_methods = settings.allow_test_methods;
+  return options;
+}
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
                        const OptimizeSettings& settings, const OptimizeObserver& observe) {

@@ -9,12 +9,14 @@
 #include <string>
 
 #include "host/decimate/chain_parameters.h"
+#include "host/decimate/decimation_bound.h"
 #include "host/genocop/genocop.h"
 #include "host/geometry/mesh_file.h"
 #include "host/optimize/config.h"
 #include "host/optimize/error_constraint.h"
 #include "host/optimize/evaluation_limits.h"
 #include "host/run_log/run_log.h"
+#include "host/worker/worker_pool.h"
 
 namespace emax {
 
@@ -22,7 +24,10 @@ namespace emax {
 // e_max <= epsilon (paper, sections 3 and 3.1).
 struct OptimizeSettings {
   std::string method = "gp3";
-  std::string decimator = "schroeder";
+  std::string decimator = "bounded";
+  // Of a two-sided bound: how far a mesh may be from the reference.
+  std::optional<double> epsilon_back;
+  DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings
   Config config;
   std::uint64_t seed = 1;
   unsigned jobs = 1;                       // worker processes
@@ -44,6 +49,7 @@ struct OptimizeSettings {
 struct BestMesh {
   std::uint64_t index;  // of its evaluation
   std::size_t triangles;
+  double violation;            // of the constraints, at most 0 when feasible
   std::uint32_t squared_bits;  // the kernel's e_max^2 over the kept points
   ParameterValues parameters;
   std::size_t reconstruction_triangles;
@@ -59,13 +65,18 @@ struct OptimizeState {
   std::map<std::string, std::uint64_t> failures;  // by reason
   std::string last_failure;
   std::optional<BestMesh> best;         // feasible
-  std::optional<BestMesh> least_error;  // of the meshes before that
+  std::optional<BestMesh> least_error;  // the least violation of the meshes before that
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   std::string device_failure;  // that ended the run
 };
 
 // Called after every evaluation and at least every tenth of a second.
 using OptimizeObserver = std::function<void(const OptimizeState&)>;
+
+// How often an observer is called and an interrupt looked for, at least.
+inline constexpr std::chrono::milliseconds kHeartbeat{100};
+
+WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings);
 
 // Evaluations run in worker processes; e_max is measured here, on the device or, without one, on
 // this processor. A run that ends by its budget, target or stagnation gives the same state for any

@@ -47,6 +47,21 @@ std::optional<std::uint64_t> index_of_mesh(const fs::path& path) {
   return is_mesh ? std::optional(index) : std::nullopt;
 }
 
+constexpr const char* kNotSaid = "not said";
+
+ordered_json settings_in(const fs::path& folder) {
+  const fs::path path = folder / kSettingsName;
+  try {
+    return ordered_json::parse(text_of(path).value_or(""));
+  } catch (const nlohmann::json::exception&) {
+    throw Error(path.string() + ": cannot be read; put it back or name another folder");
+  }
+}
+
+void write_settings(const fs::path& folder, const ordered_json& settings) {
+  write_atomically(folder / kSettingsName, settings.dump(2) + "\n");
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
@@ -103,7 +118,7 @@ RunLog::RunLog(fs::path folder, const RunSettings& settings) : folder_(std::move
     // Settings first: a log that holds anything always has them beside it.
     ordered_json json;
     for (const auto& [name, value] : settings) json[name] = value;
-    write_atomically(folder_ / kSettingsName, json.dump(2) + "\n");
+    write_settings(folder_, json);
     log_->clear();
   }
   find_meshes();
@@ -138,28 +153,32 @@ void RunLog::read_evaluations() {
 }
 
 void RunLog::compare(const RunSettings& settings) const {
-  const fs::path path = folder_ / kSettingsName;
-  ordered_json there;
-  try {
-    there = ordered_json::parse(text_of(path).value_or(""));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(path.string() + ": cannot be read; put it back or name another folder");
-  }
-  const auto differs = [&](const std::string& name, const std::string& then,
-                           const std::string& now) {
-    throw Error(
-        fmt::format("{}: the run there has {} {}, this one has {}; make them agree, name "
-                    "another folder with --resume, or delete this one",
-                    folder_.string(), name, then, now));
-  };
+  ordered_json there = settings_in(folder_);
   for (const auto& [name, value] : settings) {
-    const std::string then = there.value(name, "not said");
-    if (then != value) differs(name, then, value);
+    const std::string then = there.value(name, kNotSaid);
+    if (then != value && !value.empty()) differs(name, then, value);
     there.erase(name);
   }
   for (const auto& [name, value] : there.items()) {
-    differs(name, value.get<std::string>(), "not said");
+    differs(name, value.get<std::string>(), kNotSaid);
   }
+}
+
+void RunLog::differs(const std::string& name, const std::string& then,
+                     const std::string& now) const {
+  throw Error(
+      fmt::format("{}: the run there has {} {}, this one has {}; make them agree, name "
+                  "another folder with --resume, or delete this one",
+                  folder_.string(), name, then, now));
+}
+
+void RunLog::settle(const std::string& name, const std::string& value) {
+  ordered_json there = settings_in(folder_);
+  const std::string then = there.value(name, kNotSaid);
+  if (then == value) return;
+  if (!evaluations_.empty()) differs(name, then, value);
+  there[name] = value;
+  write_settings(folder_, there);
 }
 
 // Those without an evaluation were cut off from it by a kill.

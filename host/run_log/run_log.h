@@ -15,7 +15,7 @@
 namespace emax {
 
 // Everything that the results of a run depend on, by name, in the order in which differences are
-// looked for.
+// looked for. An empty value is not known yet: settle() tells it.
 using RunSettings = std::vector<std::pair<std::string, std::string>>;
 
 struct LoggedEvaluation {
@@ -47,6 +47,9 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
+  // What is found out only after the folder was opened. Throws Error as the constructor does.
+  void settle(const std::string& name, const std::string& value);
+
   const std::filesystem::path& folder() const { return folder_; }
   std::size_t size() const { return evaluations_.size(); }  // evaluations
   RecordFile::Loss loss() const { return loss_; }           // when it was opened
@@ -73,6 +76,8 @@ class RunLog {
   void create_folder();
   void read_evaluations();
   void compare(const RunSettings& settings) const;
+  [[noreturn]] void differs(const std::string& name, const std::string& then,
+                            const std::string& now) const;
   void find_meshes();
 
   std::filesystem::path folder_;

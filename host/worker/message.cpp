@@ -43,7 +43,13 @@ std::vector<Point> points_from_binary(const json& value) {
 }
 
 json to_json(const PointsMessage& m) {
-  return {{"kind", "points"}, {"points", to_binary(m.points)}};
+  return {{"kind", "points"},
+          {"points", to_binary(m.points)},
+          {"epsilon", m.bound.epsilon},
+          {"epsilon_back", m.bound.epsilon_back},
+          {"reference_vertices", to_binary(m.bound.reference.vertices)},
+          {"reference_triangles", to_binary(m.bound.reference.triangles)},
+          {"outliers", to_binary(m.bound.outliers)}};
 }
 
 json to_json(const RunMessage& m) {
@@ -57,12 +63,15 @@ json to_json(const RunMessage& m) {
 json to_json(const ReadyMessage&) { return {{"kind", "ready"}}; }
 
 json to_json(const MeshMessage& m) {
+  const StageSeconds& t = m.result.seconds;
   return {{"kind", "mesh"},
           {"ticket", m.ticket},
           {"vertices", to_binary(m.result.mesh.vertices)},
           {"triangles", to_binary(m.result.mesh.triangles)},
           {"reconstruction_triangles", m.result.reconstruction_triangles},
-          {"unmeshed_points", m.result.unmeshed_points}};
+          {"unmeshed_points", m.result.unmeshed_points},
+          {"back_distance", m.result.back_distance},
+          {"seconds", {t.reconstruct, t.prepare, t.decimate, t.check}}};
 }
 
 json to_json(const FailureMessage& m) {
@@ -74,24 +83,39 @@ json to_json(const FailureMessage& m) {
 
 json to_json(const UnusableMessage& m) { return {{"kind", "unusable"}, {"message", m.message}}; }
 
-Message mesh_from_json(const json& j) {
-  MeshMessage m{j.at("ticket"), {}};
-  TriangleMesh& mesh = m.result.mesh;
-  mesh.vertices = points_from_binary(j.at("vertices"));
-  mesh.triangles = from_binary<Triangle>(j.at("triangles"));
+TriangleMesh mesh_from_binary(const json& vertices, const json& triangles) {
+  TriangleMesh mesh{points_from_binary(vertices), from_binary<Triangle>(triangles)};
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       if (v >= mesh.vertices.size()) throw Error("a triangle has an index without a vertex");
     }
   }
+  return mesh;
+}
+
+Message points_from_json(const json& j) {
+  PointsMessage m{points_from_binary(j.at("points")), {}};
+  j.at("epsilon").get_to(m.bound.epsilon);
+  j.at("epsilon_back").get_to(m.bound.epsilon_back);
+  m.bound.reference = mesh_from_binary(j.at("reference_vertices"), j.at("reference_triangles"));
+  m.bound.outliers = from_binary<std::uint32_t>(j.at("outliers"));
+  return m;
+}
+
+Message mesh_from_json(const json& j) {
+  MeshMessage m{j.at("ticket"), {}};
+  m.result.mesh = mesh_from_binary(j.at("vertices"), j.at("triangles"));
   m.result.reconstruction_triangles = j.at("reconstruction_triangles");
   m.result.unmeshed_points = j.at("unmeshed_points");
+  m.result.back_distance = j.at("back_distance");
+  const json& seconds = j.at("seconds");
+  m.result.seconds = {seconds.at(0), seconds.at(1), seconds.at(2), seconds.at(3)};
   return m;
 }
 
 Message from_json(const json& j) {
   const std::string kind = j.at("kind");
-  if (kind == "points") return PointsMessage{points_from_binary(j.at("points"))};
+  if (kind == "points") return points_from_json(j);
   if (kind == "run") {
     return RunMessage{
         j.at("ticket"),

@@ -7,20 +7,25 @@
 #include <vector>
 
 #include "host/decimate/chain_parameters.h"
+#include "host/decimate/decimation_bound.h"
 #include "sw_model/mesh_view.h"
 
 // What a program and its workers say to each other, over any stream of bytes.
 //
 // A message is its length (8 bytes, little-endian, not counting themselves) and one CBOR map:
-//   {"kind": "points", "points": P}                                  to a worker, first and once
+//   {"kind": "points", "points": P, "epsilon": number, "epsilon_back": number,
+//    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
+//    once
 //   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number}}
 //   {"kind": "ready"}                                                from a worker, first and once
 //   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
-//    "reconstruction_triangles": n, "unmeshed_points": n}            the answer to "run", or:
+//    "reconstruction_triangles": n, "unmeshed_points": n,
+//    "back_distance": number, "seconds": [number, 4 of them]}         the answer to "run", or:
 //   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
 //   {"kind": "unusable", "message": s}                               this machine cannot be trusted
 // P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
-// indices a triangle. A worker answers one "run" before it reads the next.
+// indices a triangle. I: byte string of such indices. A worker answers one "run" before it reads
+// the next.
 
 namespace emax {
 
@@ -36,6 +41,7 @@ struct Failure {
 
 struct PointsMessage {
   std::vector<Point> points;
+  DecimationBound bound;
 };
 struct RunMessage {
   std::uint64_t ticket;

@@ -71,7 +71,7 @@ Message receive() {
 }
 
 // The file is shared with other workers, its position too: it is read by offset.
-std::vector<Point> read_points() {
+PointsMessage read_points() {
   struct stat status;
   if (fstat(kPointsFd, &status) != 0) throw Error(std::string("no points: ") + strerror(errno));
   Bytes bytes(static_cast<std::size_t>(status.st_size));
@@ -82,14 +82,13 @@ std::vector<Point> read_points() {
     if (n <= 0) throw Error("the points are cut short");
     got += static_cast<std::size_t>(n);
   }
-  return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes))).points;
+  return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes)));
 }
 
-Message evaluate(std::span<const Point> points, const RunMessage& run, StageCache& cache,
-                 bool allow_test_methods) {
+Message evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
   try {
     if (allow_test_methods) run_test_method(run.settings, kChannelFd);
-    return MeshMessage{run.ticket, run_chain(points, run.settings, cache)};
+    return MeshMessage{run.ticket, chain.run(run.settings)};
   } catch (const std::bad_alloc&) {
     return FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}};
   } catch (const std::exception& e) {
@@ -99,12 +98,11 @@ Message evaluate(std::span<const Point> points, const RunMessage& run, StageCach
 
 void serve(bool allow_test_methods) {
   verify_arithmetic();
-  const std::vector<Point> points = read_points();
+  PointsMessage given = read_points();
+  Chain chain(std::move(given.points), std::move(given.bound));
   send(ReadyMessage{});
-  StageCache cache;
   for (bool first = true;; first = false) {
-    const Message answer =
-        evaluate(points, std::get<RunMessage>(receive()), cache, allow_test_methods);
+    const Message answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
     // A library may have changed the rounding or flush mode when it was first used.
     if (first) verify_arithmetic();
     send(answer);

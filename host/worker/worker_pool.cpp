@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <deque>
+#include <set>
 #include <vector>
 
 #include "host/reconstruct/reconstruction_parameters.h"
@@ -25,6 +26,8 @@ struct Worker {
   std::unique_ptr<WorkerProcess> process;
   bool ready = false;
   std::optional<RunMessage> run;  // what it works on
+  std::set<StageKey> made;        // reconstructions that it may have kept
+  bool spent = false;             // it may reconstruct no more: the last one is all that it has
   Clock::time_point deadline;
 };
 
@@ -42,10 +45,11 @@ std::string seconds(std::chrono::milliseconds time) {
 
 class WorkerPool::Implementation {
  public:
-  Implementation(std::span<const Point> points, const WorkerPoolOptions& options)
+  Implementation(std::span<const Point> points, const DecimationBound& bound,
+                 const WorkerPoolOptions& options)
       : time_limit_(options.time_limit),
         command_{options.program, options.memory_limit, options.log, options.allow_test_methods},
-        points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}}))),
+        points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}, bound}))),
         workers_(std::max(1u, options.jobs)) {
     if (command_.program.empty()) {
       command_.program =
@@ -83,6 +87,8 @@ class WorkerPool::Implementation {
     worker.process.reset();  // first, so that never more than `jobs` run
     worker.ready = false;
     worker.run.reset();
+    worker.made.clear();
+    worker.spent = false;
     worker.process = std::make_unique<WorkerProcess>(command_, points_);
   }
 
@@ -90,16 +96,40 @@ class WorkerPool::Implementation {
     for (Worker& worker : workers_) {
       if (queue_.empty()) return;
       if (worker.run) continue;
-      const RunMessage& next = queue_.front();
-      if (!worker.process->send(encode(next))) {
+      auto next = best_for(worker);
+      if (worker.spent && !worker.made.contains(reconstruction_of(*next))) replace(worker);
+      const Bytes message = encode(*next);
+      if (!worker.process->send(message)) {
         if (!worker.ready) throw not_ready(worker);
         replace(worker);  // it died while it was idle; a fresh one takes a message always
-        if (!worker.process->send(encode(next))) throw not_ready(worker);
+        if (!worker.process->send(message)) throw not_ready(worker);
       }
-      worker.run = std::move(queue_.front());
+      worker.run = std::move(*next);
+      queue_.erase(next);
       worker.deadline = Clock::now() + time_limit_;
-      queue_.pop_front();
     }
+  }
+
+  // What it has made the reconstruction for, else what no other has, else the first.
+  std::deque<RunMessage>::iterator best_for(const Worker& worker) {
+    const auto made_by = [](const Worker& by, const RunMessage& run) {
+      return by.made.contains(reconstruction_of(run)) ||
+             (by.run && reconstruction_of(*by.run) == reconstruction_of(run));
+    };
+    auto next =
+        std::ranges::find_if(queue_, [&](const RunMessage& run) { return made_by(worker, run); });
+    if (next == queue_.end()) {
+      next = std::ranges::find_if(queue_, [&](const RunMessage& run) {
+        return std::ranges::none_of(workers_,
+                                    [&](const Worker& other) { return made_by(other, run); });
+      });
+    }
+    return next == queue_.end() ? queue_.begin() : next;
+  }
+
+  static StageKey reconstruction_of(const RunMessage& run) {
+    const bool known = std::ranges::count(reconstruction_methods(), run.settings.method) > 0;
+    return known ? reconstruction_key(run.settings) : StageKey{run.settings.method, {}};
   }
 
   // Waits until something happens and deals with it. False when `end` or a signal comes first.
@@ -164,11 +194,14 @@ class WorkerPool::Implementation {
     }
     if (auto* mesh = std::get_if<MeshMessage>(&message);
         mesh && worker.run && mesh->ticket == worker.run->ticket) {
-      const bool used_up = single_use(worker.run->settings.method);
+      if (single_use(worker.run->settings.method)) {
+        worker.spent = true;
+        worker.made.clear();
+      }
+      worker.made.insert(reconstruction_of(*worker.run));
       completed_.push_back({mesh->ticket, std::move(mesh->result)});
       worker.run.reset();
-      if (used_up) replace(worker);
-      return !used_up;
+      return true;
     }
     if (auto* failure = std::get_if<FailureMessage>(&message);
         failure && worker.run && failure->ticket == worker.run->ticket) {
@@ -209,8 +242,9 @@ class WorkerPool::Implementation {
   std::deque<Completed> completed_;
 };
 
-WorkerPool::WorkerPool(std::span<const Point> points, const WorkerPoolOptions& options)
-    : implementation_(std::make_unique<Implementation>(points, options)) {}
+WorkerPool::WorkerPool(std::span<const Point> points, const DecimationBound& bound,
+                       const WorkerPoolOptions& options)
+    : implementation_(std::make_unique<Implementation>(points, bound, options)) {}
 
 WorkerPool::~WorkerPool() = default;
 

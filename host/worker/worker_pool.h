@@ -34,7 +34,11 @@ struct Completed {
 class WorkerPool {
  public:
   // Starts the workers. Throws Error when the program cannot be started.
-  WorkerPool(std::span<const Point> points, const WorkerPoolOptions& options);
+  WorkerPool(std::span<const Point> points, const WorkerPoolOptions& options)
+      : WorkerPool(points, {}, options) {}
+  // `bound`: what the bounded decimator is held to.
+  WorkerPool(std::span<const Point> points, const DecimationBound& bound,
+             const WorkerPoolOptions& options);
   ~WorkerPool();  // kills what still runs
 
   // Queues an evaluation; a free worker starts it now, otherwise wait does. Tickets are the

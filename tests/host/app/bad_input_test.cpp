@@ -106,7 +106,10 @@ TEST_F(BadInput, Options) {
   };
   expect_refusal(with("--method", "magic"), {"gp3"});
   expect_refusal(with("--decimator", "magic"), {"schroeder"});
-  expect_refusal(with("--bound", "two-sided"), {"one-sided"});
+  expect_refusal(with("--bound", "both"), {"one-sided"});
+  expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", "--decimator",
+                           "schroeder", "--bound", "two-sided"}),
+                 {"bounded"});
   expect_refusal(with("--device", "toaster"), {"toaster", "cpu", "sim", "rtl"});
   expect_refusal(with("--device", "sim:board=toaster"), {"toaster", "ulx3s"});
   expect_refusal(with("--device", "xrt:none.xclbin"), {"xrt:none.xclbin"});

@@ -24,8 +24,9 @@ class EndToEnd : public testing::Test {
   }
   ProgramRun optimize(const std::string& output, std::vector<std::string> more = {},
                       const std::string& max_error = "3%", const std::string& budget = "24") {
-    std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", max_error,
-                                          "-o",       output,     "--budget",    budget};
+    std::vector<std::string> arguments = {"optimize",    "scan.xyz", "--max-error", max_error,
+                                          "-o",          output,     "--budget",    budget,
+                                          "--decimator", "schroeder"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return emax(arguments);
   }
@@ -269,9 +270,10 @@ TEST_F(EndToEnd, DuplicatedPointsAreFine) {
 }
 
 TEST_F(EndToEnd, InterruptedRunEndsCleanly) {
-  const ProgramRun run = test::run_emax(
-      {"optimize", "scan.xyz", "--max-error", "3%", "-o", "mesh.ply", "--budget", "100000"},
-      folder_.path(), 6);
+  const ProgramRun run =
+      test::run_emax({"optimize", "scan.xyz", "--max-error", "3%", "-o", "mesh.ply", "--budget",
+                      "100000", "--decimator", "schroeder"},
+                     folder_.path(), 6);
   EXPECT_EQ(run.exit_code, 130) << run.errors;
   // Either the best so far, whole and true, or nothing; what was evaluated is kept.
   const std::size_t kept = exists("mesh.ply.run") ? 1 : 0;
@@ -284,9 +286,10 @@ TEST_F(EndToEnd, InterruptedRunEndsCleanly) {
 }
 
 TEST_F(EndToEnd, TimeLimitWritesTheBestSoFar) {
-  const ProgramRun run = test::run_emax({"optimize", "scan.xyz", "--max-error", "3%", "-o",
-                                         "mesh.ply", "--budget", "100000", "--time", "8"},
-                                        folder_.path());
+  const ProgramRun run =
+      test::run_emax({"optimize", "scan.xyz", "--max-error", "3%", "-o", "mesh.ply", "--budget",
+                      "100000", "--time", "8", "--decimator", "schroeder"},
+                     folder_.path());
   EXPECT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_NE(run.output.find("out of time"), std::string::npos) << run.output;
   EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
@@ -303,6 +306,59 @@ TEST_F(EndToEnd, AllMethodsAndMeshFormats) {
     ASSERT_EQ(optimize(name, {}, "8%", "4").exit_code, 0);
     EXPECT_EQ(emax({"verify", std::string(name) + ".certificate.json"}).exit_code, 0);
   }
+}
+
+TEST_F(EndToEnd, TheBoundedDecimatorKeepsBothBounds) {
+  std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "3%",
+                                        "-o",       "mesh.ply", "--budget",    "4",
+                                        "--json",   "r.json",   "--jobs",      "2"};
+  const ProgramRun run = emax(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const json c = read("mesh.ply.certificate.json"), result = read("r.json");
+  EXPECT_EQ(c.at("bound"), "two-sided");
+  EXPECT_EQ(c.at("decimator"), "bounded");
+  EXPECT_EQ(c.at("valid"), true);
+  EXPECT_EQ(c.at("reference"), result.at("reference"));
+  EXPECT_LE(c.at("reference").at("mesh_to_reference"), c.at("epsilon"));
+  EXPECT_GT(c.at("reference").at("triangles"), 5 * c.at("triangles").get<int>());
+  EXPECT_TRUE(exists("mesh.ply.reference.ply"));
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+  // One job, and the same bytes.
+  const std::string mesh = text("mesh.ply"), certificate = text("mesh.ply.certificate.json");
+  arguments.back() = "1";
+  ASSERT_EQ(emax(arguments).exit_code, 0);
+  EXPECT_EQ(text("mesh.ply"), mesh);
+  EXPECT_EQ(text("mesh.ply.certificate.json"), certificate);
+
+  // The reference is recomputed from its file, and has to be that file.
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json", "--reference", "mesh.ply"}).exit_code, 2);
+
+  arguments.insert(arguments.end(), {"--bound", "one-sided"});
+  ASSERT_EQ(emax(arguments).exit_code, 0);
+  const json one = read("mesh.ply.certificate.json");
+  EXPECT_EQ(one.at("bound"), "one-sided");
+  EXPECT_LE(one.at("triangles"), c.at("triangles"));
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+}
+
+// A handful of points far from the surface: named, left out by the decimator too, and the bound
+// holds for the rest in both directions.
+TEST_F(EndToEnd, TheBoundedDecimatorLeavesOutliersOut) {
+  std::ofstream scan(folder_.path() / "scan.xyz", std::ios::app);
+  for (int i = 0; i < 7; ++i) scan << 0.02 * i << ' ' << 0.1 * i << " 1.6\n";
+  scan.close();
+  const std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "3%",
+                                              "-o",       "mesh.ply", "--budget",    "4"};
+  std::vector<std::string> excluding = arguments;
+  excluding.insert(excluding.end(), {"--exclude-outliers", "0.5%"});
+  const ProgramRun run = emax(excluding);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_NE(run.output.find("outliers       7 points"), std::string::npos) << run.output;
+  const json c = read("mesh.ply.certificate.json");
+  EXPECT_EQ(c.at("valid"), true);
+  EXPECT_EQ(c.at("excluded").size(), 7u);
+  EXPECT_LE(c.at("reference").at("points_to_reference"), c.at("epsilon"));
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
 }
 
 }  // namespace

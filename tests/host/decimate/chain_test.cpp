@@ -4,9 +4,12 @@
 
 #include <set>
 
+#include "host/decimate/manifold_part.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/reconstruct/reconstruction_parameters.h"
+#include "sw_model/certificate.h"
 #include "sw_model/error.h"
+#include "sw_model/surface_distance.h"
 #include "tests/host/reconstruct/surface_clouds.h"
 
 namespace emax::test {
@@ -42,60 +45,151 @@ TEST(ChainParameters, JoinTheStagesWithStandardsInTheirDomains) {
 TEST(RunChain, MakesASmallerMesh) {
   const std::vector<Point> cloud = torus_cloud(60, 24);
   for (const std::string method : {"gp3", "hoppe"}) {
-    StageCache cache;
-    const ChainResult result = run_chain(cloud, settings(method), cache);
+    const ChainResult result = Chain(cloud).run(settings(method));
     EXPECT_LT(result.mesh.triangles.size(), result.reconstruction_triangles / 2) << method;
     EXPECT_GT(result.mesh.triangles.size(), 100u) << method;
     EXPECT_EQ(check_mesh(result.mesh.view()).inconsistent_edges, 0u) << method;
   }
 }
 
-// The twin of the cache is no cache.
-TEST(RunChain, TakesNoNoticeOfTheCache) {
-  const std::vector<Point> cloud = torus_cloud(40, 16);
-  StageCache shared(2);
-  Random random(9);
-  SCOPED_TRACE("seed 9");
-  for (int i = 0; i < 12; ++i) {
-    ChainSettings candidate = settings("gp3");
-    candidate.parameters["gp3.mu"] = 2 + 0.5 * random.below(4);
-    candidate.parameters["schroeder.reduction"] = random.uniform(0.2, 0.9);
-    StageCache fresh;
-    const ChainResult expected = run_chain(cloud, candidate, fresh);
-    const ChainResult result = run_chain(cloud, candidate, shared);
-    EXPECT_TRUE(same_bytes(result.mesh, expected.mesh)) << i;
-    EXPECT_EQ(result.reconstruction_triangles, expected.reconstruction_triangles);
-    EXPECT_EQ(result.unmeshed_points, expected.unmeshed_points);
-  }
+ChainSettings bounded(double mu = 2.3) {
+  ChainSettings result{"gp3", "bounded", standard_values(chain_parameters("gp3", "bounded"))};
+  result.parameters["gp3.mu"] = mu;
+  return result;
 }
 
-TEST(StageCache, KeepsAReconstructionForOtherDecimationAndGivesUpTheOldest) {
-  const std::vector<Point> cloud = torus_cloud(20, 12);
-  StageCache cache(2);
-  ChainSettings a = settings("gp3"), b = a, c = a;
-  b.parameters["gp3.mu"] = 3;
-  c.parameters["gp3.mu"] = 4;
-  const auto address = [&](const ChainSettings& s) {
-    return cache.reconstruct(cloud, s).mesh.vertices.data();
+DecimationBound two_sided_bound(const std::vector<Point>& cloud, double epsilon, double back) {
+  ChainSettings standards = bounded();
+  standards.decimator = kNoDecimator;
+  const TriangleMesh surface = Chain(cloud).run(standards).mesh;
+  return {epsilon, back, reference_surface(surface, cloud, epsilon / 2).mesh, {}};
+}
+
+TEST(RunChain, BoundedDecimationIsHeldToTheReference) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  const DecimationBound bound = two_sided_bound(cloud, 0.05, 0.06);
+  EXPECT_TRUE(check_mesh(bound.reference.view()).valid());
+  EXPECT_TRUE(certify(cloud, bound.reference.view()).within(0.025));
+  ChainSettings candidate = bounded(3);
+  candidate.parameters["bounded.flatness"] = 0.01;
+  const ChainResult result = Chain(cloud, bound).run(candidate);
+  EXPECT_LT(result.mesh.triangles.size(), result.reconstruction_triangles / 4);
+  EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
+  EXPECT_TRUE(certify(cloud, result.mesh.view()).within(0.05));
+  const SurfaceDistance back =
+      surface_distance(result.mesh.view(), ExactMesh(bound.reference.view()));
+  EXPECT_LE(back.lower, result.back_distance);
+  EXPECT_LE(result.back_distance, 0.06);
+
+  DecimationBound one_sided = {0.05, 0, {}, {}};
+  const ChainResult freer = Chain(cloud, one_sided).run(candidate);
+  EXPECT_LE(freer.mesh.triangles.size(), result.mesh.triangles.size());
+  EXPECT_EQ(freer.back_distance, 0);
+}
+
+// A reference that lacks a part of the surface: what is made there breaks the back bound, and how
+// far is said.
+TEST(RunChain, TellsHowFarAMeshStraysFromTheReference) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  DecimationBound bound = two_sided_bound(cloud, 0.05, 0.05);
+  TriangleMesh part = bound.reference;
+  std::erase_if(part.triangles, [&](const Triangle& t) { return part.vertices[t[0]].x() > 0; });
+  bound.reference = manifold_part(part).mesh;
+  const ChainResult result = Chain(cloud, bound).run(bounded());
+  const SurfaceDistance back =
+      surface_distance(result.mesh.view(), ExactMesh(bound.reference.view()));
+  EXPECT_GT(back.lower, 0.5);
+  EXPECT_GT(result.back_distance, 0.9 * back.lower);
+  EXPECT_LE(result.back_distance, back.upper);
+}
+
+TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
+  std::vector<Point> cloud = torus_cloud(60, 24);
+  const std::size_t sound = cloud.size();
+  for (int i = 0; i < 5; ++i) cloud.push_back(Point(0.3 * i - 0.6, 0.1, 5));
+  DecimationBound bound = {0.05, 0, {}, {}};
+  for (std::size_t i = sound; i < cloud.size(); ++i) {
+    bound.outliers.push_back(static_cast<std::uint32_t>(i));
+  }
+  const TriangleMesh mesh = Chain(cloud, bound).run(bounded()).mesh;
+  EXPECT_TRUE(certify(cloud, mesh.view(), bound.outliers).within(0.05));
+  EXPECT_FALSE(certify(cloud, mesh.view()).within(1));
+}
+
+// The twin of the caches is none: every candidate by a chain of its own.
+TEST(RunChain, TakesNoNoticeOfTheCaches) {
+  const std::vector<Point> cloud = torus_cloud(30, 12);
+  const DecimationBound bound = two_sided_bound(cloud, 0.15, 0.15);
+  Chain shared(cloud, bound), forgetful(cloud, bound, 1);
+  Random random(9);
+  SCOPED_TRACE("seed 9");
+  for (int i = 0; i < 8; ++i) {
+    ChainSettings candidate = i % 2 == 0 ? settings("gp3") : bounded();
+    candidate.parameters["gp3.mu"] = 2 + 0.5 * random.below(3);
+    candidate.parameters["fill.size"] = 0.1 * random.below(2);
+    if (i % 2 == 0) candidate.parameters["schroeder.reduction"] = random.uniform(0.2, 0.9);
+    const ChainResult expected = Chain(cloud, bound).run(candidate);
+    for (Chain* chain : {&shared, &forgetful}) {
+      const ChainResult result = chain->run(candidate);
+      EXPECT_TRUE(same_bytes(result.mesh, expected.mesh)) << i;
+      EXPECT_EQ(result.reconstruction_triangles, expected.reconstruction_triangles);
+      EXPECT_EQ(result.unmeshed_points, expected.unmeshed_points);
+      EXPECT_EQ(result.back_distance, expected.back_distance);
+    }
+  }
+  EXPECT_LE(shared.reconstructions(), 3u);
+}
+
+TEST(RunChain, RepeatsNoStageForALaterStagesGene) {
+  Chain chain(torus_cloud(30, 12), {0.1, 0, {}, {}});
+  ChainSettings candidate = bounded();
+  EXPECT_GT(chain.run(candidate).seconds.reconstruct, 0);
+  candidate.parameters["bounded.flatness"] = 0.01;
+  const ChainResult again = chain.run(candidate);
+  EXPECT_EQ(again.seconds.reconstruct, 0);
+  EXPECT_EQ(again.seconds.prepare, 0);
+  EXPECT_EQ(chain.surfaces(), 1u);
+  candidate.parameters["fill.size"] = 0.01;
+  chain.run(candidate);
+  EXPECT_EQ(chain.surfaces(), 2u);
+  EXPECT_EQ(chain.reconstructions(), 1u);
+  candidate.parameters["gp3.mu"] = 3;
+  chain.run(candidate);
+  EXPECT_EQ(chain.reconstructions(), 2u);
+}
+
+struct Sized {
+  std::size_t size;
+  std::size_t size_in_bytes() const { return size; }
+};
+
+TEST(StageCache, KeepsTheLastUsedWithinItsBytes) {
+  StageCache<int, Sized> cache(100);
+  const auto get = [&](int key, std::size_t size) {
+    const std::size_t before = cache.made();
+    cache.get(key, [&] { return Sized{size}; });
+    return cache.made() > before;
   };
-  const Point* first = address(a);
-  a.parameters["schroeder.reduction"] = 0.1;
-  EXPECT_EQ(address(a), first);
-  const Point* second = address(b);
-  EXPECT_EQ(address(a), first);
-  address(c);  // b, unused for longest, goes
-  EXPECT_EQ(address(a), first);
-  EXPECT_EQ(cache.size(), 2u);
-  EXPECT_NE(second, first);
+  EXPECT_TRUE(get(1, 40));
+  EXPECT_TRUE(get(2, 40));
+  EXPECT_FALSE(get(1, 40));
+  EXPECT_TRUE(get(3, 40));  // 2, unused for longest, goes
+  EXPECT_EQ(cache.bytes(), 80u);
+  EXPECT_FALSE(get(1, 40));
+  EXPECT_TRUE(get(2, 40));
+  EXPECT_TRUE(get(4, 1000));  // one alone may be greater
+  EXPECT_EQ(cache.size(), 1u);
+  EXPECT_FALSE(get(4, 1000));
+  EXPECT_THROW(cache.get(5, []() -> Sized { throw Error("none"); }), Error);
+  EXPECT_FALSE(get(4, 1000));
 }
 
 TEST(RunChain, NamesAMissingParameter) {
   for (const ParameterSpec& spec : chain_parameters("gp3", "schroeder")) {
     ChainSettings lacking = settings("gp3");
     lacking.parameters.erase(spec.name);
-    StageCache cache;
     try {
-      run_chain(torus_cloud(20, 12), lacking, cache);
+      Chain(torus_cloud(20, 12)).run(lacking);
       ADD_FAILURE() << "no error without " << spec.name;
     } catch (const Error& e) {
       EXPECT_NE(std::string(e.what()).find(spec.name), std::string::npos) << e.what();

@@ -115,6 +115,22 @@ TEST_F(RunLogTest, NamesTheFirstSettingThatDiffers) {
   expect_clear(refusal(kSettings), (path_ / "settings.json").string(), "read", "another folder");
 }
 
+TEST_F(RunLogTest, SettlesWhatIsFoundOutLater) {
+  RunSettings open = kSettings;
+  open.emplace_back("reference", "");
+  {
+    RunLog log(path_, open);
+    log.settle("reference", "r1");
+    log.settle("reference", "r2");  // nothing depends on it yet
+    log.append(measured(0));
+    log.settle("reference", "r2");
+  }
+  RunLog log(path_, open);
+  log.settle("reference", "r2");
+  expect_clear(message_of([&] { log.settle("reference", "r3"); }), path_.string(),
+               "reference r2, this one has r3", "--resume");
+}
+
 TEST_F(RunLogTest, IsHeldByOne) {
   const RunLog first(path_, kSettings);
   expect_clear(refusal(kSettings), path_.string(), "another process", "--resume");

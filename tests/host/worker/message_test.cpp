@@ -27,15 +27,27 @@ MeshMessage tetrahedron() {
           {{{{0, 0, 0}, {1e7 + 1e-3, 0, 0}, {0, 0.1, 0}, {0, 0, -0.0}},
             {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}},
            4,
-           1}};
+           1,
+           0,
+           {}}};
 }
 
 TEST(Message, CarriesEveryBitOfPoints) {
   std::vector<Point> points = sphere_cloud(50);
   points.push_back({5e-324, -0.0, 1.7976931348623157e308});
-  const PointsMessage got = round_trip(PointsMessage{points});
+  const PointsMessage got = round_trip(PointsMessage{points, {}});
   EXPECT_EQ(got.points, points);
   EXPECT_TRUE(std::signbit(got.points.back().y()));
+  EXPECT_EQ(got.bound.epsilon, 0);
+}
+
+TEST(Message, CarriesTheBoundOfTheDecimator) {
+  const DecimationBound bound = {0.1, 1e-300, tetrahedron().result.mesh, {3, 7, ~0u}};
+  const DecimationBound got = round_trip(PointsMessage{sphere_cloud(5), bound}).bound;
+  EXPECT_EQ(got.epsilon, bound.epsilon);
+  EXPECT_EQ(got.epsilon_back, bound.epsilon_back);
+  EXPECT_TRUE(same_bytes(got.reference, bound.reference));
+  EXPECT_EQ(got.outliers, bound.outliers);
 }
 
 TEST(Message, CarriesSettings) {
@@ -49,8 +61,13 @@ TEST(Message, CarriesSettings) {
 }
 
 TEST(Message, CarriesAMesh) {
-  const MeshMessage sent = tetrahedron();
+  MeshMessage sent = tetrahedron();
+  sent.result.back_distance = 0.1;
+  sent.result.seconds = {1, 2, 3, 4.5};
   const MeshMessage got = round_trip(sent);
+  EXPECT_EQ(got.result.back_distance, 0.1);
+  EXPECT_EQ(got.result.seconds.prepare, 2);
+  EXPECT_EQ(got.result.seconds.sum(), 10.5);
   EXPECT_EQ(got.ticket, 7u);
   EXPECT_TRUE(same_bytes(got.result.mesh, sent.result.mesh));
   EXPECT_EQ(got.result.reconstruction_triangles, 4u);

@@ -79,11 +79,35 @@ TEST(WorkerPool, GivesTheSameMeshesForAnyNumberOfJobs) {
   }
 }
 
+// No process may run it twice: a worker that has goes on with what it made, or is replaced.
 TEST(WorkerPool, RunsPoissonAgainAndAgain) {
-  const auto results = evaluate(1, std::vector<ChainSettings>(3, settings("poisson")));
-  ASSERT_EQ(results.size(), 3u);
-  EXPECT_TRUE(same_bytes(results.at(0).mesh, results.at(1).mesh));
-  EXPECT_TRUE(same_bytes(results.at(0).mesh, results.at(2).mesh));
+  ChainSettings other = settings("poisson");
+  other.parameters["poisson.scale"] = 1.2;
+  const auto results = evaluate(1, {settings("poisson"), other, settings("gp3"), other,
+                                    settings("poisson"), settings("poisson")});
+  ASSERT_EQ(results.size(), 6u);
+  EXPECT_TRUE(same_bytes(results.at(0).mesh, results.at(4).mesh));
+  EXPECT_TRUE(same_bytes(results.at(0).mesh, results.at(5).mesh));
+  EXPECT_TRUE(same_bytes(results.at(1).mesh, results.at(3).mesh));
+  EXPECT_FALSE(same_bytes(results.at(0).mesh, results.at(1).mesh));
+  // Whatever the order they were handed out in, each was reconstructed once.
+  std::size_t made = 0;
+  for (const auto& [ticket, result] : results) made += result.seconds.reconstruct > 0 ? 1 : 0;
+  EXPECT_EQ(made, 3u);
+}
+
+// Candidates that differ in decimation alone go where their reconstruction is kept.
+TEST(WorkerPool, GivesCandidatesToTheWorkerThatHasTheirReconstruction) {
+  std::vector<ChainSettings> candidates;
+  for (int i = 0; i < 8; ++i) {
+    candidates.push_back(settings(i % 4 < 2 ? "gp3" : "hoppe"));
+    candidates.back().parameters["schroeder.reduction"] = 0.1 * i;
+  }
+  std::size_t made = 0;
+  for (const auto& [ticket, result] : evaluate(2, candidates)) {
+    made += result.seconds.reconstruct > 0 ? 1 : 0;
+  }
+  EXPECT_LE(made, 3u);  // at the end a free worker takes what another has
 }
 
 TEST(WorkerPool, ReportsACrash) {

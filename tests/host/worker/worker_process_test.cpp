@@ -24,7 +24,7 @@ WorkerProcess::Command command() {
           true};
 }
 
-FileDescriptor points() { return sealed_file(encode(PointsMessage{sphere_cloud(50)})); }
+FileDescriptor points() { return sealed_file(encode(PointsMessage{sphere_cloud(50), {}})); }
 
 Message next_message(WorkerProcess& worker) {
   while (true) {

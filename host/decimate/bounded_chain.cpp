@@ -1,0 +1,57 @@
+#include "host/decimate/bounded_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sw_model/error.h"
+
+namespace emax {
+
+BoundedStage::BoundedStage(std::span<const Point> points, DecimationBound bound)
+    : bound_(std::move(bound)) {
+  kept_.reserve(points.size());
+  auto outlier = bound_.outliers.begin();
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    if (outlier != bound_.outliers.end() && *outlier == p) {
+      ++outlier;
+    } else {
+      kept_.push_back(points[p]);
+    }
+  }
+  if (two_sided()) exact_reference_.emplace(bound_.reference.view());
+}
+
+TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
+  if (!(bound_.epsilon > 0)) throw Error("the bounded decimator was given no bound");
+  return reference_surface(surface, kept_, bound_.epsilon / 2).mesh;
+}
+
+TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
+                                    const ParameterValues& values) const {
+  DecimationSettings settings;
+  settings.epsilon = bound_.epsilon;
+  settings.epsilon_back = bound_.epsilon_back;
+  settings.two_sided = two_sided();
+  settings.effort = static_cast<DecimationSettings::Effort>(values.at("bounded.effort"));
+  settings.normal_cosine = values.at("bounded.normal_cosine");
+  settings.flatness = values.at("bounded.flatness");
+  const TriangleMesh& reference = two_sided() ? bound_.reference : start;
+  return BoundedDecimator(reference, kept_).run(start, settings).mesh;
+}
+
+double BoundedStage::back_distance(const TriangleMesh& mesh) const {
+  if (!two_sided()) return 0;
+  SurfaceDistanceOptions decide;
+  decide.relative = 0;
+  decide.limit = bound_.epsilon_back;
+  const SurfaceDistance decided = surface_distance(mesh.view(), *exact_reference_, decide);
+  if (decided.within(bound_.epsilon_back)) return decided.upper;
+  constexpr double kPrecision = 0.05;  // enough to compare candidates that fail
+  SurfaceDistanceOptions measure;
+  measure.relative = kPrecision;
+  const SurfaceDistance measured = surface_distance(mesh.view(), *exact_reference_, measure);
+  const double beyond = std::nextafter(bound_.epsilon_back, HUGE_VAL);
+  return std::max({decided.lower, measured.lower, beyond});
+}
+
+}  // namespace emax

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/geometry/triangle_mesh.h"
+
+namespace emax {
+
+// What a run fixes for the bounded decimator before its search: the same for every candidate.
+struct DecimationBound {
+  double epsilon = 0;       // every point stays within this of the mesh; 0: no bounded decimator
+  double epsilon_back = 0;  // and all of the mesh within this of the reference; 0: one-sided
+  TriangleMesh reference;   // of a two-sided bound, as reference_surface() gives it
+  std::vector<std::uint32_t> outliers;  // ascending; points that count for nothing
+};
+
+}  // namespace emax

@@ -1,0 +1,78 @@
+#include "host/optimize/run_bound.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/decimate/bounded_decimation.h"
+#include "host/decimate/manifold_part.h"
+#include "host/worker/worker_pool.h"
+#include "sw_model/error.h"
+
+namespace emax {
+namespace {
+
+TriangleMesh standard_surface(std::span<const Point> cloud, const OptimizeSettings& settings) {
+  WorkerPoolOptions options = worker_pool_options(cloud.size(), settings);
+  options.jobs = 1;
+  WorkerPool pool(cloud, options);
+  pool.submit(0, {settings.method, kNoDecimator,
+                  standard_values(chain_parameters(settings.method, kNoDecimator))});
+  std::optional<Completed> completed;
+  while (!completed) {
+    if (settings.interrupted()) throw Interrupted{};
+    completed = pool.wait_for(kHeartbeat);
+  }
+  if (const auto* failure = std::get_if<Failure>(&completed->outcome)) {
+    throw Error("no reference surface could be made of the cloud: " + failure->message +
+                "; take another --method, or --bound one-sided");
+  }
+  return std::move(std::get<ChainResult>(completed->outcome).mesh);
+}
+
+std::vector<Point> without(std::span<const Point> cloud, std::span<const std::uint32_t> outliers) {
+  std::vector<Point> kept;
+  kept.reserve(cloud.size() - outliers.size());
+  for (std::uint32_t p = 0; p < cloud.size(); ++p) {
+    if (!std::ranges::binary_search(outliers, p)) kept.push_back(cloud[p]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
+                                 const OptimizeSettings& settings) {
+  DecimationBound bound;
+  if (settings.decimator != "bounded") return bound;
+  const bool two_sided = settings.epsilon_back.has_value();
+  // Storing moves vertices, and with them both distances.
+  const TriangleMesh box{{cloud.begin(), cloud.end()}, {}};
+  const double moved = 2 * storage_displacement(box, mesh_format(settings.output));
+  bound.epsilon = constraint.provable_distance() - moved;
+  if (two_sided) bound.epsilon_back = *settings.epsilon_back - moved;
+  if (bound.epsilon <= 0 || (two_sided && bound.epsilon_back <= 0)) {
+    throw Error("the tolerance is lost where this format rounds; write .ply, .obj or .off");
+  }
+  if (!two_sided && constraint.excludable() == 0) return bound;
+
+  const TriangleMesh surface = manifold_part(standard_surface(cloud, settings)).mesh;
+  if (surface.triangles.empty()) {
+    throw Error("the cloud's reconstruction has no part that is a surface; take another --method");
+  }
+  const auto beyond = [&](const TriangleMesh& mesh) {
+    return constraint.excludable() > 0
+               ? constraint.measure(mesh.view(), settings.interrupted).excluded
+               : std::vector<std::uint32_t>{};
+  };
+  bound.outliers = beyond(surface);
+  bound.reference = reference_surface(surface, without(cloud, bound.outliers), bound.epsilon / 2,
+                                      settings.interrupted)
+                        .mesh;
+  if (settings.interrupted()) throw Interrupted{};
+  // Also what could not be inserted, but no more what an insertion came near.
+  bound.outliers = beyond(bound.reference);
+  if (!two_sided) bound.reference = {};
+  return bound;
+}
+
+}  // namespace emax
