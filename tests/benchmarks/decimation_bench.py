@@ -34,14 +34,14 @@ MEMBER = "data/meshes/fandisk.off"
 BOUNDS = {"bunny": [0.642, 0.321, 0.193, 0.0642], "fandisk": [0.5, 0.1, 0.02], "torus": [0.25], "building": [0.5],
           "dragon": [0.2]}
 QUICK = ("fandisk", 0.1)
-PEERS = ["openmesh", "vtk-quadric", "vtk-pro", "meshoptimizer", "cgal-lt", "cgal-gh", "cgal-envelope"]
+PEERS = ["meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh", "cgal-envelope"]
 TWO, ONE = "emax-two-sided", "emax-one-sided"
 OWN = [TWO, TWO + "-deep", ONE, ONE + "-deep"]
-# The envelope's test of every collapse takes hours on the large scans.
-TOO_SLOW = {("cgal-envelope", scan) for scan in ("dragon", "building", "torus")}
+# The envelope's test of every collapse would take hours elsewhere.
+ENVELOPE, ENVELOPE_CASES = "cgal-envelope", [("fandisk", 0.1)]
 POINTS = [10000, 30000, 100000, 300000, 1000000]
 POINTS_PERCENT = 0.25
-POINTS_TOOLS = [TWO, ONE, "openmesh", "vtk-quadric", "vtk-pro", "meshoptimizer", "cgal-lt", "cgal-gh"]
+POINTS_TOOLS = [TWO, ONE, "meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh"]
 TIME_LIMIT = 3600
 NOTHING_GONE = 0.98  # of the triangles of the start: the tool found nothing to remove
 
@@ -120,7 +120,7 @@ def measure(store, scans, tools):
         for percent in BOUNDS[scan]:
             for tool in tools:
                 key = scan, percent, tool
-                if (tool, scan) not in TOO_SLOW and not store.get(*key):
+                if (tool != ENVELOPE or (scan, percent) in ENVELOPE_CASES) and not store.get(*key):
                     store.measure(key, ["--scan", scan, "--percent", percent, "--tool", tool])
     for points in POINTS:
         for tool in POINTS_TOOLS:
@@ -265,7 +265,7 @@ def section(store, plots):
              "Written by `./dev bench --decimate`. The fewest triangles such that every point of the cloud is within ε "
              "of the mesh (one-sided, e_max). emax is called once. Every peer is bisected over its own parameter, a "
              "number of triangles or its own bound, to the fewest triangles whose e_max, by our engine, is within "
-             "the same ε; several sets of options are tried, and the best is told. CGAL's AABB-tree confirms e_max of "
+             "the same ε; several sets of options are tried (two where the start has over 300,000 triangles), and the best is told. CGAL's AABB-tree confirms e_max of "
              "every result. All start from the same mesh: manifold and free of self-intersections, with points "
              "farther than ε/2 joined to it, as emax starts; what that takes is in no time here. Back: the greatest "
              "distance from any point of the result to that start, which two-sided emax holds to ε too and the "
@@ -282,8 +282,7 @@ def section(store, plots):
                      f"peers go to 2000 triangles, OpenMesh to its own bound of ε. {told}")
     for scan, bounds in BOUNDS.items():
         parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + PEERS))]
-    skipped = sorted({scan for _, scan in TOO_SLOW})
-    parts.append(f"CGAL's polyhedral envelope is not measured on {', '.join(skipped)}: it would take hours.\n")
+    parts.append("CGAL's polyhedral envelope, 45 s a call for 13,000 triangles, is measured on one case only.\n")
     return "\n".join(parts)
 
 
@@ -291,7 +290,7 @@ def quick():
     scan, percent = QUICK
     with tempfile.TemporaryDirectory() as folder:
         store = Store(Path(folder) / "quick.jsonl")
-        for tool in OWN + PEERS:
+        for tool in [tool for tool in OWN + PEERS if tool != ENVELOPE]:
             store.measure((scan, percent, tool), ["--scan", scan, "--percent", percent, "--tool", tool, "--quick"])
         print("\n" + table(store, scan, percent, OWN + PEERS))
 

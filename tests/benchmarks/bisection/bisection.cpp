@@ -9,7 +9,7 @@ namespace emax::benchmarks {
 namespace {
 
 // How much coarser what is tried after the bisection is.
-constexpr std::array kProbes = {0.002, 0.004, 0.008, 0.016, 0.032};
+constexpr std::array kProbes = {0.004, 0.012, 0.03};
 
 struct Outcome {
   double coarseness;

@@ -57,7 +57,7 @@ TEST(Bisection, IsTheScanOfEveryValueWhereErrorsAreMonotone) {
 
 TEST(Bisection, IsNearTheScanOfEveryValueWhereTheyAreNot) {
   const auto error = [](double triangles) {
-    return 3 / std::sqrt(triangles) * (1 + 0.2 * std::sin(40 * std::log(triangles)));
+    return 3 / std::sqrt(triangles) * (1 + 0.1 * std::sin(40 * std::log(triangles)));
   };
   for (const double limit : {1.0, 0.3, 0.2, 0.111, 0.0512}) {
     const Found found = searched({.limit = limit}, error);

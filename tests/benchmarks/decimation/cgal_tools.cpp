@@ -132,16 +132,13 @@ Tool cgal_garland_heckbert_tool() {
 Tool cgal_envelope_tool() {
   const auto sets = [](const TriangleMesh& start, double epsilon) {
     const auto mesh = std::make_shared<const Mesh>(to_cgal(start));
-    return std::vector<OptionSet>{
-        {"Lindstrom–Turk, standard weights, normals kept", Parameter::kTolerance,
-         [=](double tolerance) {
-           return lindstrom_turk(*mesh, 0, 0.5, Envelope(tolerance * epsilon));
-         }},
-        {"Garland–Heckbert, plane policies, normals kept", Parameter::kTolerance,
-         [=](double tolerance) {
-           return garland_heckbert<Planes>(*mesh, 0, Envelope(tolerance * epsilon));
-         }},
-    };
+    OptionSet set{"Lindstrom–Turk, standard weights, normals kept", Parameter::kTolerance,
+                  [=](double tolerance) {
+                    return lindstrom_turk(*mesh, 0, 0.5, Envelope(tolerance * epsilon));
+                  }};
+    set.finest = 0.5;
+    set.coarsest = 2;
+    return std::vector<OptionSet>{set};
   };
   return {"CGAL, polyhedral envelope", "cgal-envelope", CGAL_VERSION_STR, sets};
 }

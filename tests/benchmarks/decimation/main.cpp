@@ -21,9 +21,10 @@ using nlohmann::json;
 using Effort = DecimationSettings::Effort;
 
 constexpr double kFewestTriangles = 40;
-constexpr double kFinestTolerance = 0.02, kCoarsestTolerance = 8;  // of epsilon
 // By which triangle counts of a bisection's ends may differ.
-constexpr double kShare = 0.002;
+constexpr double kShare = 0.004;
+// On larger meshes a call takes minutes.
+constexpr std::size_t kLarge = 300000, kSetsWhenLarge = 2;
 
 struct Options {
   CaseFolders folders{"data", "build/bench/cases"};
@@ -78,9 +79,9 @@ Trial timed(const std::function<TriangleMesh()>& call) {
 struct Range {
   double finest, coarsest;
 
-  // Steps of a scan: factors of about 2.5.
+  // Steps of a scan: factors of about 4.
   int steps() const {
-    return static_cast<int>(std::ceil(std::abs(std::log(finest / coarsest)) / 0.9));
+    return static_cast<int>(std::ceil(std::abs(std::log(finest / coarsest)) / 1.4));
   }
 };
 
@@ -88,12 +89,16 @@ Range range_of(const OptionSet& set, const DecimationScan& scan) {
   const auto triangles = static_cast<double>(scan.start.triangles.size());
   return set.parameter == OptionSet::Parameter::kTriangles
              ? Range{triangles, std::min(triangles / 4, kFewestTriangles)}
-             : Range{kFinestTolerance, kCoarsestTolerance};
+             : Range{set.finest, set.coarsest};
 }
 
 json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
   CloudError error(scan.cloud);
-  const std::vector<OptionSet> sets = tool.option_sets(scan.start, scan.epsilon);
+  std::vector<OptionSet> sets = tool.option_sets(scan.start, scan.epsilon);
+  const std::size_t tried = quick                                  ? 1
+                            : scan.start.triangles.size() > kLarge ? kSetsWhenLarge
+                                                                   : sets.size();
+  sets.resize(std::min(sets.size(), tried));
   std::optional<Found> best;
   const OptionSet* best_set = nullptr;
   int calls = 0;
@@ -125,7 +130,6 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
       best = std::move(found);
       best_set = &set;
     }
-    if (quick) break;
   }
   json result = {{"calls", calls}, {"all_seconds", seconds}};
   if (!best) {

@@ -1,7 +1,6 @@
 #include <OpenMesh/Core/System/config.h>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModHausdorffT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
@@ -21,7 +20,6 @@ using Decimater = OpenMesh::Decimater::DecimaterT<Mesh>;
 using Quadric = OpenMesh::Decimater::ModQuadricT<Mesh>;
 using Hausdorff = OpenMesh::Decimater::ModHausdorffT<Mesh>;
 using Flipping = OpenMesh::Decimater::ModNormalFlippingT<Mesh>;
-using AspectRatio = OpenMesh::Decimater::ModAspectRatioT<Mesh>;
 
 Mesh to_openmesh(const TriangleMesh& mesh) {
   Mesh result;
@@ -50,13 +48,8 @@ TriangleMesh from_openmesh(const Mesh& mesh) {
   return result;
 }
 
-struct Modules {
-  bool flipping = false, aspect_ratio = false;
-};
-
 // At most `tolerance` where that is positive; down to so many triangles.
-TriangleMesh decimated(const Mesh& start, Modules modules, double tolerance,
-                       std::size_t triangles) {
+TriangleMesh decimated(const Mesh& start, bool flipping, double tolerance, std::size_t triangles) {
   Mesh mesh = start;
   mesh.request_vertex_status();
   mesh.request_edge_status();
@@ -73,10 +66,8 @@ TriangleMesh decimated(const Mesh& start, Modules modules, double tolerance,
       decimater.add(hausdorff);
       decimater.module(hausdorff).set_tolerance(tolerance);
     }
-    Flipping::Handle flipping;
-    if (modules.flipping) decimater.add(flipping);
-    AspectRatio::Handle aspect_ratio;
-    if (modules.aspect_ratio) decimater.add(aspect_ratio);
+    Flipping::Handle normals;
+    if (flipping) decimater.add(normals);
     if (!decimater.initialize()) return {};
     decimater.decimate_to_faces(0, triangles);
   }
@@ -90,23 +81,20 @@ Tool openmesh_tool() {
   const auto sets = [](const TriangleMesh& start, double epsilon) {
     using enum OptionSet::Parameter;
     const auto mesh = std::make_shared<const Mesh>(to_openmesh(start));
-    const auto to_tolerance = [=](Modules modules) {
-      return [=](double tolerance) { return decimated(*mesh, modules, tolerance * epsilon, 1); };
+    const auto to_tolerance = [=](bool flipping) {
+      return [=](double tolerance) { return decimated(*mesh, flipping, tolerance * epsilon, 1); };
     };
-    const auto to_count = [=](Modules modules, double tolerance) {
+    const auto to_count = [=](double tolerance) {
       return [=](double triangles) {
-        return decimated(*mesh, modules, tolerance, static_cast<std::size_t>(triangles));
+        return decimated(*mesh, true, tolerance, static_cast<std::size_t>(triangles));
       };
     };
     return std::vector<OptionSet>{
-        {"ModQuadric, ModHausdorff", kTolerance, to_tolerance({})},
-        {"ModQuadric, ModHausdorff, ModNormalFlipping", kTolerance,
-         to_tolerance({.flipping = true})},
-        {"ModQuadric, ModHausdorff, ModAspectRatio", kTolerance,
-         to_tolerance({.aspect_ratio = true})},
+        {"ModQuadric, ModHausdorff, ModNormalFlipping", kTolerance, to_tolerance(true)},
+        {"ModQuadric, ModHausdorff", kTolerance, to_tolerance(false)},
         {"ModQuadric, ModHausdorff of ε, ModNormalFlipping, to a number", kTriangles,
-         to_count({.flipping = true}, epsilon)},
-        {"ModQuadric, ModNormalFlipping, to a number", kTriangles, to_count({.flipping = true}, 0)},
+         to_count(epsilon)},
+        {"ModQuadric, ModNormalFlipping, to a number", kTriangles, to_count(0)},
     };
   };
   return {"OpenMesh", "openmesh",

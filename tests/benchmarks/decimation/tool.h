@@ -16,6 +16,7 @@ struct OptionSet {
   Parameter parameter;
   // Throws what the tool throws. A mesh without triangles where it gives none.
   std::function<TriangleMesh(double)> simplify;
+  double finest = 0.05, coarsest = 3;  // tolerances of the bisection
 };
 
 // A decimator made by others. Its option sets, for one start and epsilon; the likeliest to be best
@@ -33,7 +34,7 @@ Tool vtk_decimate_pro_tool();
 Tool meshoptimizer_tool();
 Tool cgal_lindstrom_turk_tool();
 Tool cgal_garland_heckbert_tool();
-// Either of both within CGAL's polyhedral envelope.
+// Lindstrom and Turk's within CGAL's polyhedral envelope: 45 s a call for 13,000 triangles.
 Tool cgal_envelope_tool();
 
 }  // namespace emax::benchmarks
