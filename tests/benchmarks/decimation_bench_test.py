@@ -58,6 +58,10 @@ class DecimationBenchTest(unittest.TestCase):
         self.put("torus", 0.25, "openmesh", result("OpenMesh", 2000, true_greatest=0.2, true_rms=0.01))
         self.put("torus", 0.25, "vtk-pro", {"failure": "not within 60 minutes"})
         told = bench.table(self.store, "torus", 0.25, bench.PEERS)
+        self.put("fandisk", 0.1, "openmesh", result("OpenMesh", 2000, edges=0.25))
+        self.put("fandisk", 0.1, "vtk-pro", result("VTK DecimatePro", 2000))
+        told += bench.table(self.store, "fandisk", 0.1, bench.PEERS)
+        self.assertIn("| 0.250 | 1.50 |", told)
         self.assertEqual(len({line.count("|") for line in told.splitlines() if line.startswith("|")}), 1)
         self.assertIn("0.200; 0.0100", told)
 

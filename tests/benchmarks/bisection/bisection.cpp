@@ -111,6 +111,10 @@ double parameter_at(double coarseness, double finest, double coarsest) {
   return finest * std::pow(coarsest / finest, coarseness);
 }
 
+double coarseness_at(double parameter, double finest, double coarsest) {
+  return std::clamp(std::log(parameter / finest) / std::log(coarsest / finest), 0.0, 1.0);
+}
+
 Found fewest_within(const Attempt& attempt, const BisectionSettings& settings) {
   return Bisection(attempt, settings).run();
 }

@@ -20,6 +20,8 @@ using Attempt = std::function<Trial(double coarseness)>;
 
 // The coarseness as a tool's own parameter, from its finest to its coarsest value in equal ratios.
 double parameter_at(double coarseness, double finest, double coarsest);
+// And back, within [0, 1].
+double coarseness_at(double parameter, double finest, double coarsest);
 
 struct BisectionSettings {
   double limit = 0;  // the greatest error that passes

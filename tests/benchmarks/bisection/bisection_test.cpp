@@ -85,6 +85,24 @@ TEST(Bisection, GivesUpWhereItCannotBeatAnother) {
   EXPECT_EQ(better.best->mesh.triangles.size(), 1000);
 }
 
+TEST(Bisection, OneCallShowsThatAnotherIsNoBetter) {
+  const auto error = [](double triangles) { return 100 / triangles; };
+  BisectionSettings settings{.limit = 0.1, .beat = 900};
+  settings.start = benchmarks::coarseness_at(910, kMost, kLeast);
+  const Found found = searched(settings, error);
+  EXPECT_FALSE(found.best);
+  EXPECT_EQ(found.calls, 1);
+}
+
+TEST(Bisection, ParametersGoBackAndForth) {
+  for (const double parameter : {kMost, 321.0, kLeast}) {
+    const double coarseness = benchmarks::coarseness_at(parameter, kMost, kLeast);
+    EXPECT_DOUBLE_EQ(benchmarks::parameter_at(coarseness, kMost, kLeast), parameter);
+  }
+  EXPECT_EQ(benchmarks::coarseness_at(1, kMost, kLeast), 1);
+  EXPECT_EQ(benchmarks::coarseness_at(2 * kMost, kMost, kLeast), 0);
+}
+
 TEST(Bisection, FindsItsWayFromAnyStart) {
   const auto error = [](double triangles) { return 100 / triangles; };
   for (const double start : {0.0, 0.2, 0.23, 0.5, 0.9, 1.0}) {

@@ -117,8 +117,8 @@ Tool cgal_garland_heckbert_tool() {
   const auto sets = [](const TriangleMesh& start, double) {
     const auto mesh = std::make_shared<const Mesh>(to_cgal(start));
     std::vector<OptionSet> all = {
-        garland_heckbert_set<ProbablePlanes>("probabilistic plane", mesh),
         garland_heckbert_set<Planes>("plane", mesh),
+        garland_heckbert_set<ProbablePlanes>("probabilistic plane", mesh),
         garland_heckbert_set<ProbableTriangles>("probabilistic triangle", mesh),
         garland_heckbert_set<Triangles>("triangle", mesh),
         {"plane policies", Parameter::kTriangles, [=](double triangles) {

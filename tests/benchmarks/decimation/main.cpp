@@ -23,8 +23,8 @@ using Effort = DecimationSettings::Effort;
 constexpr double kFewestTriangles = 40;
 // By which triangle counts of a bisection's ends may differ.
 constexpr double kShare = 0.004;
-// On larger meshes a call takes minutes.
-constexpr std::size_t kLarge = 300000, kSetsWhenLarge = 2;
+// Of the best so far: where another set of options begins, and below which it must come.
+constexpr double kNext = 0.99, kBetter = 0.985;
 
 struct Options {
   CaseFolders folders{"data", "build/bench/cases"};
@@ -95,10 +95,7 @@ Range range_of(const OptionSet& set, const DecimationScan& scan) {
 json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
   CloudError error(scan.cloud);
   std::vector<OptionSet> sets = tool.option_sets(scan.start, scan.epsilon);
-  const std::size_t tried = quick                                  ? 1
-                            : scan.start.triangles.size() > kLarge ? kSetsWhenLarge
-                                                                   : sets.size();
-  sets.resize(std::min(sets.size(), tried));
+  if (quick) sets.resize(1);
   std::optional<Found> best;
   const OptionSet* best_set = nullptr;
   int calls = 0;
@@ -111,9 +108,12 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
     settings.width = 1e-4;
     settings.share = kShare;
     if (best) {
-      settings.beat = best->best->mesh.triangles.size();
-      if (set.parameter == best_set->parameter) {
-        settings.start = std::min(1.0, best->coarseness + 0.5 / settings.steps);
+      const auto triangles = static_cast<double>(best->best->mesh.triangles.size());
+      settings.beat = static_cast<std::size_t>(kBetter * triangles);
+      if (set.parameter == OptionSet::Parameter::kTriangles) {
+        settings.start = coarseness_at(kNext * triangles, range.finest, range.coarsest);
+      } else if (best_set->parameter == set.parameter) {
+        settings.start = best->coarseness;
       }
     }
     const Attempt attempt = [&](double coarseness) {
@@ -126,7 +126,8 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
     calls += found.calls;
     seconds += found.seconds;
     least_error = std::min(least_error, found.least_error);
-    if (found.best && (!best || found.best->mesh.triangles.size() < *settings.beat)) {
+    if (found.best &&
+        (!best || found.best->mesh.triangles.size() < best->best->mesh.triangles.size())) {
       best = std::move(found);
       best_set = &set;
     }

@@ -1,6 +1,8 @@
 #include "tests/benchmarks/decimation/measures.h"
 
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <numeric>
 
 #include "host/geometry/mesh_validity.h"
@@ -10,6 +12,8 @@
 namespace emax::benchmarks {
 namespace {
 
+// Degrees: of an edge of the start, and of what stands for it.
+constexpr double kSharp = 40, kStillSharp = 25;
 constexpr int kSteps = 8;  // into which a side is divided for the distance to the true surface
 
 double cgal_error(const DecimationScan& scan, const TriangleMesh& mesh) {
@@ -48,6 +52,23 @@ TrueDistance true_distance(const DecimationScan& scan, const TriangleMesh& mesh)
   return result;
 }
 
+// The edges whose triangles turn by more than `degrees`, each as a triangle without area.
+TriangleMesh sharp_edges(const TriangleMesh& mesh, double degrees) {
+  const double cosine = std::cos(degrees * std::numbers::pi / 180);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Point> first;  // normal of an edge's triangle
+  TriangleMesh edges{mesh.vertices, {}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.view().corners(t);
+    const Point normal = (b - a).cross(c - a).normalized();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
+      const auto [known, is_new] = first.try_emplace(std::minmax(from, to), normal);
+      if (!is_new && known->second.dot(normal) < cosine) edges.triangles.push_back({from, to, to});
+    }
+  }
+  return edges;
+}
+
 }  // namespace
 
 nlohmann::json measures(const std::string& what, const DecimationScan& scan, CloudError& error,
@@ -65,6 +86,12 @@ nlohmann::json measures(const std::string& what, const DecimationScan& scan, Clo
       {"non_manifold", validity.non_manifold_edges},
       {"degenerate", validity.degenerate_triangles},
   };
+  if (scan.sharp) {
+    const TriangleMesh from = sharp_edges(scan.start, kSharp), to = sharp_edges(mesh, kStillSharp);
+    if (!to.triangles.empty()) {
+      result["edges"] = percent(surface_distance(from.view(), ExactMesh(to.view())).lower);
+    }
+  }
   if (scan.true_distance) {
     const TrueDistance truth = true_distance(scan, mesh);
     result["true_greatest"] = percent(truth.greatest);

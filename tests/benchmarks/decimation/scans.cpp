@@ -88,7 +88,10 @@ DecimationScan decimation_scan(const CaseFolders& folders, std::string_view name
                        percent);
   }
   if (name == "fandisk") {
-    return vertices_of(folders, "fandisk.off", "fandisk.off and its vertices", percent);
+    DecimationScan scan =
+        vertices_of(folders, "fandisk.off", "fandisk.off and its vertices", percent);
+    scan.sharp = true;
+    return scan;
   }
   if (name == "building") {
     const std::vector<Point> cloud = read_cloud(folders.data / "building.ply").points;

@@ -18,6 +18,7 @@ struct DecimationScan {
   std::size_t left_out = 0;
   TriangleMesh start;
   double start_seconds = 0;                           // to make it of the mesh at hand
+  bool sharp = false;                                 // its sharp edges are to be kept
   std::function<double(const Point&)> true_distance;  // to the surface that was scanned, if known
 };
 
