@@ -9,6 +9,7 @@ case and writes nothing, a minute.
 """
 
 import argparse
+import hashlib
 import json
 import math
 import platform
@@ -51,7 +52,6 @@ def say(text):
 
 
 def fetch_fandisk():
-    import hashlib
     def there():
         return FANDISK.exists() and hashlib.sha256(FANDISK.read_bytes()).hexdigest() == FANDISK_SHA256
     if there():
@@ -195,7 +195,7 @@ def fewer(own, peer):
 
 
 def summary(store):
-    lines = ["| scan | bound, % | best peer | its triangles | its back, % | emax one-sided | deep | emax two-sided | deep |",
+    lines = ["| scan | ε, % | best peer | its triangles | its back, % | emax one-sided | deep | emax two-sided | deep |",
              "|---|---:|---|---:|---:|---:|---:|---:|---:|"]
     for scan, bounds in BOUNDS.items():
         for percent in bounds:
@@ -261,21 +261,27 @@ def machine():
     return platform.processor()
 
 
+EXPLAINED = """\
+Written by `./dev bench --decimate`. The fewest triangles such that every point of the cloud is within ε of the mesh
+(one-sided, e_max). emax is called once, and its certificate is in its time. Every peer is bisected over its own
+parameter, a number of triangles or its own bound, to the fewest triangles whose e_max, by our engine, is within the
+same ε; several sets of options are tried, and the best is told. CGAL's AABB-tree confirms e_max of every result. All
+start from the same mesh: manifold and free of self-intersections, with points farther than ε/2 joined to it, as emax
+starts; what that takes is in no time here.
+
+Back: the greatest distance from any point of the result to that start, which two-sided emax holds to ε too and the
+others do not bound. From sharp edges: the greatest distance from an edge of the start that turns by more than 40° to
+one of the result that turns by more than 25°. "s" is the call that gave the result, "all calls" the whole bisection
+with these options. Time of the processor, one thread.
+"""
+
+
 def section(store, plots):
     results = list(store.results.values())
     versions = {result["name"].split(",")[0]: result["version"] for result in results if "version" in result}
     seconds = sum(result.get("all_seconds", result.get("seconds", 0)) for result in results)
     parts = ["## Decimation\n",
-             "Written by `./dev bench --decimate`. The fewest triangles such that every point of the cloud is within ε "
-             "of the mesh (one-sided, e_max). emax is called once. Every peer is bisected over its own parameter, a "
-             "number of triangles or its own bound, to the fewest triangles whose e_max, by our engine, is within "
-             "the same ε; several sets of options are tried, and the best is told. CGAL's AABB-tree confirms e_max of "
-             "every result. All start from the same mesh: manifold and free of self-intersections, with points "
-             "farther than ε/2 joined to it, as emax starts; what that takes is in no time here. Back: the greatest "
-             "distance from any point of the result to that start, which two-sided emax holds to ε too and the "
-             "others do not bound. From sharp edges: the greatest distance from an edge of the start "
-             "that turns by more than 40° to one of the result that turns by more than 25°. \"s\" is the call that gave the result, \"all calls\" the whole bisection with "
-             "these options. Time of the processor, one thread.\n",
+             EXPLAINED,
              f"{machine()}; " + ", ".join(f"{name} {version}" for name, version in sorted(versions.items())) +
              f"; {seconds / 60:.0f} minutes of the tools' own time in all.\n",
              "Triangles, and in brackets against the best peer's, which is one-sided in every row:\n", summary(store)]
