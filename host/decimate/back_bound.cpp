@@ -28,8 +28,9 @@ struct BackBound::Plane {
       const Corner& from = corners[i];
       const Corner& to = corners[(i + 1) % 3];
       // Across, to the left of the side.
-      const double length = std::hypot(to.y - from.y, to.z - from.z);
-      line[i] = {-(to.z - from.z) / length, (to.y - from.y) / length, 0};
+      const double u = to.y - from.y, v = to.z - from.z;
+      const double length = std::sqrt(u * u + v * v);
+      line[i] = {-v / length, u / length, 0};
       line[i][2] = -(line[i][0] * from.y + line[i][1] * from.z);
       longest = std::max(longest, length);
     }
@@ -43,6 +44,20 @@ struct BackBound::Plane {
   Point lift(const Corner& c) const { return origin + c.y * along + c.z * across; }
   double inside(std::size_t side, const Corner& c) const {
     return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
+  }
+  // The sides that a corner is beyond.
+  unsigned beyond(const Corner& c) const {
+    unsigned sides = 0;
+    for (unsigned side = 0; side < 3; ++side) {
+      if (inside(side, c) < 0) sides |= 1u << side;
+    }
+    return sides;
+  }
+  // Whether T reaches to the right of the line from a to b.
+  bool reaches_over(const Corner& a, const Corner& b) const {
+    return std::ranges::any_of(corners, [&](const Corner& c) {
+      return (b.y - a.y) * (c.z - a.z) < (b.z - a.z) * (c.y - a.y);
+    });
   }
 
   Point origin, along, across, normal;
@@ -65,6 +80,22 @@ BackBound::BackBound(const TriangleMesh& reference, double limit)
       neighbours_[t][i] = first == t ? second : first;
     }
   }
+}
+
+BackBound::Sight BackBound::sight_from(const Point& p, std::uint32_t hint) const {
+  if (hint == kNoIndex) return sight(p);
+  double least = squared_distance(p, reference_.corners(hint));
+  for (std::uint32_t at = kNoIndex; at != hint;) {
+    at = hint;
+    for (const std::uint32_t next : neighbours_[at]) {
+      if (next == kNoIndex) continue;
+      const double squared = squared_distance(p, reference_.corners(next));
+      if (squared >= least) continue;
+      least = squared;
+      hint = next;
+    }
+  }
+  return {hint, std::min(least / squared_limit_, Sight{}.share)};
 }
 
 BackBound::Sight BackBound::sight(const Point& p, std::uint32_t hint) const {
@@ -114,6 +145,83 @@ std::uint32_t BackBound::under_centroid(const Plane& plane, std::uint32_t from) 
   return kNoIndex;
 }
 
+// The part of a triangle of the reference that is over T, into part_.
+void BackBound::clip(const Plane& plane, const std::array<Corner, 3>& r,
+                     const std::array<unsigned, 3>& beyond) const {
+  part_.assign(r.begin(), r.end());
+  const unsigned cutting = beyond[0] | beyond[1] | beyond[2];
+  for (unsigned side = 0; side < 3 && !part_.empty(); ++side) {
+    if ((cutting >> side & 1) == 0) continue;
+    clipped_.clear();
+    for (std::size_t i = 0; i < part_.size(); ++i) {
+      const Corner& a = part_[i];
+      const Corner& b = part_[(i + 1) % part_.size()];
+      const double at_a = plane.inside(side, a), at_b = plane.inside(side, b);
+      if (at_a >= 0) clipped_.push_back(a);
+      if ((at_a < 0) == (at_b < 0)) continue;
+      const double s = at_a / (at_a - at_b);
+      clipped_.push_back(
+          {a.y + s * (b.y - a.y), a.z + s * (b.z - a.z), a.height + s * (b.height - a.height)});
+    }
+    part_.swap(clipped_);
+  }
+}
+
+// From a triangle of the reference under T over every side that T reaches over. Where all of these
+// face the way T does and the sheet does not end, a way in T from the first triangle to any point
+// passes from one of them to the next, so they cover T; kNoSheet where they do not.
+BackBound::Sheet BackBound::follow_covering(const Plane& plane, std::uint32_t start) const {
+  ++search_;
+  seen_[start] = search_;
+  covering_.clear();
+  covering_.push_back({start, {}, {}});
+  const auto project = [&](std::uint32_t vertex, Covering& at, std::size_t i) {
+    at.corners[i] = plane.project(reference_.position(vertex));
+    at.beyond[i] = plane.beyond(at.corners[i]);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    project(reference_.triangle(start)[i], covering_.back(), i);
+  }
+  while (!covering_.empty()) {
+    const Covering at = covering_.back();
+    covering_.pop_back();
+    const std::array<Corner, 3>& r = at.corners;
+    const double u = r[1].y - r[0].y, v = r[1].z - r[0].z;
+    const double x = r[2].y - r[0].y, y = r[2].z - r[0].z;
+    const bool faces = u * y - v * x > kSteep * (u * u + v * v + x * x + y * y);
+    const bool flat = std::abs(r[0].height) <= limit_ && std::abs(r[1].height) <= limit_ &&
+                      std::abs(r[2].height) <= limit_;
+    if (!faces || !flat) {
+      clip(plane, r, at.beyond);
+      if (part_.empty()) continue;
+      if (!faces) return Sheet::kNoSheet;
+      if (!(part_distance(plane, part_, at.triangle) <= limit_)) return Sheet::kBeyond;
+    }
+    const Triangle& triangle = reference_.triangle(at.triangle);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if ((at.beyond[i] & at.beyond[j]) != 0 || !plane.reaches_over(r[i], r[j])) continue;
+      const std::uint32_t next = neighbours_[at.triangle][i];
+      if (next == kNoIndex) return Sheet::kNoSheet;
+      if (seen_[next] == search_) continue;
+      seen_[next] = search_;
+      Covering& over = covering_.emplace_back();
+      over.triangle = next;
+      const Triangle& t = reference_.triangle(next);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t[k] == triangle[i] || t[k] == triangle[j]) {
+          const std::size_t same = t[k] == triangle[i] ? i : j;
+          over.corners[k] = r[same];
+          over.beyond[k] = at.beyond[same];
+        } else {
+          project(t[k], over, k);
+        }
+      }
+    }
+  }
+  return Sheet::kWithin;
+}
+
 BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near) const {
   std::uint32_t start = under_centroid(plane, near);
   if (start == kNoIndex) {
@@ -125,6 +233,8 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
     start = under_centroid(plane, near);
   }
   if (start == kNoIndex) return Sheet::kNoSheet;
+  const Sheet covering = follow_covering(plane, start);
+  if (covering != Sheet::kNoSheet) return covering;
   ++search_;
   front_.assign(1, start);
   seen_[start] = search_;
@@ -136,31 +246,13 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
     front_.pop_back();
     const Triangle& triangle = reference_.triangle(t);
     std::array<Corner, 3> r;
-    std::array<unsigned, 3> beyond{};  // the sides of T that each corner is beyond
+    std::array<unsigned, 3> beyond{};
     for (std::size_t i = 0; i < 3; ++i) {
       r[i] = plane.project(reference_.position(triangle[i]));
-      for (unsigned side = 0; side < 3; ++side) {
-        if (plane.inside(side, r[i]) < 0) beyond[i] |= 1u << side;
-      }
+      beyond[i] = plane.beyond(r[i]);
     }
     if ((beyond[0] & beyond[1] & beyond[2]) != 0) continue;
-    part_.assign(r.begin(), r.end());
-    const unsigned cutting = beyond[0] | beyond[1] | beyond[2];
-    for (unsigned side = 0; side < 3 && !part_.empty(); ++side) {
-      if ((cutting >> side & 1) == 0) continue;
-      clipped_.clear();
-      for (std::size_t i = 0; i < part_.size(); ++i) {
-        const Corner& a = part_[i];
-        const Corner& b = part_[(i + 1) % part_.size()];
-        const double at_a = plane.inside(side, a), at_b = plane.inside(side, b);
-        if (at_a >= 0) clipped_.push_back(a);
-        if ((at_a < 0) == (at_b < 0)) continue;
-        const double s = at_a / (at_a - at_b);
-        clipped_.push_back(
-            {a.y + s * (b.y - a.y), a.z + s * (b.z - a.z), a.height + s * (b.height - a.height)});
-      }
-      part_.swap(clipped_);
-    }
+    clip(plane, r, beyond);
     if (part_.empty()) continue;
     double overlap = 0;
     for (std::size_t i = 2; i < part_.size(); ++i) {

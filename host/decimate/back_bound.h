@@ -38,6 +38,8 @@ class BackBound {
     double share = 16;  // squared distance / limit^2; 16 out of sight
   };
   Sight sight(const Point& p, std::uint32_t hint = kNoIndex) const;
+  // From triangle to triangle, as long as it gets nearer: perhaps not the nearest.
+  Sight sight_from(const Point& p, std::uint32_t hint) const;
   // From a point to its nearest in a triangle of the reference.
   Point toward(const Point& p, std::uint32_t triangle) const;
 
@@ -51,6 +53,15 @@ class BackBound {
   struct Plane;
   enum class Sheet { kWithin, kBeyond, kNoSheet };
 
+  struct Covering {
+    std::uint32_t triangle;
+    std::array<Corner, 3> corners;
+    std::array<unsigned, 3> beyond;  // the sides of T that each corner is beyond
+  };
+
+  Sheet follow_covering(const Plane& plane, std::uint32_t start) const;
+  void clip(const Plane& plane, const std::array<Corner, 3>& r,
+            const std::array<unsigned, 3>& beyond) const;
   Sheet follow_sheet(const Plane& plane, std::uint32_t near) const;
   std::uint32_t under_centroid(const Plane& plane, std::uint32_t from) const;
   bool covers_itself() const;
@@ -66,6 +77,7 @@ class BackBound {
   mutable std::vector<std::uint32_t> seen_;  // the search that last saw each triangle
   mutable std::uint32_t search_ = 0;
   mutable std::vector<std::uint32_t> front_;
+  mutable std::vector<Covering> covering_;
   mutable std::vector<Corner> part_, clipped_;
   mutable std::vector<std::array<Corner, 3>> sheet_;  // what was followed
   mutable std::vector<std::array<Point, 3>> pieces_;

@@ -7,6 +7,11 @@
 #include "host/geometry/triangle_pair.h"
 
 namespace emax {
+namespace {
+
+Point area_normal_of(const std::array<Point, 3>& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
+
+}  // namespace
 
 DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud,
                                  const BackBound* back, double squared_limit, const Guards& guards)
@@ -17,7 +22,11 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
       guards_(guards),
       assigned_(cloud.size(), mesh.triangles.size()),
       tree_(mesh_),
+      area_normals_(mesh.triangles.size()),
       sight_(mesh.vertices.size()) {
+  for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
+    area_normals_[slot] = area_normal_of(mesh_.corners(slot));
+  }
   reassign();
   if (back_ == nullptr) return;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -48,7 +57,8 @@ bool DecimationState::permits(const MeshEdit& edit) {
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);
   const auto judge = [&] {
     if (back_ != nullptr && edit.vertex != kNoIndex) {
-      moved_ = back_->sight(edit.position, sight_[edit.vertex].triangle);
+      moved_ = back_->sight_from(edit.position, sight_[edit.vertex].triangle);
+      if (!(moved_.share <= 1)) moved_ = back_->sight(edit.position, moved_.triangle);
     }
     if (back_ != nullptr && !guards_.skip_back_bound) {
       if (edit.vertex != kNoIndex && !(moved_.share <= 1)) return false;
@@ -141,11 +151,15 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   for (const MeshEdit::Answer& a : edit.answers) {
     assigned_.assign(a.point, a.added == kNoIndex ? a.slot : placed_[a.added], a.squared_distance);
   }
-  for (const std::uint32_t slot : edit.removed) tree_.update(mesh_, slot);
-  for (std::size_t i = edit.removed.size(); i < placed_.size(); ++i) {
-    tree_.update(mesh_, placed_[i]);
-  }
+  for (const std::uint32_t slot : edit.removed) changed(slot);
+  for (std::size_t i = edit.removed.size(); i < placed_.size(); ++i) changed(placed_[i]);
   rebuild_when_coarser();
+}
+
+void DecimationState::changed(std::uint32_t slot) {
+  tree_.update(mesh_, slot);
+  area_normals_.resize(mesh_.slots());
+  if (mesh_.alive(slot)) area_normals_[slot] = area_normal_of(mesh_.corners(slot));
 }
 
 void DecimationState::undo(const EditUndo& undo) {
@@ -162,7 +176,7 @@ void DecimationState::undo(const EditUndo& undo) {
   for (const MeshEdit::Answer& a : undo.answers) {
     assigned_.assign(a.point, a.slot, a.squared_distance);
   }
-  for (const EditUndo::Slot& s : undo.slots) tree_.update(mesh_, s.slot);
+  for (const EditUndo::Slot& s : undo.slots) changed(s.slot);
 }
 
 // Boxes grow looser as triangles go, and what was added is searched one by one.

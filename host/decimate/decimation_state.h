@@ -71,6 +71,8 @@ class DecimationState {
   const SlotTree& tree() const { return tree_; }
   const Point& point(std::uint32_t i) const { return cloud_[i]; }
   std::span<const Point> cloud() const { return cloud_; }
+  // Of the triangle in a slot: its normal, as long as twice its area.
+  const Point& area_normal(std::uint32_t slot) const { return area_normals_[slot]; }
   const BackBound* back() const { return back_; }
   const BackBound::Sight& sight(std::uint32_t vertex) const { return sight_[vertex]; }
   double squared_limit() const { return squared_limit_; }
@@ -98,6 +100,7 @@ class DecimationState {
  private:
   bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
+  void changed(std::uint32_t slot);
   void rebuild_when_coarser();
 
   EditableMesh mesh_;
@@ -107,6 +110,7 @@ class DecimationState {
   Guards guards_;
   AssignedPoints assigned_;
   SlotTree tree_;
+  std::vector<Point> area_normals_;      // of each slot
   std::vector<BackBound::Sight> sight_;  // of each vertex
   BackBound::Sight moved_;               // of the position of the edit last permitted
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles

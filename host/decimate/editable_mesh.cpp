@@ -8,7 +8,8 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh)
     : positions_(mesh.vertices),
       triangles_(mesh.triangles.size(), Triangle{kNoIndex, kNoIndex, kNoIndex}),
       first_(mesh.vertices.size(), kNoIndex),
-      next_(3 * mesh.triangles.size(), kNoIndex) {
+      next_(3 * mesh.triangles.size(), kNoIndex),
+      seen_(mesh.vertices.size(), 0) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) set(t, mesh.triangles[t]);
   closed_ = true;
   for (std::uint32_t v = 0; v < mesh.vertices.size() && closed_; ++v) {
@@ -19,6 +20,7 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh)
 std::uint32_t EditableMesh::add_vertex(const Point& at) {
   positions_.push_back(at);
   first_.push_back(kNoIndex);
+  seen_.push_back(0);
   return static_cast<std::uint32_t>(positions_.size() - 1);
 }
 
@@ -122,11 +124,18 @@ bool EditableMesh::collapsible(std::uint32_t a, std::uint32_t b) const {
     }
     if (joined[0] && joined[1]) return false;
   }
+  // Neighbours of both but the apexes.
+  const std::uint32_t seen = ++search_;
+  for_each_slot_at(b, [&](std::uint32_t slot) {
+    for (const std::uint32_t v : triangles_[slot]) seen_[v] = seen;
+  });
+  for (const std::uint32_t v : {a, b, apex[0], apex[1]}) {
+    if (v != kNoIndex) seen_[v] = 0;
+  }
   bool shares_only_apexes = true;
   for_each_slot_at(a, [&](std::uint32_t slot) {
     for (const std::uint32_t v : triangles_[slot]) {
-      if (v == a || v == b || v == apex[0] || v == apex[1]) continue;
-      if (slots_at_edge(b, v)[0] != kNoIndex) shares_only_apexes = false;
+      if (seen_[v] == seen) shares_only_apexes = false;
     }
   });
   return shares_only_apexes;

@@ -13,7 +13,8 @@ inline constexpr std::uint32_t kNoIndex = ~0u;
 
 // A manifold triangle mesh that is edited in place: triangles live in slots, and those of a vertex
 // hang in a list through their corners. Slots and vertices keep their numbers; free ones are
-// skipped by compact(). Every operation costs O(triangles around the vertices it names).
+// skipped by compact(). Every operation costs O(triangles around the vertices it names). Not for
+// concurrent use.
 class EditableMesh {
  public:
   explicit EditableMesh(const TriangleMesh& mesh);
@@ -69,8 +70,10 @@ class EditableMesh {
 
   std::vector<Point> positions_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> first_;  // of each vertex, 3 * slot + place
-  std::vector<std::uint32_t> next_;   // of each corner
+  std::vector<std::uint32_t> first_;         // of each vertex, 3 * slot + place
+  std::vector<std::uint32_t> next_;          // of each corner
+  mutable std::vector<std::uint32_t> seen_;  // the search that last saw each vertex
+  mutable std::uint32_t search_ = 0;
   std::size_t alive_ = 0;
   bool closed_ = false;
 };

@@ -20,11 +20,6 @@ Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
   return t;
 }
 
-Point normal_of(const EditableMesh& mesh, std::uint32_t slot) {
-  const auto [p, q, r] = mesh.corners(slot);
-  return (q - p).cross(r - p).normalized();
-}
-
 }  // namespace
 
 void LocalSearch::begin(std::uint32_t vertex, std::uint32_t other) {
@@ -41,7 +36,7 @@ void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
   t[0] = vertex_;
   removed_.push_back(slot);
   added_.push_back(t);
-  normals_.push_back(normal_of(state_.mesh(), slot));
+  normals_.push_back(state_.area_normal(slot).normalized());
 }
 
 void LocalSearch::take_points() {
@@ -95,7 +90,9 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   removed_.assign({first, second});
   added_.assign({{a, d, c}, {d, b, c}});
   // Either new triangle replaces a part of both: judged by the mean.
-  normals_.assign(2, (normal_of(mesh, first) + normal_of(mesh, second)).normalized());
+  normals_.assign(2,
+                  (state_.area_normal(first).normalized() + state_.area_normal(second).normalized())
+                      .normalized());
   take_points();
   return true;
 }
@@ -124,14 +121,14 @@ Point LocalSearch::quadric_optimum() const {
     right += weight * normal.dot(at - start) * normal;
   };
   for (const std::uint32_t slot : removed_) {
-    const auto [p, q, r] = mesh.corners(slot);
-    const Point normal = (q - p).cross(r - p);
-    plane(normal, p, 1);
     const Triangle& t = mesh.triangle(slot);
+    const Point& normal = state_.area_normal(slot);
+    plane(normal, mesh.position(t[0]), 1);
+    if (mesh.closed()) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t from = t[i], to = t[(i + 1) % 3];
       const bool at_vertex = from == vertex_ || to == vertex_ || from == other_ || to == other_;
-      if (mesh.closed() || !at_vertex || mesh.slots_at_edge(from, to)[1] != kNoIndex) continue;
+      if (!at_vertex || mesh.slots_at_edge(from, to)[1] != kNoIndex) continue;
       const Point side = mesh.position(to) - mesh.position(from);
       plane(side.cross(normal).normalized() * side.norm() * side.norm(), mesh.position(from), 1);
     }
@@ -175,7 +172,7 @@ Fit LocalSearch::measured(const Point& position, int power) {
   }
   // Between two surfaces of flat pieces the greatest distances are at vertices of either.
   if (watch_back_) {
-    sight_ = state_.back()->sight(position, sight_.triangle);
+    sight_ = state_.back()->sight_from(position, sight_.triangle);
     fit.energy += power_of(sight_.share, power);
     fit.worst = std::max(fit.worst, sight_.share);
   }
