@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host/decimate/local_distance.h"
+#include "host/decimate/spatial_order.h"
 
 namespace emax {
 namespace {
@@ -67,17 +68,18 @@ struct BackBound::Plane {
 };
 
 BackBound::BackBound(const TriangleMesh& reference, double limit)
-    : reference_(reference),
+    : reference_(spatially_ordered(reference)),
       tree_(reference_),
       limit_(limit),
       squared_limit_(limit * limit),
-      neighbours_(reference.triangles.size(), {kNoIndex, kNoIndex, kNoIndex}),
-      seen_(reference.triangles.size(), 0) {
-  for (std::uint32_t t = 0; t < reference.triangles.size(); ++t) {
-    const Triangle& triangle = reference.triangles[t];
+      faces_(reference_.slots()) {
+  for (std::uint32_t t = 0; t < reference_.slots(); ++t) {
+    Face& face = faces_[t];
+    face.corners = reference_.triangle(t);
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto [first, second] = reference_.slots_at_edge(triangle[i], triangle[(i + 1) % 3]);
-      neighbours_[t][i] = first == t ? second : first;
+      const auto [first, second] =
+          reference_.slots_at_edge(face.corners[i], face.corners[(i + 1) % 3]);
+      face.neighbours[i] = first == t ? second : first;
     }
   }
 }
@@ -87,7 +89,7 @@ BackBound::Sight BackBound::sight_from(const Point& p, std::uint32_t hint) const
   double least = squared_distance(p, reference_.corners(hint));
   for (std::uint32_t at = kNoIndex; at != hint;) {
     at = hint;
-    for (const std::uint32_t next : neighbours_[at]) {
+    for (const std::uint32_t next : faces_[at].neighbours) {
       if (next == kNoIndex) continue;
       const double squared = squared_distance(p, reference_.corners(next));
       if (squared >= least) continue;
@@ -123,7 +125,7 @@ std::uint32_t BackBound::under_centroid(const Plane& plane, std::uint32_t from) 
   for (int step = 0; step < kMostSteps && from != kNoIndex; ++step) {
     std::array<Corner, 3> r;
     for (std::size_t i = 0; i < 3; ++i) {
-      r[i] = plane.project(reference_.position(reference_.triangle(from)[i]));
+      r[i] = plane.project(reference_.position(faces_[from].corners[i]));
     }
     double least = 0;
     std::size_t side = 3;
@@ -140,7 +142,7 @@ std::uint32_t BackBound::under_centroid(const Plane& plane, std::uint32_t from) 
     }
     if (!(area > 0)) return kNoIndex;
     if (side == 3) return from;
-    from = neighbours_[from][side];
+    from = faces_[from].neighbours[side];
   }
   return kNoIndex;
 }
@@ -172,7 +174,7 @@ void BackBound::clip(const Plane& plane, const std::array<Corner, 3>& r,
 // passes from one of them to the next, so they cover T; kNoSheet where they do not.
 BackBound::Sheet BackBound::follow_covering(const Plane& plane, std::uint32_t start) const {
   ++search_;
-  seen_[start] = search_;
+  faces_[start].seen = search_;
   covering_.clear();
   covering_.push_back({start, {}, {}});
   const auto project = [&](std::uint32_t vertex, Covering& at, std::size_t i) {
@@ -180,7 +182,7 @@ BackBound::Sheet BackBound::follow_covering(const Plane& plane, std::uint32_t st
     at.beyond[i] = plane.beyond(at.corners[i]);
   };
   for (std::size_t i = 0; i < 3; ++i) {
-    project(reference_.triangle(start)[i], covering_.back(), i);
+    project(faces_[start].corners[i], covering_.back(), i);
   }
   while (!covering_.empty()) {
     const Covering at = covering_.back();
@@ -197,20 +199,20 @@ BackBound::Sheet BackBound::follow_covering(const Plane& plane, std::uint32_t st
       if (!faces) return Sheet::kNoSheet;
       if (!(part_distance(plane, part_, at.triangle) <= limit_)) return Sheet::kBeyond;
     }
-    const Triangle& triangle = reference_.triangle(at.triangle);
+    const Face& face = faces_[at.triangle];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if ((at.beyond[i] & at.beyond[j]) != 0 || !plane.reaches_over(r[i], r[j])) continue;
-      const std::uint32_t next = neighbours_[at.triangle][i];
+      const std::uint32_t next = face.neighbours[i];
       if (next == kNoIndex) return Sheet::kNoSheet;
-      if (seen_[next] == search_) continue;
-      seen_[next] = search_;
+      if (faces_[next].seen == search_) continue;
+      faces_[next].seen = search_;
       Covering& over = covering_.emplace_back();
       over.triangle = next;
-      const Triangle& t = reference_.triangle(next);
+      const Triangle& t = faces_[next].corners;
       for (std::size_t k = 0; k < 3; ++k) {
-        if (t[k] == triangle[i] || t[k] == triangle[j]) {
-          const std::size_t same = t[k] == triangle[i] ? i : j;
+        if (t[k] == face.corners[i] || t[k] == face.corners[j]) {
+          const std::size_t same = t[k] == face.corners[i] ? i : j;
           over.corners[k] = r[same];
           over.beyond[k] = at.beyond[same];
         } else {
@@ -237,14 +239,14 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
   if (covering != Sheet::kNoSheet) return covering;
   ++search_;
   front_.assign(1, start);
-  seen_[start] = search_;
+  faces_[start].seen = search_;
   sheet_.clear();
   bool ends = false;
   double covered = 0, worst = 0;
   while (!front_.empty()) {
     const std::uint32_t t = front_.back();
     front_.pop_back();
-    const Triangle& triangle = reference_.triangle(t);
+    const Triangle& triangle = faces_[t].corners;
     std::array<Corner, 3> r;
     std::array<unsigned, 3> beyond{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -274,10 +276,10 @@ BackBound::Sheet BackBound::follow_sheet(const Plane& plane, std::uint32_t near)
     if (!(worst <= limit_)) return Sheet::kBeyond;
     for (std::size_t i = 0; i < 3; ++i) {
       if ((beyond[i] & beyond[(i + 1) % 3]) != 0) continue;
-      const std::uint32_t next = neighbours_[t][i];
+      const std::uint32_t next = faces_[t].neighbours[i];
       ends = ends || next == kNoIndex;
-      if (next == kNoIndex || seen_[next] == search_) continue;
-      seen_[next] = search_;
+      if (next == kNoIndex || faces_[next].seen == search_) continue;
+      faces_[next].seen = search_;
       front_.push_back(next);
     }
   }

@@ -29,6 +29,11 @@ class BackBound {
   BackBound(const TriangleMesh& reference, double limit);
 
   double limit() const { return limit_; }
+  // Shares of sights seen before are of the former limit.
+  void set_limit(double limit) {
+    limit_ = limit;
+    squared_limit_ = limit * limit;
+  }
   const EditableMesh& reference() const { return reference_; }
 
   // Where a point is seen from the reference: its nearest triangle, kNoIndex beyond twice the
@@ -72,9 +77,13 @@ class BackBound {
   EditableMesh reference_;
   SlotTree tree_;
   double limit_, squared_limit_;
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;  // through the side that begins at a place
-
-  mutable std::vector<std::uint32_t> seen_;  // the search that last saw each triangle
+  // What following the sheet reads of a triangle, in one place.
+  struct Face {
+    Triangle corners;
+    std::array<std::uint32_t, 3> neighbours;  // through the side that begins at each corner
+    std::uint32_t seen = 0;                   // the search that last saw it
+  };
+  mutable std::vector<Face> faces_;
   mutable std::uint32_t search_ = 0;
   mutable std::vector<std::uint32_t> front_;
   mutable std::vector<Covering> covering_;

@@ -7,6 +7,7 @@
 #include "host/decimate/decimation_passes.h"
 #include "host/decimate/far_points.h"
 #include "host/decimate/manifold_part.h"
+#include "host/decimate/spatial_order.h"
 #include "host/geometry/bounds.h"
 #include "sw_model/error.h"
 
@@ -22,12 +23,13 @@ constexpr double kMargin = 1e-7;
 constexpr double kBelongs = 0.1;  // of the mesh's width
 
 // Of the time that is thought to be left, what the passes take.
-constexpr double kFirstPass = 0.75, kOtherPass = 0.3;
+constexpr double kSweeps = 0.4, kOtherPass = 0.3;
 
-double greatest_coordinate(const TriangleMesh& mesh, std::span<const Point> cloud) {
+double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
-  for (const Point& p : mesh.vertices) greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
-  for (const Point& p : cloud) greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
+  for (const std::span<const Point> points : sets) {
+    for (const Point& p : points) greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
+  }
   return greatest;
 }
 
@@ -43,17 +45,16 @@ double limit_of(double epsilon, double roundings) {
   return epsilon * (1 - kMargin) - roundings;
 }
 
-void require_belonging(const TriangleMesh& mesh, std::span<const Point> cloud) {
-  const double width = bounds_of(mesh.vertices).width();
-  const DecimationState state(mesh, cloud, nullptr, kBelongs * kBelongs * width * width, {});
+void require_belonging(const DecimationState& state) {
+  const AssignedPoints& assigned = state.assigned();
   std::size_t away = 0;
-  for (std::uint32_t p = 0; p < cloud.size(); ++p) {
-    if (state.assigned().owner(p) == kNoIndex) ++away;
+  for (std::uint32_t p = 0; p < assigned.size(); ++p) {
+    if (assigned.owner(p) == kNoIndex) ++away;
   }
-  if (2 * away > cloud.size()) {
+  if (2 * away > assigned.size()) {
     throw Error(
         "the cloud does not belong to the mesh: " + std::to_string(away) + " of " +
-        std::to_string(cloud.size()) +
+        std::to_string(assigned.size()) +
         " points are farther from it than a tenth of its width; give the mesh's own cloud, in "
         "its unit");
   }
@@ -68,43 +69,88 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
   if (part.mesh.triangles.empty()) {
     throw Error("the mesh has no triangle of any area that could be decimated; reconstruct first");
   }
-  require_belonging(part.mesh, cloud);
-  FarPoints inserted = insert_far_points(part.mesh, cloud, far, interrupted);
+  const double reach = std::max(far, kBelongs * bounds_of(part.mesh.vertices).width());
+  DecimationState state(part.mesh, cloud, nullptr, reach * reach, {}, interrupted);
+  if (!interrupted || !interrupted()) require_belonging(state);
+  FarPoints inserted = insert_far_points(state, far, interrupted);
   return {std::move(inserted.mesh), part.dropped, inserted.inserted, std::move(inserted.left_out)};
+}
+
+// What runs share: the cloud along a curve and the trees of the reference.
+struct BoundedDecimator::Prepared {
+  std::vector<std::uint32_t> order;
+  std::vector<Point> cloud;  // in that order
+  std::unique_ptr<BackBound> back;
+};
+
+const BoundedDecimator::Prepared& BoundedDecimator::prepared(double back_limit) const {
+  if (prepared_ == nullptr) {
+    prepared_ = std::make_shared<Prepared>();
+    prepared_->order = spatial_order(cloud_);
+    prepared_->cloud.reserve(cloud_.size());
+    for (const std::uint32_t p : prepared_->order) prepared_->cloud.push_back(cloud_[p]);
+  }
+  if (back_limit > 0) {
+    if (prepared_->back == nullptr) {
+      prepared_->back = std::make_unique<BackBound>(reference_, back_limit);
+    }
+    prepared_->back->set_limit(back_limit);
+  }
+  return *prepared_;
 }
 
 DecimatedMesh BoundedDecimator::run(const TriangleMesh& start,
                                     const DecimationSettings& settings) const {
+  return run(start, settings, 0);
+}
+
+DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationSettings& settings,
+                                    double reach) const {
   if (start.triangles.empty()) throw Error("the mesh has no triangles to decimate");
-  const double roundings = kRoundings * greatest_coordinate(start, cloud_);
+  const double roundings =
+      kRoundings * greatest_coordinate({start.vertices, reference_.vertices, cloud_});
   const double limit = limit_of(settings.epsilon, roundings);
-  std::unique_ptr<BackBound> back;
+  double back_limit = 0;
   if (settings.two_sided) {
     const bool own = settings.epsilon_back > 0;
-    const double epsilon_back = own ? settings.epsilon_back : settings.epsilon;
-    back = std::make_unique<BackBound>(reference_, limit_of(epsilon_back, roundings));
+    back_limit = limit_of(own ? settings.epsilon_back : settings.epsilon, roundings);
   }
+  const Prepared& known = prepared(back_limit);
   DecimationState::Guards guards;
   guards.normal_cosine = settings.normal_cosine;
   guards.flatness = settings.flatness;
+  guards.squared_reach = reach * reach;
   guards.skip_points = settings.fault == Fault::kSkipsPoints;
   guards.skip_back_bound = settings.fault == Fault::kSkipsBackBound;
   guards.skip_intersections = settings.fault == Fault::kSkipsIntersections;
-  DecimationState state(start, cloud_, back.get(), limit * limit, guards);
+  const TriangleMesh ordered = spatially_ordered(start);
+  DecimationState state(ordered, known.cloud, settings.two_sided ? known.back.get() : nullptr,
+                        limit * limit, guards, settings.interrupted);
 
   DecimatedMesh result;
-  for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
-    if (state.assigned().owner(p) == kNoIndex) result.left_out.push_back(p);
+  for (std::uint32_t p = 0; p < known.cloud.size(); ++p) {
+    if (state.assigned().owner(p) == kNoIndex) result.left_out.push_back(known.order[p]);
   }
-  double begun = 0, weight = settings.effort == Effort::kCollapse ? 1 : kFirstPass;
-  DecimationPasses passes(state, [&](double done) {
+  std::ranges::sort(result.left_out);
+  DecimationPasses::Options options;
+  options.length_weight = settings.length_weight;
+  if (settings.feature_angle > 0) options.features = FeatureEdges(ordered, settings.feature_angle);
+  const bool hoppe = settings.objective == DecimationSettings::Objective::kHoppe;
+  if (hoppe) {
+    const double width = bounds_of(reference_.vertices).width();
+    options.spring = settings.hoppe.spring;
+    options.representation = settings.hoppe.representation * width * width / (limit * limit);
+  }
+  const bool single = hoppe || settings.effort == Effort::kSweep;
+  double begun = 0, weight = single ? 1 : kSweeps;
+  DecimationPasses passes(state, std::move(options), [&](double done) {
     if (settings.advanced) settings.advanced(begun + weight * done, state.mesh().triangles());
     return settings.interrupted && settings.interrupted();
   });
   const auto tell = [&](const char* pass, std::size_t edits) {
     if (settings.progress) settings.progress(pass, edits, state.mesh().triangles());
     begun += weight;
-    weight = (1 - begun) * kOtherPass;
+    weight = (1 - begun) * (settings.effort == Effort::kCollapse ? 1 : kOtherPass);
     return edits;
   };
   const auto relax = [&] {
@@ -112,8 +158,13 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start,
     tell("moves", passes.relocate(4));
     return tell("collapses", passes.collapse());
   };
-  tell("collapses", passes.collapse());
-  if (settings.effort != Effort::kCollapse) {
+  if (hoppe) {
+    tell("descent", passes.descend());
+  } else {
+    tell("sweeps", passes.sweep());
+    if (settings.effort != Effort::kSweep) tell("collapses", passes.collapse());
+  }
+  if (!single && settings.effort != Effort::kCollapse && !passes.stopped()) {
     state.reassign();
     tell("moves", passes.relocate(4));
     relax();

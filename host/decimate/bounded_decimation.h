@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "host/decimate/hoppe_energy.h"
 #include "host/geometry/triangle_mesh.h"
 
 namespace emax {
@@ -21,7 +23,8 @@ struct ReferenceSurface {
 
 // `far`: epsilon / 2 leaves decimation room at once. Throws Error for a mesh without a usable
 // triangle, a cloud without points, or one that does not belong to the mesh: most of its points
-// are farther from it than a tenth of its width.
+// are farther from it than a tenth of its width. `interrupted` is polled now and then; true ends
+// the work with the mesh at hand.
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
                                    double far, const std::function<bool()>& interrupted = nullptr);
 
@@ -31,13 +34,26 @@ struct DecimationSettings {
   double epsilon_back = 0;  // and every point of the mesh within this of the reference; 0: epsilon
 
   enum class Effort {
-    kCollapse,  // edge collapses alone
+    kSweep,     // edge collapses far below the bounds, which leave a few times the fewest triangles
+    kCollapse,  // and the others
     kRelax,     // and vertices moved, edges turned, collapses that these make possible
     kDeep,      // the same until nothing is gained
   } effort = Effort::kRelax;
 
   double normal_cosine = 0.2;  // least, between a triangle and the one that it replaces
   double flatness = 1e-3;      // least height of a new triangle over its longest side
+
+  // What edges cost in the order of collapses: times (length / epsilon)^2.
+  double length_weight = 0;
+  // In degrees; over 0, edges of the start over which its normals turn by more are features: they
+  // and the corners where they meet or end stay (VertexClass).
+  double feature_angle = 0;
+
+  enum class Objective {
+    kFewest,  // triangles
+    kHoppe,   // the least of Hoppe's energy, within the same bounds; `effort` does not matter
+  } objective = Objective::kFewest;
+  HoppeWeights hoppe;
 
   // Polled now and then; true ends the work with the mesh at hand, which is valid and within the
   // bounds.
@@ -72,7 +88,11 @@ struct DecimatedMesh {
 // (BackBound), and nothing intersects. Vertices are then moved and edges turned to lower the sum,
 // and collapses that break the bound are tried and undone unless moves and turns around mend it.
 //
-// Same input and settings, same bytes. About O(n log n) in the triangles of the start.
+// While errors are far below epsilon, collapses are made in sweeps along a space-filling curve,
+// each of edges that do not touch.
+//
+// Same input and settings, same bytes. About O(n log n) in the triangles of the start. What depends
+// on the reference and the cloud alone is kept from run to run; not for concurrent use.
 class BoundedDecimator {
  public:
   // `reference` is as reference_surface() gives it; it and the cloud outlive the decimator.
@@ -87,8 +107,17 @@ class BoundedDecimator {
   DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings) const;
 
  private:
+  friend class DecimationSequence;
+  struct Prepared;
+
+  const Prepared& prepared(double back_limit) const;
+  // Points up to `reach` from the start, if that is more than epsilon, keep collapses off.
+  DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings,
+                    double reach) const;
+
   const TriangleMesh& reference_;
   std::span<const Point> cloud_;
+  mutable std::shared_ptr<Prepared> prepared_;
 };
 
 }  // namespace emax

@@ -10,10 +10,16 @@ constexpr double kHopeless = 4;    // squared distance / limit^2 from which fine
 constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
 constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
 
+constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
+constexpr double kLeastSwept = 0.1;  // the share of the triangles that a sweep takes
+
 }  // namespace
 
-DecimationPasses::DecimationPasses(DecimationState& state, Poll poll)
-    : state_(state), poll_(std::move(poll)), search_(state) {}
+DecimationPasses::DecimationPasses(DecimationState& state, Options options, Poll poll)
+    : state_(state),
+      options_(std::move(options)),
+      poll_(std::move(poll)),
+      search_(state, options_.spring) {}
 
 bool DecimationPasses::poll(double done) {
   if (!stopped_ && poll_ && ++polls_ % 64 == 0) stopped_ = poll_(done);
@@ -43,33 +49,59 @@ std::vector<std::array<std::uint32_t, 2>> DecimationPasses::edges() const {
 }
 
 bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candidate) {
+  const FeatureEdges::Collapse feature = options_.features.permitted(a, b);
+  if (feature == FeatureEdges::Collapse::kForbidden) return false;
+  candidate.a = a;
+  candidate.b = b;
+  candidate.stamp = edits_;
   if (!search_.prepare_collapse(a, b)) return false;
-  const Point& pa = state_.mesh().position(a);
-  const Point& pb = state_.mesh().position(b);
+  const Point pa = state_.mesh().position(a), pb = state_.mesh().position(b);
+  candidate.cost = options_.length_weight * (pa - pb).squaredNorm() / state_.squared_limit();
+  const bool hoppe = options_.representation > 0;
+  LocalSearch::Options options;
+  if (hoppe) options.power = 2;
+  const double before = search_.energy_before(options.power) + options_.representation;
+  Fit fit;
+  if (feature != FeatureEdges::Collapse::kAnywhere) {
+    const Point& kept = feature == FeatureEdges::Collapse::kAtFirst ? pa : pb;
+    if (!search_.evaluate(kept, options.power, fit)) return false;
+    if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
+  } else if (hoppe) {
+    bool any = false;
+    for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
+      Fit other;
+      if (!search_.fit(start, options, other)) continue;
+      if (!any || other.energy < fit.energy) fit = other;
+      any = true;
+    }
+    if (!any || fit.worst > 1) return false;
+  } else if (!place(pa, pb, fit)) {
+    return false;
+  }
+  if (hoppe && !(fit.energy < before)) return false;
+  candidate.cost += fit.energy - before;
+  candidate.fit = std::move(fit);
+  return true;
+}
+
+// Where the energy of the collapse prepared is least, if that may be within the limit.
+bool DecimationPasses::place(const Point& pa, const Point& pb, Fit& fit) {
   LocalSearch::Options options;
   if (search_.fine()) options.steps = 0;
-  Fit fit;
   bool any = search_.fit(search_.quadric_optimum(), options, fit);
   for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
     if (any) break;
     any = search_.fit(start, options, fit);
   }
   if (!any || fit.worst > kHopeless) return false;
-  if (fit.worst > 1) {
-    options.power = 8;
-    options.steps = 8;
-    Fit finer;
-    if (search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
-      search_.evaluate(finer.position, 4, fit);
-    }
-    if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
+  if (fit.worst <= 1) return true;
+  options.power = 8;
+  options.steps = 8;
+  Fit finer;
+  if (search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
+    search_.evaluate(finer.position, 4, fit);
   }
-  candidate.cost = fit.energy - search_.energy_before(4);
-  candidate.a = a;
-  candidate.b = b;
-  candidate.fit = std::move(fit);
-  candidate.stamp = edits_;
-  return true;
+  return fit.worst <= 1 || search_.finish(fit, true, edit_);
 }
 
 void DecimationPasses::push(std::uint32_t a, std::uint32_t b) {
@@ -82,8 +114,55 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
   if (!search_.prepare_collapse(candidate.a, candidate.b)) return false;
   if (!search_.finish(candidate.fit, true, edit_)) return false;
   if (!state_.permits(edit_)) return false;
-  state_.apply(edit_);
+  make_collapse(candidate.a, candidate.b);
   return true;
+}
+
+void DecimationPasses::make_collapse(std::uint32_t a, std::uint32_t b) {
+  if (!options_.features.empty()) state_.mesh().neighbours(b, of_b_);
+  state_.apply(edit_);
+  options_.features.collapsed(a, b, of_b_);
+}
+
+bool DecimationPasses::try_plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
+  if (options_.features.permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
+  if (!search_.prepare_collapse(a, b)) return false;
+  LocalSearch::Options options;
+  options.steps = 0;
+  Fit fit;
+  if (!search_.fit(search_.quadric_optimum(), options, fit) || fit.worst > most) return false;
+  return search_.finish(fit, true, edit_) && state_.permits(edit_);
+}
+
+std::size_t DecimationPasses::sweep() {
+  const EditableMesh& mesh = state_.mesh();
+  const std::size_t start = mesh.triangles();
+  const auto slots = static_cast<std::uint32_t>(mesh.slots());
+  std::size_t collapses = 0, before = start;
+  for (double most = kFirstSweep;; most = std::min(kLastSweep, most * kSweepGrowth)) {
+    touched_.assign(mesh.vertex_slots(), 0);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) {
+      // What is left falls, a share of it each time.
+      if (poll(1 - static_cast<double>(mesh.triangles()) / static_cast<double>(start))) break;
+      if (!mesh.alive(slot)) continue;
+      const Triangle t = mesh.triangle(slot);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+        if (touched_[a] != 0 || touched_[b] != 0 || !try_plain_collapse(a, b, most)) continue;
+        make_collapse(a, b);
+        ++collapses;
+        mesh.neighbours(a, around_);
+        for (const std::uint32_t v : around_) touched_[v] = 1;
+        touched_[a] = 1;
+        break;
+      }
+    }
+    if (stopped_ ||
+        static_cast<double>(mesh.triangles()) > (1 - kLeastSwept) * static_cast<double>(before)) {
+      return collapses;
+    }
+    before = mesh.triangles();
+  }
 }
 
 std::size_t DecimationPasses::collapse() {
@@ -126,6 +205,7 @@ std::size_t DecimationPasses::collapse() {
 }
 
 bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limit) {
+  if (options_.features.vertex_class(vertex) == VertexClass::kCorner) return false;
   if (!search_.prepare_relocation(vertex)) return false;
   const double before = search_.energy_before(power);
   Fit fit;
@@ -138,7 +218,7 @@ bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limi
 }
 
 bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit) {
-  if (!search_.prepare_flip(a, b)) return false;
+  if (options_.features.on(a, b) || !search_.prepare_flip(a, b)) return false;
   const double before = search_.energy_before(power);
   Fit fit;
   if (!search_.evaluate(Point::Zero(), power, fit)) return false;
@@ -156,6 +236,18 @@ std::size_t DecimationPasses::relocate(int power) {
     ++moved;
   }
   return moved;
+}
+
+std::size_t DecimationPasses::descend() {
+  constexpr int kRounds = 8;
+  std::size_t edits = 0;
+  for (int round = 0; round < kRounds && !stopped_; ++round) {
+    const std::size_t collapses = collapse();
+    const std::size_t others = flip(2) + relocate(2);
+    edits += collapses + others;
+    if (collapses == 0 && 100 * others < state_.mesh().triangles()) break;
+  }
+  return edits;
 }
 
 std::size_t DecimationPasses::flip(int power) {
@@ -229,6 +321,7 @@ std::size_t DecimationPasses::collapse_and_mend() {
     Fit fit;
   };
   const auto judge_trial = [&](std::uint32_t a, std::uint32_t b, Trial& trial) {
+    if (options_.features.permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
     if (!search_.prepare_collapse(a, b)) return false;
     LocalSearch::Options options;
     options.power = 8;
@@ -265,8 +358,10 @@ std::size_t DecimationPasses::collapse_and_mend() {
     if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_)) continue;
     undo_.clear();
     unsettled_.clear();
+    mesh.neighbours(trial.b, of_b_);
     apply(true);
     if (all_within(unsettled_) || mend(trial.a)) {
+      options_.features.collapsed(trial.a, trial.b, of_b_);
       ++collapses;
       continue;
     }

@@ -6,6 +6,7 @@
 #include <queue>
 #include <vector>
 
+#include "host/decimate/feature_edges.h"
 #include "host/decimate/local_search.h"
 
 namespace emax {
@@ -17,11 +18,23 @@ class DecimationPasses {
   // Told now and then how much of the pass at hand is done, from 0 to 1; true ends the pass after
   // the edit at hand.
   using Poll = std::function<bool(double)>;
-  DecimationPasses(DecimationState& state, Poll poll);
+  struct Options {
+    FeatureEdges features;     // which collapses and turns keep
+    double length_weight = 0;  // of (an edge's length / epsilon)^2 in the order of the collapses
+    // Hoppe's objective: what an edge's squared length costs, and what a vertex less is worth in
+    // units of epsilon^2. A collapse is then made only where it lowers the energy.
+    double spring = 0, representation = 0;
+  };
+  DecimationPasses(DecimationState& state, Options options, Poll poll);
 
+  // Edge collapses far below the limit in sweeps over the mesh, each of edges that do not touch,
+  // the vertex where the planes' quadrics have it; until a sweep gains little. Returns how many.
+  std::size_t sweep();
   // Edge collapses, the one that adds least to the energy first, until none is left that the limit
   // and the guards permit. Returns how many.
   std::size_t collapse();
+  // The same for Hoppe's energy, of power 2: collapses, turns and moves until none lowers it.
+  std::size_t descend();
   // Moves each vertex where the energy of its points is least. Returns how many moved.
   std::size_t relocate(int power);
   // Turns each edge for which that lowers the energy. Returns how many.
@@ -48,7 +61,10 @@ class DecimationPasses {
   bool poll(double done);
   bool poll(std::size_t at, std::size_t of);
   bool judge(std::uint32_t a, std::uint32_t b, Candidate& candidate);
+  bool place(const Point& a, const Point& b, Fit& fit);
+  void make_collapse(std::uint32_t a, std::uint32_t b);
   void push(std::uint32_t a, std::uint32_t b);
+  bool try_plain_collapse(std::uint32_t a, std::uint32_t b, double most);
   bool apply_collapse(const Candidate& candidate);
   bool try_relocation(std::uint32_t vertex, int power, bool limit);
   bool try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
@@ -58,6 +74,7 @@ class DecimationPasses {
   std::vector<std::array<std::uint32_t, 2>> edges() const;
 
   DecimationState& state_;
+  Options options_;
   Poll poll_;
   LocalSearch search_;
   MeshEdit edit_;
@@ -66,7 +83,7 @@ class DecimationPasses {
   std::uint64_t edits_ = 0;
   std::uint64_t polls_ = 0;
   bool stopped_ = false;
-  std::vector<std::uint32_t> around_, of_a_;  // scratch
+  std::vector<std::uint32_t> around_, of_a_, of_b_;  // scratch
   std::vector<EditUndo> undo_;
   std::vector<std::uint32_t> unsettled_;  // points beyond the limit
 };

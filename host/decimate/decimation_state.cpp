@@ -9,12 +9,26 @@
 namespace emax {
 namespace {
 
+constexpr std::uint32_t kPollEvery = 4096;
+
+// A normal, of cross products, times a difference: each rounds a few units of 2^-53.
+constexpr double kPlaneRoundings = 0x1p-47;
+
+SlotTree::Box joined(SlotTree::Box a, const SlotTree::Box& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    a.lower[i] = std::min(a.lower[i], b.lower[i]);
+    a.upper[i] = std::max(a.upper[i], b.upper[i]);
+  }
+  return a;
+}
+
 Point area_normal_of(const std::array<Point, 3>& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
 
 }  // namespace
 
 DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                 const BackBound* back, double squared_limit, const Guards& guards)
+                                 const BackBound* back, double squared_limit, const Guards& guards,
+                                 const Interrupted& interrupted)
     : mesh_(mesh),
       cloud_(cloud),
       back_(back),
@@ -27,24 +41,29 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
   for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
     area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
-  reassign();
-  if (back_ == nullptr) return;
+  if (!reassign(interrupted) || back_ == nullptr) return;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    sight_[v] = back_->sight(mesh.vertices[v]);
+    sight_[v] = back_->sight(mesh.vertices[v], v == 0 ? kNoIndex : sight_[v - 1].triangle);
   }
 }
 
-void DecimationState::reassign() {
+bool DecimationState::reassign(const Interrupted& interrupted) {
+  std::uint32_t last = kNoIndex;
   for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
+    if (p % kPollEvery == 0 && interrupted && interrupted()) return false;
     const std::uint32_t owner = assigned_.owner(p);
     // A little more than the distance known, so that its triangle is found again.
-    const double known = owner == kNoIndex ? squared_limit_ : assigned_.squared_distance(p);
+    const double known = owner == kNoIndex ? std::max(squared_limit_, guards_.squared_reach)
+                                           : assigned_.squared_distance(p);
     const SlotTree::Nearest nearest =
-        tree_.nearest(mesh_, cloud_[p], known * (1 + 1e-9) + std::numeric_limits<double>::min());
+        tree_.nearest(mesh_, cloud_[p], known * (1 + 1e-9) + std::numeric_limits<double>::min(),
+                      owner == kNoIndex ? last : owner);
     if (nearest.slot == kNoIndex) continue;
+    last = nearest.slot;
     if (owner != kNoIndex && nearest.squared_distance >= assigned_.squared_distance(p)) continue;
     assigned_.assign(p, nearest.slot, nearest.squared_distance);
   }
+  return true;
 }
 
 std::uint32_t DecimationState::add_vertex(const Point& at) {
@@ -92,21 +111,38 @@ bool DecimationState::meets_itself(const MeshEdit& edit) const {
 }
 
 bool DecimationState::meets_another(const MeshEdit& edit) {
-  boxes_.clear();
-  Bounds around;
+  shapes_.clear();
+  SlotTree::Box around{};
   for (const Triangle& t : edit.added) {
-    const std::array<Point, 3> corners = {mesh_.position(t[0]), mesh_.position(t[1]),
-                                          mesh_.position(t[2])};
-    boxes_.push_back(bounds_of(corners));
-    around = boxes_.size() == 1 ? boxes_.front() : joined(around, boxes_.back());
+    const std::array<Point, 3> c = {mesh_.position(t[0]), mesh_.position(t[1]),
+                                    mesh_.position(t[2])};
+    shapes_.push_back({tree_.rounded(bounds_of(c)), c[0], area_normal_of(c),
+                       kPlaneRoundings * (c[1] - c[0]).norm() * (c[2] - c[0]).norm()});
+    around = shapes_.size() == 1 ? shapes_.front().box : joined(around, shapes_.back().box);
   }
-  return !tree_.for_each_overlap(around, [&](std::uint32_t slot, const Bounds& box) {
+  return !tree_.for_each_overlap(around, [&](std::uint32_t slot, const SlotTree::Box& box) {
     if (std::find(edit.removed.begin(), edit.removed.end(), slot) != edit.removed.end()) {
       return true;
     }
+    const Triangle& other = mesh_.triangle(slot);
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
-      if (!overlap(boxes_[i], box)) continue;
-      const std::array<Triangle, 2> pair = {edit.added[i], mesh_.triangle(slot)};
+      const Shape& shape = shapes_[i];
+      if (!overlap(shape.box, box)) continue;
+      // What is all on one side of the triangle's plane, but for what is of both, does not meet it.
+      const Triangle& t = edit.added[i];
+      int above = 0, below = 0, shared = 0;
+      for (const std::uint32_t v : other) {
+        if (has(t, v)) {
+          ++shared;
+          continue;
+        }
+        const Point d = mesh_.position(v) - shape.corner;
+        const double side = shape.normal.dot(d), roundings = shape.roundings * d.norm();
+        above += side > roundings ? 1 : 0;
+        below += side < -roundings ? 1 : 0;
+      }
+      if (shared + std::max(above, below) == 3 && shared < 3) continue;
+      const std::array<Triangle, 2> pair = {t, other};
       if (intersect_beyond_shared({mesh_.positions(), pair}, 0, 1)) return false;
     }
     return true;
@@ -153,7 +189,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   }
   for (const std::uint32_t slot : edit.removed) changed(slot);
   for (std::size_t i = edit.removed.size(); i < placed_.size(); ++i) changed(placed_[i]);
-  rebuild_when_coarser();
+  if (tree_.outgrown(mesh_)) tree_.rebuild(mesh_);
 }
 
 void DecimationState::changed(std::uint32_t slot) {
@@ -177,14 +213,6 @@ void DecimationState::undo(const EditUndo& undo) {
     assigned_.assign(a.point, a.slot, a.squared_distance);
   }
   for (const EditUndo::Slot& s : undo.slots) changed(s.slot);
-}
-
-// Boxes grow looser as triangles go, and what was added is searched one by one.
-void DecimationState::rebuild_when_coarser() {
-  constexpr std::size_t kMostAdded = 128;
-  if (2 * mesh_.triangles() < tree_.triangles_at_rebuild() || tree_.added() > kMostAdded) {
-    tree_.rebuild(mesh_);
-  }
 }
 
 }  // namespace emax

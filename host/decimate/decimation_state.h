@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,7 @@ class DecimationState {
   struct Guards {
     double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
     double flatness = 1e-3;      // least height of a triangle over its longest side
+    double squared_reach = 0;    // points up to this far have a triangle too, if it is more
     // Faults that the tests must catch.
     bool skip_intersections = false, skip_back_bound = false, skip_points = false;
   };
@@ -63,8 +65,11 @@ class DecimationState {
   // `mesh` is manifold and consistently oriented, without degenerate triangles; `back` may be null
   // and outlives the state. Points farther than `squared_limit` from the mesh belong to no
   // triangle.
+  // `interrupted` is polled now and then; true leaves the rest of the points without a triangle.
+  using Interrupted = std::function<bool()>;
   DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud, const BackBound* back,
-                  double squared_limit, const Guards& guards);
+                  double squared_limit, const Guards& guards,
+                  const Interrupted& interrupted = nullptr);
 
   const EditableMesh& mesh() const { return mesh_; }
   const AssignedPoints& assigned() const { return assigned_; }
@@ -92,16 +97,21 @@ class DecimationState {
   void apply(const MeshEdit& edit, EditUndo* undo = nullptr);
   void undo(const EditUndo& undo);
 
-  // Gives every point to the triangle that is nearest of all.
-  void reassign();
+  // Gives every point to the triangle that is nearest of all; false when interrupted.
+  bool reassign(const Interrupted& interrupted = nullptr);
 
   std::uint32_t add_vertex(const Point& at);
 
  private:
+  // An added triangle as it is tested against others.
+  struct Shape {
+    SlotTree::Box box;
+    Point corner, normal;
+    double roundings;  // of the normal times a distance, over that distance
+  };
   bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
   void changed(std::uint32_t slot);
-  void rebuild_when_coarser();
 
   EditableMesh mesh_;
   std::span<const Point> cloud_;
@@ -114,7 +124,7 @@ class DecimationState {
   std::vector<BackBound::Sight> sight_;  // of each vertex
   BackBound::Sight moved_;               // of the position of the edit last permitted
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
-  std::vector<Bounds> boxes_;            // and their boxes
+  std::vector<Shape> shapes_;
 };
 
 }  // namespace emax

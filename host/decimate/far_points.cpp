@@ -110,7 +110,7 @@ class Insertion {
           answer.added = i;
         }
         const double before = state_.assigned().squared_distance(p);
-        kept = kept && answer.squared_distance <= std::max(before, squared_far_);
+        kept = kept && (before > squared_far_ || answer.squared_distance <= squared_far_);
         edit_.answers.push_back(answer);
       });
     }
@@ -129,21 +129,28 @@ class Insertion {
 
 FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
                             const std::function<bool()>& interrupted, const BackBound* back) {
-  DecimationState state(mesh, cloud, back, far * far, {});
+  DecimationState state(mesh, cloud, back, far * far, {}, interrupted);
+  return insert_far_points(state, far, interrupted);
+}
+
+FarPoints insert_far_points(DecimationState& state, double far,
+                            const std::function<bool()>& interrupted) {
   Insertion insertion(state, far * far);
   FarPoints result;
   const auto is_far = [&](std::uint32_t p) {
-    return state.assigned().owner(p) == kNoIndex &&
-           state.tree().nearest(state.mesh(), cloud[p], far * far).slot == kNoIndex;
+    const bool near =
+        state.assigned().owner(p) != kNoIndex && state.assigned().squared_distance(p) <= far * far;
+    return !near && state.tree().nearest(state.mesh(), state.point(p), far * far).slot == kNoIndex;
   };
-  bool stopped = false;
-  for (std::uint32_t p = 0; p < cloud.size() && !stopped; ++p) {
+  const auto points = static_cast<std::uint32_t>(state.cloud().size());
+  bool stopped = interrupted && interrupted();
+  for (std::uint32_t p = 0; p < points && !stopped; ++p) {
     if (!is_far(p)) continue;
     stopped = interrupted && interrupted();
     if (!stopped && insertion.insert(p)) ++result.inserted;
   }
   // What came later may have brought the mesh within reach.
-  for (std::uint32_t p = 0; p < cloud.size(); ++p) {
+  for (std::uint32_t p = 0; p < points && !stopped; ++p) {
     if (is_far(p)) result.left_out.push_back(p);
   }
   result.mesh = state.mesh().compact();

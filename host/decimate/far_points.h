@@ -26,4 +26,9 @@ FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> clo
                             const std::function<bool()>& interrupted = nullptr,
                             const BackBound* back = nullptr);
 
+// The same on a state, whose limit is no less than `far`; the mesh is left in it.
+class DecimationState;
+FarPoints insert_far_points(DecimationState& state, double far,
+                            const std::function<bool()>& interrupted = nullptr);
+
 }  // namespace emax

@@ -8,6 +8,9 @@
 namespace emax {
 namespace {
 
+// Of the greatest squared distance: points nearer than that have no say in a step.
+constexpr double kNegligible = 0.01;
+
 double power_of(double squared, int power) {
   double result = squared;
   for (int i = 2; i < power; i += 2) result *= squared;
@@ -48,7 +51,7 @@ void LocalSearch::take_points() {
       points_.push_back(state_.point(p));
     });
   }
-  watch_back_ = state_.back() != nullptr && vertex_ != kNoIndex && !fine();
+  watch_back_ = state_.back() != nullptr && vertex_ != kNoIndex && spring_ == 0 && !fine();
 }
 
 bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
@@ -65,6 +68,7 @@ bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
     if (slot != kNoIndex) removed_.push_back(slot);
   }
   take_points();
+  take_edges();
   return true;
 }
 
@@ -72,6 +76,7 @@ bool LocalSearch::prepare_relocation(std::uint32_t vertex) {
   begin(vertex, kNoIndex);
   state_.mesh().for_each_slot_at(vertex, [&](std::uint32_t slot) { replace(slot, vertex); });
   take_points();
+  take_edges();
   return !removed_.empty();
 }
 
@@ -94,11 +99,44 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
                   (state_.area_normal(first).normalized() + state_.area_normal(second).normalized())
                       .normalized());
   take_points();
+  ring_ = {c, d};
+  lengths_before_ = (mesh.position(a) - mesh.position(b)).squaredNorm();
   return true;
 }
 
+void LocalSearch::take_edges() {
+  if (spring_ == 0) return;
+  const EditableMesh& mesh = state_.mesh();
+  lengths_before_ = 0;
+  for (const std::uint32_t v : {other_, vertex_}) {
+    if (v == kNoIndex) continue;
+    mesh.neighbours(v, v == vertex_ ? ring_ : other_ring_);
+    for (const std::uint32_t n : v == vertex_ ? ring_ : other_ring_) {
+      // The edge that is drawn together counts once.
+      if (v == vertex_ && n == other_) continue;
+      lengths_before_ += (mesh.position(n) - mesh.position(v)).squaredNorm();
+    }
+  }
+  if (other_ == kNoIndex) return;
+  ring_.insert(ring_.end(), other_ring_.begin(), other_ring_.end());
+  std::sort(ring_.begin(), ring_.end());
+  ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
+  std::erase_if(ring_, [&](std::uint32_t v) { return v == vertex_ || v == other_; });
+}
+
+double LocalSearch::spring_after(const Point& position) const {
+  const EditableMesh& mesh = state_.mesh();
+  double lengths = 0;
+  if (vertex_ == kNoIndex) {
+    lengths = (mesh.position(ring_[0]) - mesh.position(ring_[1])).squaredNorm();
+  } else {
+    for (const std::uint32_t v : ring_) lengths += (mesh.position(v) - position).squaredNorm();
+  }
+  return spring_ * lengths / state_.squared_limit();
+}
+
 double LocalSearch::energy_before(int power) const {
-  double energy = 0;
+  double energy = spring_ * lengths_before_ / state_.squared_limit();
   for (const std::uint32_t p : ids_) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   }
@@ -164,6 +202,7 @@ Fit LocalSearch::measured(const Point& position, int power) {
   measure(points_, frames_);
   Fit fit;
   fit.position = position;
+  if (spring_ > 0) fit.energy = spring_after(position);
   const double scale = 1 / state_.squared_limit();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double squared = points_.squared[i] * scale;
@@ -191,8 +230,10 @@ bool LocalSearch::step(const Options& options, Fit& at) const {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Point right = Point::Zero();
   const double scale = 1 / state_.squared_limit();
+  const double least = options.power > 2 ? kNegligible * at.worst : 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double squared = points_.squared[i] * scale;
+    if (squared < least) continue;
     const double importance = 1e-4 + (options.power > 2 ? power_of(squared, options.power - 2) : 1);
     const Foot foot = foot_on(frames_[static_cast<std::size_t>(points_.nearest[i])], points_.at(i));
     if (foot.weight == 0) continue;
@@ -206,6 +247,11 @@ bool LocalSearch::step(const Options& options, Fit& at) const {
     const Point direction = residual.normalized();
     matrix += importance * direction * direction.transpose();
     right += importance * residual;
+  }
+  if (spring_ > 0) {
+    for (const std::uint32_t v : ring_)
+      right += spring_ * (state_.mesh().position(v) - at.position);
+    matrix.diagonal().array() += spring_ * static_cast<double>(ring_.size());
   }
   const double trace = matrix.trace();
   if (!(trace > 0)) return false;

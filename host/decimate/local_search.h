@@ -27,7 +27,9 @@ class LocalSearch {
     double gain = 0.02;  // the share of the energy that a step must gain for another to follow
   };
 
-  explicit LocalSearch(const DecimationState& state) : state_(state) {}
+  // `spring` times the edges' squared lengths is part of the energy, in units of epsilon^2.
+  explicit LocalSearch(const DecimationState& state, double spring = 0)
+      : state_(state), spring_(spring) {}
 
   // Each false when the topology forbids the edit.
   bool prepare_collapse(std::uint32_t a, std::uint32_t b);  // b is drawn into a
@@ -57,12 +59,18 @@ class LocalSearch {
   void begin(std::uint32_t vertex, std::uint32_t other);
   void replace(std::uint32_t slot, std::uint32_t corner);  // which becomes the moving vertex
   void take_points();
+  void take_edges();
+  double spring_after(const Point& position) const;
   bool shape(const Point& position);
   Fit measured(const Point& position, int power);
   bool step(const Options& options, Fit& at) const;
   bool serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer) const;
 
   const DecimationState& state_;
+  const double spring_;
+  double lengths_before_ = 0;        // squared, of the edges that change
+  std::vector<std::uint32_t> ring_;  // the vertices joined to the moving one, or a turned edge's
+  std::vector<std::uint32_t> other_ring_;
   std::uint32_t vertex_ = kNoIndex;
   std::uint32_t other_ = kNoIndex;  // the vertex drawn in
   std::vector<std::uint32_t> removed_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,25 +14,34 @@ inline Bounds joined(const Bounds& a, const Bounds& b) {
   return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
 }
 
-// A binary tree of boxes over the triangles of a mesh that is edited. Its shape is that of the last
-// rebuild; a slot that changes keeps its leaf, and the boxes above it are refitted. A collapse
-// leaves its triangles where they were, so the boxes stay tight until many are gone.
+// A tree of boxes over the triangles of a mesh that is edited, four to a node. Its shape is that of
+// the last rebuild; a slot that changes keeps its leaf, and the boxes above it are refitted. A
+// collapse leaves its triangles where they were, so the boxes stay tight until many are gone. The
+// boxes are in binary32 about the middle of the mesh, rounded outwards; what is found is exact.
 class SlotTree {
  public:
   explicit SlotTree(const EditableMesh& mesh) { rebuild(mesh); }
 
   // O(n log n). Slots that are free have empty boxes.
   void rebuild(const EditableMesh& mesh);
-  std::size_t added() const { return added_.size(); }  // since then
-  std::size_t triangles_at_rebuild() const { return triangles_at_rebuild_; }
+  // Whether the mesh has changed so much since that a new tree would be better.
+  bool outgrown(const EditableMesh& mesh) const;
 
-  // The slot changed: O(depth) at most. Slots added since the last rebuild are searched one by one.
+  // The slot changed: O(depth) at most.
   void update(const EditableMesh& mesh, std::uint32_t slot);
 
-  // Calls visit(slot, its box) for every triangle whose box overlaps `box` (touching counts), in an
-  // order that depends on the edits alone, until it returns false; returns whether it never did.
+  // A box as the tree has it, which holds the one that it was rounded from.
+  struct Box {
+    std::array<float, 3> lower, upper;
+    bool operator==(const Box&) const = default;
+  };
+  Box rounded(const Bounds& box) const;
+
+  // Calls visit(slot, its box) for every triangle whose box overlaps the one given (touching
+  // counts), in an order that depends on the edits alone, until it returns false; returns whether
+  // it never did.
   template <class Visit>
-  bool for_each_overlap(const Bounds& box, const Visit& visit) const;
+  bool for_each_overlap(const Box& box, const Visit& visit) const;
 
   struct Nearest {
     std::uint32_t slot = kNoIndex;  // the lowest of equally near ones
@@ -43,40 +53,63 @@ class SlotTree {
                   std::uint32_t hint = kNoIndex) const;
 
  private:
-  struct Node {
-    Bounds box;
-    std::uint32_t left = kNoIndex,
-                  right = kNoIndex;  // the leaf's slot in `left` where right is kNoIndex
-    std::uint32_t parent = kNoIndex;
+  static constexpr unsigned kPlaces = 4;
+  using Lanes = Eigen::Array4f;  // of the places
+  static constexpr std::uint32_t kLeaf = 1u << 31;
+  static constexpr std::size_t kDeepest = 40;
+  static constexpr std::size_t kStack = kPlaces * (kDeepest + 1);
+
+  struct alignas(64) Node {
+    std::array<std::array<float, kPlaces>, 3> lower, upper;  // of each axis, of each place
+    std::array<std::uint32_t, kPlaces> child;  // a node, a slot with kLeaf, or kNoIndex
+    std::uint32_t parent = kNoIndex;           // kPlaces * node + place
   };
 
-  std::uint32_t build(std::vector<std::uint32_t>& slots, std::size_t begin, std::size_t end);
+  Box box_of(const Node& node) const;
+  Box box_of(const Node& node, std::size_t place) const;
+  void put(std::uint32_t place, std::uint32_t child, const Box& box);
+  std::uint32_t add_node(std::uint32_t parent);
+  struct Item {
+    std::uint32_t slot;
+    Box box;
+  };
+  void build(std::uint32_t node, std::span<Item> items);
+  void insert(std::uint32_t slot, const Box& box);
+  void refit(std::uint32_t node);
+  static Lanes gap(const Node& node, const Box& box, std::size_t axis);
+  static unsigned overlapping(const Node& node, const Box& box);  // a bit for each place
 
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> leaf_of_;  // of each slot
-  std::vector<std::uint32_t> added_;    // slots without a leaf
-  std::vector<Bounds> boxes_;           // of each slot
-  std::size_t triangles_at_rebuild_ = 0;
+  std::vector<Node> nodes_;             // the root first
+  std::vector<std::uint32_t> leaf_of_;  // of each slot, kPlaces * node + place
+  Point origin_ = Point::Zero();
+  double scale_ = 1;  // a power of two
+  std::size_t triangles_at_rebuild_ = 0, inserted_ = 0, deepest_ = 0;
 };
 
 template <class Visit>
-bool SlotTree::for_each_overlap(const Bounds& box, const Visit& visit) const {
-  for (const std::uint32_t slot : added_) {
-    if (overlap(boxes_[slot], box) && !visit(slot, boxes_[slot])) return false;
-  }
-  if (nodes_.empty()) return true;
-  std::uint32_t stack[128];
+bool SlotTree::for_each_overlap(const Box& box, const Visit& visit) const {
+  std::array<std::uint32_t, kStack> stack;
   std::size_t depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    if (!overlap(node.box, box)) continue;
-    if (node.right == kNoIndex) {
-      if (!visit(node.left, node.box)) return false;
-      continue;
+    const unsigned places = overlapping(node, box);
+    for (unsigned i = 0; i < kPlaces; ++i) {
+      if ((places >> i & 1) == 0) continue;
+      const std::uint32_t child = node.child[i];
+      if ((child & kLeaf) == 0) {
+        stack[depth++] = child;
+      } else if (!visit(child & ~kLeaf, box_of(node, i))) {
+        return false;
+      }
     }
-    stack[depth++] = node.right;
-    stack[depth++] = node.left;
+  }
+  return true;
+}
+
+inline bool overlap(const SlotTree::Box& a, const SlotTree::Box& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (a.lower[i] > b.upper[i] || b.lower[i] > a.upper[i]) return false;
   }
   return true;
 }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include "host/geometry/triangle_mesh.h"
+
+namespace emax {
+
+// Schroeder's classes of a vertex (Schroeder, Zarge, Lorensen, "Decimation of Triangle Meshes",
+// section 3.1). A feature edge is one over which the normals turn by more than the feature angle.
+enum class VertexClass : std::uint8_t {
+  kSimple,        // one closed fan of triangles, no feature edge
+  kComplex,       // no fan: an edge of more than two triangles, or several fans
+  kBoundary,      // one open fan
+  kInteriorEdge,  // a closed fan with two feature edges: the feature passes through
+  kCorner,        // with one, or more than two: it ends there or branches
+};
+
+// Feature edges of a mesh as they go through edge collapses. The features are those of the start:
+// a surface that gets coarser turns more at its edges without getting any.
+class FeatureEdges {
+ public:
+  FeatureEdges() = default;  // none
+  // `angle` in degrees, over 0. Every used vertex is classified. O(n).
+  FeatureEdges(const TriangleMesh& mesh, double angle);
+
+  bool empty() const { return edges_.empty(); }
+  VertexClass vertex_class(std::uint32_t vertex) const {
+    return vertex < classes_.size() ? classes_[vertex] : VertexClass::kSimple;
+  }
+  bool on(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
+
+  // How an edge collapse keeps the features: not at all, with the new vertex anywhere, or only
+  // where one of the two is. A corner stays where it is, a feature is only shortened along itself,
+  // and what is not on a feature may be drawn into it.
+  enum class Collapse { kForbidden, kAnywhere, kAtFirst, kAtSecond };
+  Collapse permitted(std::uint32_t a, std::uint32_t b) const;
+  // b was drawn into a; `neighbours` of b before.
+  void collapsed(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& neighbours);
+
+ private:
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+  }
+  bool on_feature(std::uint32_t v) const {
+    return vertex_class(v) == VertexClass::kInteriorEdge || vertex_class(v) == VertexClass::kCorner;
+  }
+
+  std::vector<VertexClass> classes_;
+  std::unordered_set<std::uint64_t> edges_;  // asked for one at a time, never walked through
+};
+
+}  // namespace emax
