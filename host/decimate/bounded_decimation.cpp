@@ -71,7 +71,8 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
   }
   const double reach = std::max(far, kBelongs * bounds_of(part.mesh.vertices).width());
   DecimationState state(part.mesh, cloud, nullptr, reach * reach, {}, interrupted);
-  if (!interrupted || !interrupted()) require_belonging(state);
+  if (!state.complete()) return {std::move(part.mesh), part.dropped, 0, {}};
+  require_belonging(state);
   FarPoints inserted = insert_far_points(state, far, interrupted);
   return {std::move(inserted.mesh), part.dropped, inserted.inserted, std::move(inserted.left_out)};
 }
@@ -126,6 +127,8 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   const TriangleMesh ordered = spatially_ordered(start);
   DecimationState state(ordered, known.cloud, settings.two_sided ? known.back.get() : nullptr,
                         limit * limit, guards, settings.interrupted);
+
+  if (!state.complete()) return {start, {}, true};
 
   DecimatedMesh result;
   for (std::uint32_t p = 0; p < known.cloud.size(); ++p) {

@@ -13,6 +13,23 @@ constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit wit
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
 constexpr double kLeastSwept = 0.1;  // the share of the triangles that a sweep takes
 
+// A triangle's edges, lower vertex first.
+std::array<std::array<std::uint32_t, 2>, 3> shortest_first(const EditableMesh& mesh,
+                                                           std::uint32_t slot) {
+  const Triangle& t = mesh.triangle(slot);
+  std::array<std::array<std::uint32_t, 2>, 3> edges;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+    edges[i] = {low, high};
+  }
+  std::sort(edges.begin(), edges.end(), [&](const auto& e, const auto& f) {
+    const double of_e = (mesh.position(e[0]) - mesh.position(e[1])).squaredNorm();
+    const double of_f = (mesh.position(f[0]) - mesh.position(f[1])).squaredNorm();
+    return of_e != of_f ? of_e < of_f : e < f;
+  });
+  return edges;
+}
+
 }  // namespace
 
 DecimationPasses::DecimationPasses(DecimationState& state, Options options, Poll poll)
@@ -145,9 +162,7 @@ std::size_t DecimationPasses::sweep() {
       // What is left falls, a share of it each time.
       if (poll(1 - static_cast<double>(mesh.triangles()) / static_cast<double>(start))) break;
       if (!mesh.alive(slot)) continue;
-      const Triangle t = mesh.triangle(slot);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+      for (const auto& [a, b] : shortest_first(mesh, slot)) {
         if (touched_[a] != 0 || touched_[b] != 0 || !try_plain_collapse(a, b, most)) continue;
         make_collapse(a, b);
         ++collapses;

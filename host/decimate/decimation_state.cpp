@@ -41,7 +41,8 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
   for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
     area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
-  if (!reassign(interrupted) || back_ == nullptr) return;
+  complete_ = reassign(interrupted);
+  if (!complete_ || back_ == nullptr) return;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     sight_[v] = back_->sight(mesh.vertices[v], v == 0 ? kNoIndex : sight_[v - 1].triangle);
   }

@@ -83,6 +83,9 @@ class DecimationState {
   double squared_limit() const { return squared_limit_; }
   const Guards& guards() const { return guards_; }
 
+  // Whether every point was given its triangle.
+  bool complete() const { return complete_; }
+
   // No sliver; false for a frame that is not finite.
   bool well_shaped(const LocalFrame& f) const {
     const double longest = std::max({f.length, f.length13, f.length23});
@@ -120,7 +123,8 @@ class DecimationState {
   Guards guards_;
   AssignedPoints assigned_;
   SlotTree tree_;
-  std::vector<Point> area_normals_;      // of each slot
+  std::vector<Point> area_normals_;  // of each slot
+  bool complete_ = false;
   std::vector<BackBound::Sight> sight_;  // of each vertex
   BackBound::Sight moved_;               // of the position of the edit last permitted
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles

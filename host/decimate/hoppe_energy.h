@@ -1,11 +1,8 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
-
-#include "host/decimate/decimation_state.h"
-
 namespace emax {
+
+class DecimationState;
 
 // The energy of Hoppe, DeRose, Duchamp, McDonald and Stuetzle, "Mesh Optimization" (1993), the
 // source's first reference, with lengths in units of the mesh's width:

@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kLimit = 0.03;
 
+std::uint32_t mesh_slot_at(const EditableMesh& mesh, std::uint32_t vertex) {
+  std::uint32_t found = kNoIndex;
+  mesh.for_each_slot_at(vertex, [&](std::uint32_t slot) { found = slot; });
+  return found;
+}
+
 // Everything that is kept in step, made anew from the triangles and the points.
 void expect_in_step(const DecimationState& state, const BackBound& back) {
   const EditableMesh& mesh = state.mesh();
@@ -30,11 +36,11 @@ void expect_in_step(const DecimationState& state, const BackBound& back) {
     ++alive;
     for (const std::uint32_t v : mesh.triangle(slot)) slots_at[v].push_back(slot);
     bool found = false;
-    state.tree().for_each_overlap(bounds_of(mesh.corners(slot)),
-                                  [&](std::uint32_t s, const Bounds&) {
-                                    found = found || s == slot;
-                                    return true;
-                                  });
+    const SlotTree::Box box = state.tree().rounded(bounds_of(mesh.corners(slot)));
+    state.tree().for_each_overlap(box, [&](std::uint32_t s, const SlotTree::Box& its) {
+      found = found || (s == slot && its == box);
+      return true;
+    });
     ASSERT_TRUE(found);
   }
   ASSERT_EQ(alive, mesh.triangles());
@@ -44,8 +50,15 @@ void expect_in_step(const DecimationState& state, const BackBound& back) {
     std::sort(slots.begin(), slots.end());
     ASSERT_EQ(slots, slots_at[v]);
     if (!mesh.used(v)) continue;
-    const BackBound::Sight sight = back.sight(mesh.position(v));
-    ASSERT_NEAR(state.sight(v).share, sight.share, 1e-9);
+    // The nearest triangle, or another one that is within the limit too.
+    const BackBound::Sight sight = state.sight(v);
+    ASSERT_GE(sight.share, back.sight(mesh.position(v)).share - 1e-9);
+    const double squared =
+        squared_distance(mesh.position(v), back.reference().corners(sight.triangle));
+    ASSERT_NEAR(sight.share, squared / (kLimit * kLimit), 1e-9);
+    ASSERT_LE(sight.share, 1);
+    const auto [p, q, r] = mesh.corners(mesh_slot_at(mesh, v));
+    ASSERT_EQ(state.area_normal(mesh_slot_at(mesh, v)), (q - p).cross(r - p));
   }
   std::size_t owned = 0;
   for (std::uint32_t p = 0; p < assigned.size(); ++p) {

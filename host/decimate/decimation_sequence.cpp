@@ -1,0 +1,57 @@
+#include "host/decimate/decimation_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/geometry/bounds.h"
+
+namespace emax {
+namespace {
+
+constexpr double kFinest = 1.0 / 32;  // of the vertices' spacing on a square of the width
+constexpr double kShare = 0.5;        // of a cut's bounds, the most that a mesh it goes on from has
+constexpr double kReach = 0.1;        // of the width
+constexpr double kLeastFinest = 1e-12;  // of the greatest coordinate
+
+}  // namespace
+
+DecimationSequence::DecimationSequence(const TriangleMesh& reference, std::span<const Point> cloud)
+    : decimator_(reference, cloud), reference_(reference) {
+  if (reference.vertices.empty()) return;
+  const Bounds box = bounds_of(reference.vertices);
+  const double greatest =
+      std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  const double spacing = box.width() / std::sqrt(static_cast<double>(reference.vertices.size()));
+  finest_ = std::max(kFinest * spacing, kLeastFinest * greatest);
+  reach_ = kReach * box.width();
+}
+
+DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
+  double bound = settings.epsilon;
+  if (settings.two_sided && settings.epsilon_back > 0) {
+    bound = std::min(bound, settings.epsilon_back);
+  }
+  const TriangleMesh* start = &reference_;
+  // The features of a mesh that was swept without them are not the reference's, and Hoppe's energy
+  // has vertices where no other objective leaves any.
+  const bool direct =
+      settings.feature_angle > 0 || settings.objective != DecimationSettings::Objective::kFewest;
+  std::vector<TriangleMesh>& meshes = meshes_[settings.two_sided ? 1 : 0];
+  std::size_t level = 0;
+  for (double below = finest_; !direct && below > 0 && below <= kShare * bound; below *= 2) {
+    if (level == meshes.size()) {
+      DecimationSettings sweep;
+      sweep.epsilon = below;
+      sweep.two_sided = settings.two_sided;
+      sweep.effort = DecimationSettings::Effort::kSweep;
+      sweep.interrupted = settings.interrupted;
+      DecimatedMesh swept = decimator_.run(*start, sweep, reach_);
+      if (swept.interrupted) return swept;
+      meshes.push_back(std::move(swept.mesh));
+    }
+    start = &meshes[level++];
+  }
+  return decimator_.run(*start, settings, 0);
+}
+
+}  // namespace emax

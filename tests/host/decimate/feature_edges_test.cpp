@@ -1,0 +1,159 @@
+#include "host/decimate/feature_edges.h"
+
+#include <gtest/gtest.h>
+
+#include "host/decimate/bounded_decimation.h"
+#include "host/geometry/mesh_file.h"
+#include "host/geometry/mesh_validity.h"
+#include "surfaces.h"
+#include "sw_model/exact_distance.h"
+
+namespace emax::test {
+namespace {
+
+constexpr double kAngle = 40;
+
+std::uint32_t vertex_at(const TriangleMesh& mesh, const Point& p) {
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if ((mesh.vertices[v] - p).norm() < 1e-9) return v;
+  }
+  return ~0u;
+}
+
+TEST(VertexClass, OfAPlaneAreSimpleInsideAndBoundaryAtTheRim) {
+  const TriangleMesh mesh = sheet(5, 0);
+  const FeatureEdges features(mesh, kAngle);
+  EXPECT_TRUE(features.empty());
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {0, 0, 0})), VertexClass::kSimple);
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {-1, 0, 0})), VertexClass::kBoundary);
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {1, -1, 0})), VertexClass::kBoundary);
+}
+
+TEST(VertexClass, OfACubeAreSimpleOnFacesInteriorOnEdgesAndCorners) {
+  const TriangleMesh mesh = cube(4);
+  const FeatureEdges features(mesh, kAngle);
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {0, 0, 1})), VertexClass::kSimple);
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {1, 0, 1})), VertexClass::kInteriorEdge);
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {1, 1, -1})), VertexClass::kCorner);
+  EXPECT_TRUE(features.on(vertex_at(mesh, {1, 0, 1}), vertex_at(mesh, {1, 0.5, 1})));
+  EXPECT_FALSE(features.on(vertex_at(mesh, {1, 0, 1}), vertex_at(mesh, {0.5, 0, 1})));
+}
+
+TEST(VertexClass, WhereAFeatureEndsIsACorner) {
+  // A fold along the x axis that flattens out halfway.
+  TriangleMesh mesh;
+  for (int i = -2; i <= 2; ++i) {
+    for (int k = -1; k <= 1; ++k) mesh.vertices.push_back({double(i), double(k), 0});
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const std::uint32_t at = 3 * i + k;
+      mesh.triangles.push_back({at, at + 3, at + 4});
+      mesh.triangles.push_back({at, at + 4, at + 1});
+    }
+  }
+  const std::uint32_t middle = vertex_at(mesh, {0, 0, 0});
+  for (const double x : {-1.0, -2.0}) {
+    for (const double y : {-1.0, 1.0}) mesh.vertices[vertex_at(mesh, {x, y, 0})][2] = 2;
+  }
+  const FeatureEdges features(mesh, kAngle);
+  EXPECT_EQ(features.vertex_class(vertex_at(mesh, {-1, 0, 0})), VertexClass::kInteriorEdge);
+  EXPECT_EQ(features.vertex_class(middle), VertexClass::kCorner);
+}
+
+TEST(VertexClass, WithoutAFanIsComplex) {
+  TriangleMesh fin = cube(2);
+  const std::uint32_t on_edge = vertex_at(fin, {1, 0, 1}), corner = vertex_at(fin, {1, 1, 1});
+  fin.vertices.push_back({2, 0, 2});
+  fin.triangles.push_back({on_edge, corner, static_cast<std::uint32_t>(fin.vertices.size() - 1)});
+  const FeatureEdges of_fin(fin, kAngle);
+  EXPECT_EQ(of_fin.vertex_class(on_edge), VertexClass::kComplex);
+  EXPECT_EQ(of_fin.vertex_class(corner), VertexClass::kComplex);
+
+  const TriangleMesh bow_tie = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
+                                {{0, 1, 2}, {0, 3, 4}}};
+  const FeatureEdges of_tie(bow_tie, kAngle);
+  EXPECT_EQ(of_tie.vertex_class(0), VertexClass::kComplex);
+  EXPECT_EQ(of_tie.vertex_class(1), VertexClass::kBoundary);
+}
+
+TEST(FeatureEdges, SayHowACollapseKeepsThem) {
+  using Collapse = FeatureEdges::Collapse;
+  const TriangleMesh mesh = cube(4);
+  const FeatureEdges features(mesh, kAngle);
+  const auto between = [&](const Point& a, const Point& b) {
+    return features.permitted(vertex_at(mesh, a), vertex_at(mesh, b));
+  };
+  EXPECT_EQ(between({0, 0, 1}, {0.5, 0, 1}), Collapse::kAnywhere);
+  EXPECT_EQ(between({1, 0, 1}, {0.5, 0, 1}), Collapse::kAtFirst);
+  EXPECT_EQ(between({0.5, 0, 1}, {1, 0, 1}), Collapse::kAtSecond);
+  EXPECT_EQ(between({1, 0, 1}, {1, 0.5, 1}), Collapse::kAnywhere);
+  EXPECT_EQ(between({1, 1, 1}, {1, 0.5, 1}), Collapse::kAtFirst);
+  EXPECT_EQ(between({1, 0.5, 1}, {0.5, 1, 1}), Collapse::kForbidden);
+}
+
+TEST(FeatureEdges, GoThroughCollapses) {
+  const TriangleMesh mesh = cube(4);
+  FeatureEdges features(mesh, kAngle);
+  const std::uint32_t a = vertex_at(mesh, {1, 0, 1}), b = vertex_at(mesh, {1, 0.5, 1}),
+                      corner = vertex_at(mesh, {1, 1, 1});
+  features.collapsed(a, b, {a, corner, vertex_at(mesh, {0.5, 0.5, 1})});
+  EXPECT_TRUE(features.on(a, corner));
+  EXPECT_FALSE(features.on(a, b));
+  EXPECT_FALSE(features.on(b, corner));
+  features.collapsed(a, corner, {a, vertex_at(mesh, {1, 1, 0.5})});
+  EXPECT_EQ(features.vertex_class(a), VertexClass::kCorner);
+  EXPECT_TRUE(features.on(a, vertex_at(mesh, {1, 1, 0.5})));
+}
+
+// Points along the feature edges of a mesh, and these edges as triangles without area.
+struct Sharp {
+  explicit Sharp(const TriangleMesh& mesh) {
+    edges.vertices = mesh.vertices;
+    const FeatureEdges features(mesh, kAngle);
+    for (const Triangle& t : mesh.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+        if (a > b || !features.on(a, b)) continue;
+        edges.triangles.push_back({a, b, b});
+        for (int k = 0; k <= 8; ++k) {
+          points.push_back(mesh.vertices[a] + k / 8.0 * (mesh.vertices[b] - mesh.vertices[a]));
+        }
+      }
+    }
+  }
+  double farthest_from(const Sharp& other) const {
+    const ExactMesh exact(other.edges.view());
+    double worst = 0;
+    for (const Point& p : points) worst = std::max(worst, exact.distance(p).upper);
+    return worst;
+  }
+  TriangleMesh edges;
+  std::vector<Point> points;
+};
+
+TEST(FeatureEdges, OfAMachinePartStayWhereTheyAre) {
+  const TriangleMesh mesh = read_mesh(EMAX_DATA_FOLDER "/fandisk.off");
+  const ReferenceSurface reference = reference_surface(mesh, mesh.vertices, 1e-3);
+  const Sharp before(reference.mesh);
+  ASSERT_GT(before.points.size(), 1000u);
+  DecimationSettings settings;
+  settings.epsilon = 0.005 * bounds_of(mesh.vertices).width();
+  const BoundedDecimator decimator(reference.mesh, mesh.vertices);
+  const auto sharp_distance = [&] {
+    const TriangleMesh result = decimator.run(settings).mesh;
+    EXPECT_TRUE(check_mesh(result.view()).valid());
+    EXPECT_LT(result.triangles.size(), mesh.triangles.size() / 10);
+    return before.farthest_from(Sharp(result));
+  };
+  const double without = sharp_distance();
+  settings.feature_angle = kAngle;
+  const double with = sharp_distance();
+  RecordProperty("without", std::to_string(without / settings.epsilon));
+  RecordProperty("with", std::to_string(with / settings.epsilon));
+  EXPECT_LE(with, settings.epsilon);
+  EXPECT_LE(with, without);
+}
+
+}  // namespace
+}  // namespace emax::test
