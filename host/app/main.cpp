@@ -42,8 +42,8 @@ void add_common(CLI::App& command, CommonOptions& options) {
 }
 
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
-  command.add_option("--method", method, "reconstruction")
-      ->check(CLI::IsMember({"gp3", "poisson", "hoppe"}))
+  command.add_option("--method", method, "reconstruction; auto: the search chooses")
+      ->check(CLI::IsMember({"gp3", "poisson", "hoppe", "auto"}))
       ->capture_default_str();
   command
       .add_option(

@@ -213,7 +213,7 @@ class OptimizeCommand {
     certificate.triangles = best.mesh.triangles.size();
     certificate.validity = validity_;
     certificate.transform = constraint_->cloud().normalization();
-    certificate.chain = {settings_.method, settings_.decimator, best.parameters};
+    certificate.chain = best.chain;
     certificate.seed = settings_.seed;
     certificate.evaluations = state_.evaluations;
     std::vector<ResultFile> files;
@@ -289,8 +289,21 @@ class OptimizeCommand {
                : state_.target_reached ? "; target reached"
                : state_.stagnated      ? "; no better mesh for long"
                                        : "");
+    print_shares(seconds);
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
     if (address_.board) print_prediction(*address_.board, *counters_, cpu_->seconds());
+  }
+
+  // Of the time that the workers had.
+  void print_shares(double seconds) const {
+    const double all = seconds * settings_.jobs;
+    if (!(state_.stages.sum() > 0) || !(all > 0)) return;
+    const auto percent = [all](double part) { return 100 * part / all; };
+    fmt::print(
+        "time           reconstruction {:.0f}%, holes and far points {:.0f}%, decimation {:.0f}%, "
+        "back bound {:.1f}%; e_max {:.2f}%\n",
+        percent(state_.stages.reconstruct), percent(state_.stages.prepare),
+        percent(state_.stages.decimate), percent(state_.stages.check), percent(state_.measuring));
   }
 
   void write_json(const BestMesh& shown) const {

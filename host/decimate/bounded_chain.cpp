@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/decimate/far_points.h"
+#include "host/decimate/manifold_part.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -18,12 +20,26 @@ BoundedStage::BoundedStage(std::span<const Point> points, DecimationBound bound)
       kept_.push_back(points[p]);
     }
   }
-  if (two_sided()) exact_reference_.emplace(bound_.reference.view());
+  if (!two_sided()) return;
+  constexpr double kInside = 1 - 1e-9;  // where the decimator's own limit, less roundings, is too
+  back_.emplace(bound_.reference, kInside * bound_.epsilon_back);
+  exact_reference_.emplace(bound_.reference.view());
 }
 
 TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   if (!(bound_.epsilon > 0)) throw Error("the bounded decimator was given no bound");
-  return reference_surface(surface, kept_, bound_.epsilon / 2).mesh;
+  const double far = bound_.epsilon / 2;
+  if (!two_sided()) return reference_surface(surface, kept_, far).mesh;
+  TriangleMesh part = manifold_part(surface).mesh;
+  const std::size_t strayed = std::erase_if(part.triangles, [&](const Triangle& t) {
+    const std::array<Point, 3> corners = {part.vertices[t[0]], part.vertices[t[1]],
+                                          part.vertices[t[2]]};
+    const std::uint32_t near = back_->sight(corners[0]).triangle;
+    return near == kNoIndex || !back_->holds(corners, near);
+  });
+  if (part.triangles.empty()) throw Error("all of the surface strays from the reference");
+  if (strayed > 0) part = manifold_part(part).mesh;
+  return insert_far_points(part, kept_, far, nullptr, &*back_).mesh;
 }
 
 TriangleMesh BoundedStage::decimate(const TriangleMesh& start,

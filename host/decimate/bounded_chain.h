@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "host/decimate/back_bound.h"
 #include "host/decimate/bounded_decimation.h"
 #include "host/decimate/decimation_bound.h"
 #include "host/parameters/parameter_spec.h"
@@ -20,8 +21,10 @@ class BoundedStage {
 
   bool two_sided() const { return bound_.epsilon_back > 0; }
 
-  // What decimation starts from: the surface as a manifold, with the points inserted that are far
-  // from it. Throws what reference_surface() throws, and Error where the run fixed no bound.
+  // What decimation starts from: the surface as a manifold, under a two-sided bound without the
+  // triangles that stray from the reference, and with the points inserted that are far from it.
+  // Throws what reference_surface() throws, and Error where all of it strays and where the run
+  // fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;
 
   // `values` holds P_D.
@@ -34,6 +37,7 @@ class BoundedStage {
  private:
   DecimationBound bound_;
   std::vector<Point> kept_;  // points that are no outliers
+  std::optional<BackBound> back_;
   std::optional<ExactMesh> exact_reference_;
 };
 

@@ -3,6 +3,8 @@
 #include <chrono>
 
 #include "host/decimate/decimate.h"
+#include "host/decimate/fill_holes_smoothly.h"
+#include "host/reconstruct/moving_least_squares.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -21,6 +23,15 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
+  const auto chosen = values.find(kFillMethod);
+  const auto method =
+      chosen == values.end() ? FillMethod::kFlat : static_cast<FillMethod>(chosen->second);
+  if (method == FillMethod::kNone) return mesh;
+  const double size = values.at("fill.size");
+  return method == FillMethod::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
+}
+
 }  // namespace
 
 Chain::Chain(std::vector<Point> points, DecimationBound bound, std::size_t cache_bytes)
@@ -32,8 +43,11 @@ Chain::Chain(std::vector<Point> points, DecimationBound bound, std::size_t cache
 const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSeconds& seconds) {
   return reconstructions_.get(reconstruction_key(settings), [&] {
     Stopwatch watch;
-    Reconstructed made{
-        reconstruction_method(settings.method).reconstruct(points_, settings.parameters)};
+    const ParameterValues& values = settings.parameters;
+    const ReconstructionMethod& method = reconstruction_method(settings.method);
+    Reconstructed made{values.contains("mls.method")
+                           ? method.reconstruct(on_least_squares_surface(points_, values), values)
+                           : method.reconstruct(points_, values)};
     seconds.reconstruct = watch.lap();
     return made;
   });
@@ -44,7 +58,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
   return surfaces_.get({surface_key(settings), bounded}, [&] {
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
-    TriangleMesh filled = fill_holes(reconstruction.mesh, settings.parameters.at("fill.size"));
+    TriangleMesh filled = fill(reconstruction.mesh, settings.parameters);
     if (bounded) filled = bounded_.start(filled);
     seconds.prepare = watch.lap();
     return Surface{std::move(filled), reconstruction.mesh.triangles.size(),
@@ -53,7 +67,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
 }
 
 ChainResult Chain::run(const ChainSettings& settings) {
-  for (const ParameterSpec& spec : chain_parameters(settings.method, settings.decimator)) {
+  for (const ParameterSpec& spec : required_parameters(settings)) {
     if (!settings.parameters.contains(spec.name)) {
       throw Error("the parameter " + spec.name + " has no value");
     }

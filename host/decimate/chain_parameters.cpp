@@ -1,5 +1,6 @@
 #include "host/decimate/chain_parameters.h"
 
+#include <algorithm>
 #include <array>
 
 #include "host/reconstruct/reconstruction_parameters.h"
@@ -9,6 +10,8 @@ namespace emax {
 namespace {
 
 using enum ParameterSpec::Kind;
+
+constexpr const char* kMethod = "method";
 
 const ParameterSpec& fill_size() {
   static const ParameterSpec spec = {
@@ -34,7 +37,7 @@ const std::vector<ParameterSpec>& schroeder() {
 
 const std::vector<ParameterSpec>& bounded() {
   static const std::vector<ParameterSpec> specs = {
-      {"bounded.effort", kInteger, 0, 2, 1,
+      {"bounded.effort", kInteger, 0, 2, 2,
        "0: edge collapses; 1: then moves, turns and mended collapses; 2: until nothing is gained"},
       {"bounded.normal_cosine", kContinuous, -0.5, 0.9, 0.2,
        "least cosine between a triangle and the one that it replaces"},
@@ -59,7 +62,52 @@ std::span<const ParameterSpec> decimation_parameters(std::string_view decimator)
               "'; choose bounded or schroeder");
 }
 
+namespace {
+
+const std::vector<ParameterSpec>& automatic() {
+  static const std::vector<ParameterSpec> specs = [] {
+    const auto methods = reconstruction_methods();
+    std::vector<ParameterSpec> all = {{kMethod,
+                                       kCategorical,
+                                       0,
+                                       static_cast<double>(methods.size() - 1),
+                                       0,
+                                       "reconstruction",
+                                       {methods.begin(), methods.end()}}};
+    const auto mls = mls_parameters();
+    all.insert(all.end(), mls.begin(), mls.end());
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      for (const ParameterSpec& spec : reconstruction_parameters(methods[m])) {
+        const bool own = spec.name.starts_with(methods[m]);
+        const bool known = std::ranges::count(all, spec.name, &ParameterSpec::name) > 0;
+        if (!known) all.push_back(spec);  // the first method's standard, where they share it
+        if (own) all.back().only_with = {kMethod, static_cast<double>(m)};
+      }
+    }
+    all.push_back(
+        {kFillMethod,
+         kCategorical,
+         0,
+         2,
+         1,
+         "what is done about holes",
+         {"none is filled", "filled", "filled with new vertices by moving least squares"}});
+    all.push_back(fill_size());
+    all.back().only_with = {kFillMethod, static_cast<double>(FillMethod::kNone), true};
+    return all;
+  }();
+  return specs;
+}
+
+}  // namespace
+
 std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string_view decimator) {
+  if (method == kAutoMethod) {
+    std::vector<ParameterSpec> chain = automatic();
+    const auto decimation = decimation_parameters(decimator);
+    chain.insert(chain.end(), decimation.begin(), decimation.end());
+    return chain;
+  }
   const auto reconstruction = reconstruction_parameters(method);
   const auto decimation = decimation_parameters(decimator);
   std::vector<ParameterSpec> chain(reconstruction.begin(), reconstruction.end());
@@ -82,14 +130,51 @@ void add_values(const ChainSettings& settings, std::span<const ParameterSpec> sp
 
 StageKey reconstruction_key(const ChainSettings& settings) {
   StageKey key{settings.method, {}};
+  add_values(settings, mls_parameters(), key.second);
   add_values(settings, reconstruction_parameters(settings.method), key.second);
   return key;
 }
 
 StageKey surface_key(const ChainSettings& settings) {
   StageKey key = reconstruction_key(settings);
-  add_values(settings, {&fill_size(), 1}, key.second);
+  for (const std::string& name : {std::string(kFillMethod), fill_size().name}) {
+    const auto value = settings.parameters.find(name);
+    if (value != settings.parameters.end()) key.second.insert(*value);
+  }
   return key;
+}
+
+ChainSettings chain_settings(const std::string& method, const std::string& decimator,
+                             const ParameterValues& values) {
+  if (method != kAutoMethod) return {method, decimator, values};
+  ChainSettings settings{method, decimator, values};
+  for (const ParameterSpec& spec : chain_parameters(method, decimator)) {
+    if (!spec.only_with) continue;
+    const auto& [other, category, unless] = *spec.only_with;
+    if ((values.at(other) == category) == unless) settings.parameters.erase(spec.name);
+  }
+  settings.method = reconstruction_methods()[static_cast<std::size_t>(values.at(kMethod))];
+  settings.parameters.erase(kMethod);
+  return settings;
+}
+
+std::vector<ParameterSpec> required_parameters(const ChainSettings& settings) {
+  std::vector<ParameterSpec> required = chain_parameters(settings.method, settings.decimator);
+  const auto category = [&](const char* name, double otherwise) {
+    const auto value = settings.parameters.find(name);
+    return value == settings.parameters.end() ? otherwise : value->second;
+  };
+  if (category(kFillMethod, 1) == static_cast<double>(FillMethod::kNone)) {
+    std::erase_if(required,
+                  [](const ParameterSpec& spec) { return spec.name == fill_size().name; });
+  }
+  const double mls = category("mls.method", 0);
+  for (const ParameterSpec& spec : mls_parameters()) {
+    if (spec.only_with && (mls == spec.only_with->category) != spec.only_with->unless) {
+      required.push_back(spec);
+    }
+  }
+  return required;
 }
 
 ParameterValues standard_values(std::span<const ParameterSpec> parameters) {

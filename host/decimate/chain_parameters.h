@@ -12,7 +12,9 @@
 
 namespace emax {
 
-// One candidate's way through the chain.
+// One candidate's way through the chain. Beside the parameters of the method there may be those of
+// mls_parameters() and "fill.method"; without them there are no moving least squares, and holes are
+// filled without new vertices.
 struct ChainSettings {
   std::string method;     // one of reconstruction_methods()
   std::string decimator;  // one of decimators()
@@ -28,6 +30,13 @@ struct StageSeconds {
   double check = 0;  // of the back bound
 
   double sum() const { return reconstruct + prepare + decimate + check; }
+  StageSeconds& operator+=(const StageSeconds& other) {
+    reconstruct += other.reconstruct;
+    prepare += other.prepare;
+    decimate += other.decimate;
+    check += other.check;
+    return *this;
+  }
 };
 
 struct ChainResult {
@@ -37,7 +46,7 @@ struct ChainResult {
   // Of the bounded decimator under a two-sided bound: how far the mesh strays from the reference,
   // certified; more than epsilon_back exactly where it breaks the bound.
   double back_distance = 0;
-  StageSeconds seconds;
+  StageSeconds seconds = {};
 };
 
 // What a stage's result depends on: the method and the values of its genes and of those before it.
@@ -53,10 +62,27 @@ std::span<const ParameterSpec> decimation_parameters(std::string_view decimator)
 // In place of a decimator: the chain ends with the surface, its holes filled.
 inline constexpr const char* kNoDecimator = "none";
 
+// In place of a method: every one of them, as a gene, with moving least squares and the ways to
+// fill holes.
+inline constexpr const char* kAutoMethod = "auto";
+
+inline constexpr const char* kFillMethod = "fill.method";
+// Its choices.
+enum class FillMethod { kNone, kFlat, kSmooth };
+
 // P_R of the method, hole filling, P_D of the decimator: the chromosome in the order of its genes
-// (paper, section 3). Throws Error when there is no such method or decimator. With
+// (paper, section 3). With kAutoMethod the methods' own parameters have a meaning only with theirs.
+// Throws Error when there is no such method or decimator. With
 // kNoDecimator there is no P_D.
 std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string_view decimator);
+
+// The candidate that values of chain_parameters(method, decimator) are: its method, and the values
+// that have a meaning with it.
+ChainSettings chain_settings(const std::string& method, const std::string& decimator,
+                             const ParameterValues& values);
+
+// What of a candidate must have a value. Throws Error when there is no such method or decimator.
+std::vector<ParameterSpec> required_parameters(const ChainSettings& settings);
 
 // The standard value of every parameter.
 ParameterValues standard_values(std::span<const ParameterSpec> parameters);

@@ -34,7 +34,7 @@ void check(const Problem& problem) {
   }
   for (const Gene& gene : problem.genes) {
     if (!gene.only_with) continue;
-    const auto [other, category] = *gene.only_with;
+    const auto [other, category, unless] = *gene.only_with;
     const bool sound = other < problem.genes.size() &&
                        problem.genes[other].kind == Gene::Kind::kCategorical &&
                        !problem.genes[other].only_with && category == std::round(category);
@@ -74,9 +74,8 @@ LinearDomain::LinearDomain(const Problem& problem) : genes_(problem.genes) {
   reduce_inequalities();
   for (std::size_t k = 0; k < size(); ++k) {
     if (gene(k).lower < gene(k).upper) movable_.push_back(k);
-    const auto& condition = gene(k).only_with;
-    conditions_.emplace_back();
-    if (condition) conditions_.back().emplace(coordinate(condition->gene), condition->category);
+    conditions_.push_back(gene(k).only_with);
+    if (conditions_[k]) conditions_[k]->gene = coordinate(conditions_[k]->gene);
   }
   find_inside(problem);
 }

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "host/genocop/problem.h"
@@ -48,7 +47,8 @@ class LinearDomain {
 
   // Whether coordinate k means anything beside the categories of the point (Gene::only_with).
   bool has_meaning(const Genes& free, std::size_t k) const {
-    return !conditions_[k] || free[conditions_[k]->first] == conditions_[k]->second;
+    const auto& condition = conditions_[k];
+    return !condition || (free[condition->gene] == condition->category) != condition->unless;
   }
   // Coordinates that may move and mean something there.
   std::vector<std::size_t> movable_with_meaning(const Genes& free) const;
@@ -82,7 +82,7 @@ class LinearDomain {
   std::vector<LinearConstraint> inequalities_;
   std::vector<std::size_t> free_;
   std::vector<std::size_t> movable_;
-  std::vector<std::optional<std::pair<std::size_t, double>>> conditions_;  // coordinate, category
+  std::vector<std::optional<Gene::Condition>> conditions_;  // genes are coordinates
   std::vector<Solved> solved_;
   std::vector<Row> rows_;
   Genes inside_;

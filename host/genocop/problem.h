@@ -18,6 +18,7 @@ struct Gene {
   struct Condition {
     std::size_t gene;  // a categorical gene that is itself unconditional
     double category;
+    bool unless = false;  // with every other category instead
     bool operator==(const Condition&) const = default;
   };
 

@@ -133,7 +133,7 @@ void read_search(const Reader& reader, const toml::table& table, Settings& setti
 
 void read_gene(const Reader& reader, const toml::table& table, const ParameterSpec& spec,
                GeneConfig& config) {
-  const bool integer = spec.kind == ParameterSpec::Kind::kInteger;
+  const bool integer = spec.kind != ParameterSpec::Kind::kContinuous;
   const std::string label = "genes." + in_quotes(spec.name);
   bool has_standard = false;
   for (const auto& [key, node] : table) {
@@ -230,6 +230,34 @@ void check_start(const Reader& reader, const toml::table& table, const Config& c
                             sum, equal ? "exactly" : "at most", constraint.bound));
 }
 
+Gene::Kind kind_of(const ParameterSpec& spec) {
+  switch (spec.kind) {
+    case ParameterSpec::Kind::kContinuous:
+      return Gene::Kind::kContinuous;
+    case ParameterSpec::Kind::kInteger:
+      return Gene::Kind::kInteger;
+    case ParameterSpec::Kind::kCategorical:
+      break;
+  }
+  return Gene::Kind::kCategorical;
+}
+
+// "whole number; only with method = 0", or "0: gp3, 1: poisson".
+std::string kind_text(const ParameterSpec& spec) {
+  std::string text = spec.kind == ParameterSpec::Kind::kInteger ? "whole number" : "number";
+  if (spec.kind == ParameterSpec::Kind::kCategorical) {
+    text.clear();
+    for (std::size_t i = 0; i < spec.categories.size(); ++i) {
+      text += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i, spec.categories[i]);
+    }
+  }
+  if (spec.only_with) {
+    text += fmt::format("; only {} {} = {}", spec.only_with->unless ? "without" : "with",
+                        spec.only_with->parameter, spec.only_with->category);
+  }
+  return text;
+}
+
 std::string number_text(double value) { return fmt::format("{}", value); }
 
 std::string value_text(const SettingInfo& info, const Settings& settings) {
@@ -251,9 +279,14 @@ std::string value_text(const SettingInfo& info, const Settings& settings) {
 Config default_config(std::span<const ParameterSpec> parameters) {
   Config config;
   for (const ParameterSpec& spec : parameters) {
-    const auto kind =
-        spec.kind == ParameterSpec::Kind::kInteger ? Gene::Kind::kInteger : Gene::Kind::kContinuous;
-    config.genes.push_back({{spec.name, kind, spec.lower, spec.upper}, spec.standard, {}});
+    Gene gene{spec.name, kind_of(spec), spec.lower, spec.upper};
+    if (spec.only_with) {
+      const auto of =
+          std::ranges::find(parameters, spec.only_with->parameter, &ParameterSpec::name);
+      gene.only_with = {static_cast<std::size_t>(of - parameters.begin()), spec.only_with->category,
+                        spec.only_with->unless};
+    }
+    config.genes.push_back({std::move(gene), spec.standard, {}});
   }
   return config;
 }
@@ -278,11 +311,10 @@ std::string default_config_text(std::span<const ParameterSpec> parameters) {
       "the "
       "value\n# the search starts from; fixed = VALUE takes a parameter out of the search.\n";
   for (const ParameterSpec& spec : parameters) {
-    const bool integer = spec.kind == ParameterSpec::Kind::kInteger;
     text +=
         fmt::format("\n# {} ({})\n[genes.{}]\nlower = {}\nupper = {}\nstandard = {}\n",
-                    spec.meaning, integer ? "whole number" : "number", in_quotes(spec.name),
-                    number_text(spec.lower), number_text(spec.upper), number_text(spec.standard));
+                    spec.meaning, kind_text(spec), in_quotes(spec.name), number_text(spec.lower),
+                    number_text(spec.upper), number_text(spec.standard));
   }
   const std::string first = parameters.empty() ? "gene" : parameters.front().name;
   const std::string last = parameters.empty() ? "gene" : parameters.back().name;
@@ -382,7 +414,17 @@ Problem make_problem(const Config& config, std::string_view monotone_gene) {
     start.push_back(start_value(gene));
   }
   problem.linear = config.linear;
-  problem.starts = {std::move(start)};
+  problem.starts = {start};
+  // Each other category once, the rest as it is.
+  for (std::size_t i = 0; i < problem.genes.size(); ++i) {
+    const Gene& gene = problem.genes[i];
+    if (gene.kind != Gene::Kind::kCategorical) continue;
+    for (double category = gene.lower; category <= gene.upper; ++category) {
+      if (category == start[i]) continue;
+      problem.starts.push_back(start);
+      problem.starts.back()[i] = category;
+    }
+  }
   return problem;
 }
 

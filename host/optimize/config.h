@@ -43,8 +43,9 @@ Config read_config(const std::filesystem::path& path, std::span<const ParameterS
 // Every value of it by name, as text that tells any two apart: what a run's folder holds.
 std::vector<std::pair<std::string, std::string>> named_values(const Config& config);
 
-// The search space; the standard values are its start. monotone_gene: a name, or empty for none; a
-// name that is not among the genes, or is fixed, counts as none.
+// The search space; the standard values are its start, then these with each other category.
+// monotone_gene: a name, or empty for none; a name that is not among the genes, or is fixed, counts
+// as none.
 Problem make_problem(const Config& config, std::string_view monotone_gene);
 
 }  // namespace emax

@@ -118,13 +118,9 @@ class Run {
   }
 
   ChainSettings chain(const Genes& genes) const {
-    return {settings_.method, settings_.decimator, values_of(genes)};
-  }
-
-  ParameterValues values_of(const Genes& genes) const {
     ParameterValues values;
     for (std::size_t i = 0; i < genes.size(); ++i) values[problem_.genes.at(i).name] = genes[i];
-    return values;
+    return chain_settings(settings_.method, settings_.decimator, values);
   }
 
   void receive() {
@@ -157,8 +153,10 @@ class Run {
       return;
     }
     const ChainResult& made = std::get<ChainResult>(outcome);
+    state_.stages += made.seconds;
     const MeshFormat format = mesh_format(settings_.output);
     require_storable(made.mesh, format, constraint_.epsilon(), settings_.output);
+    const auto start = Clock::now();
     try {
       result.mesh = as_stored(made.mesh, format);
       result.error = device_ != nullptr
@@ -171,6 +169,7 @@ class Run {
       e.message = error.what();
       return;
     }
+    state_.measuring += std::chrono::duration<double>(Clock::now() - start).count();
     settings_.measured(result.mesh.view(), result.error);
     e.triangles = result.mesh.triangles.size();
     e.violation = result.error.violation;
@@ -251,7 +250,7 @@ class Run {
                      e.triangles,
                      e.violation,
                      e.squared_bits,
-                     values_of(e.genes),
+                     chain(e.genes),
                      e.reconstruction_triangles,
                      e.unmeshed_points,
                      std::move(result.mesh),

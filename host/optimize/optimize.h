@@ -51,7 +51,7 @@ struct BestMesh {
   std::size_t triangles;
   double violation;            // of the constraints, at most 0 when feasible
   std::uint32_t squared_bits;  // the kernel's e_max^2 over the kept points
-  ParameterValues parameters;
+  ChainSettings chain;
   std::size_t reconstruction_triangles;
   std::size_t unmeshed_points;
   TriangleMesh mesh;  // as stored; it and its error may be missing before optimize returns
@@ -68,6 +68,9 @@ struct OptimizeState {
   std::optional<BestMesh> least_error;  // the least violation of the meshes before that
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   std::string device_failure;  // that ended the run
+  // What evaluations that were made took: their stages in the workers, e_max here.
+  StageSeconds stages;
+  double measuring = 0;
 };
 
 // Called after every evaluation and at least every tenth of a second.

@@ -5,6 +5,7 @@
 
 #include "host/decimate/bounded_decimation.h"
 #include "host/decimate/manifold_part.h"
+#include "host/reconstruct/reconstruction_parameters.h"
 #include "host/worker/worker_pool.h"
 #include "sw_model/error.h"
 
@@ -15,8 +16,11 @@ TriangleMesh standard_surface(std::span<const Point> cloud, const OptimizeSettin
   WorkerPoolOptions options = worker_pool_options(cloud.size(), settings);
   options.jobs = 1;
   WorkerPool pool(cloud, options);
-  pool.submit(0, {settings.method, kNoDecimator,
-                  standard_values(chain_parameters(settings.method, kNoDecimator))});
+  // Of all methods the first, which follows the points most closely.
+  const std::string method = settings.method == kAutoMethod
+                                 ? std::string(reconstruction_methods().front())
+                                 : settings.method;
+  pool.submit(0, {method, kNoDecimator, standard_values(chain_parameters(method, kNoDecimator))});
   std::optional<Completed> completed;
   while (!completed) {
     if (settings.interrupted()) throw Interrupted{};

@@ -55,7 +55,41 @@ const std::vector<ParameterSpec>& hoppe() {
   return specs;
 }
 
+const std::vector<ParameterSpec>& mls() {
+  static const std::string method = "mls.method";
+  static const ParameterSpec::Condition used = {method, 0, true}, resampled = {method, 2};
+  static const std::vector<ParameterSpec> specs = {
+      {method,
+       kCategorical,
+       0,
+       2,
+       0,
+       "the cloud on its moving least squares surface",
+       {"as it is", "smoothed", "smoothed and thinned"}},
+      {"mls.radius",
+       kContinuous,
+       2,
+       10,
+       4,
+       "radius of the neighbourhood of a point, in multiples of the median point spacing",
+       {},
+       used},
+      {"mls.order", kInteger, 1, 3, 2, "degree of the polynomial", {}, used},
+      {"mls.cell",
+       kContinuous,
+       0.5,
+       3,
+       1,
+       "side of the cells that keep one point, in multiples of the median point spacing",
+       {},
+       resampled},
+  };
+  return specs;
+}
+
 }  // namespace
+
+std::span<const ParameterSpec> mls_parameters() { return mls(); }
 
 std::span<const std::string_view> reconstruction_methods() {
   static constexpr std::array<std::string_view, 3> kMethods = {"gp3", "poisson", "hoppe"};
@@ -67,7 +101,7 @@ std::span<const ParameterSpec> reconstruction_parameters(std::string_view method
   if (method == "poisson") return poisson();
   if (method == "hoppe") return hoppe();
   throw Error("there is no reconstruction method '" + std::string(method) +
-              "'; choose gp3, poisson or hoppe");
+              "'; choose gp3, poisson, hoppe or auto");
 }
 
 bool single_use(std::string_view method) { return method == "poisson"; }

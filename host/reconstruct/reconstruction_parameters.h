@@ -10,6 +10,9 @@ namespace emax {
 // The reconstruction methods of the paper's section 2.1: "gp3", "poisson", "hoppe".
 std::span<const std::string_view> reconstruction_methods();
 
+// Moving least squares of the cloud before a method; without values for them there are none.
+std::span<const ParameterSpec> mls_parameters();
+
 // P_R of a method with domains and standards. Needs no PCL.
 // Throws Error when there is no such method.
 std::span<const ParameterSpec> reconstruction_parameters(std::string_view method);

@@ -87,20 +87,40 @@ TEST(RunChain, BoundedDecimationIsHeldToTheReference) {
   EXPECT_EQ(freer.back_distance, 0);
 }
 
-// A reference that lacks a part of the surface: what is made there breaks the back bound, and how
-// far is said.
-TEST(RunChain, TellsHowFarAMeshStraysFromTheReference) {
+// A reference that lacks a part of the surface: what is made there is left out, and the bound
+// holds.
+TEST(RunChain, WhatStraysFromTheReferenceIsLeftOut) {
   const std::vector<Point> cloud = torus_cloud(60, 24);
   DecimationBound bound = two_sided_bound(cloud, 0.05, 0.05);
-  TriangleMesh part = bound.reference;
+  const TriangleMesh whole = bound.reference;
+  TriangleMesh part = whole;
   std::erase_if(part.triangles, [&](const Triangle& t) { return part.vertices[t[0]].x() > 0; });
   bound.reference = manifold_part(part).mesh;
   const ChainResult result = Chain(cloud, bound).run(bounded());
-  const SurfaceDistance back =
-      surface_distance(result.mesh.view(), ExactMesh(bound.reference.view()));
-  EXPECT_GT(back.lower, 0.5);
-  EXPECT_GT(result.back_distance, 0.9 * back.lower);
-  EXPECT_LE(result.back_distance, back.upper);
+  EXPECT_LE(result.back_distance, 0.05);
+  EXPECT_LE(surface_distance(result.mesh.view(), ExactMesh(bound.reference.view())).lower, 0.05);
+  EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
+  EXPECT_FALSE(certify(cloud, result.mesh.view()).within(0.5));
+
+  for (Point& p : bound.reference.vertices) p += Point(0, 0, 10);
+  EXPECT_THROW(Chain(cloud, bound).run(bounded()), Error);
+}
+
+// The twin of the decision: a distance measured without a limit.
+TEST(BoundedStage, TellsHowFarAMeshStraysFromTheReference) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  const DecimationBound bound = two_sided_bound(cloud, 0.05, 0.05);
+  const BoundedStage stage(cloud, bound);
+  const ExactMesh reference(bound.reference.view());
+  for (const double shift : {0.0, 0.03, 0.0499, 0.0501, 0.06, 2.0}) {
+    TriangleMesh mesh = bound.reference;
+    for (Point& p : mesh.vertices) p += Point(0, 0, shift);
+    const SurfaceDistance measured = surface_distance(mesh.view(), reference);
+    const double back = stage.back_distance(mesh);
+    EXPECT_EQ(back <= 0.05, measured.upper <= 0.05) << shift;
+    EXPECT_GE(back, 0.9 * measured.lower) << shift;
+    EXPECT_LE(back, std::max(measured.upper, 0.05)) << shift;
+  }
 }
 
 TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
@@ -114,6 +134,77 @@ TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
   const TriangleMesh mesh = Chain(cloud, bound).run(bounded()).mesh;
   EXPECT_TRUE(certify(cloud, mesh.view(), bound.outliers).within(0.05));
   EXPECT_FALSE(certify(cloud, mesh.view()).within(1));
+}
+
+// Every candidate of auto is one of a method, with the values that mean something there.
+TEST(ChainParameters, AutoHoldsEveryMethod) {
+  const auto all = chain_parameters("auto", "bounded");
+  const ParameterValues standards = standard_values(all);
+  std::set<std::string> names;
+  for (const ParameterSpec& spec : all) EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+  for (std::size_t m = 0; m < reconstruction_methods().size(); ++m) {
+    const std::string method(reconstruction_methods()[m]);
+    ParameterValues values = standards;
+    values["method"] = static_cast<double>(m);
+    ChainSettings candidate = chain_settings("auto", "bounded", values);
+    EXPECT_EQ(candidate.method, method);
+    for (const ParameterSpec& spec : chain_parameters(method, "bounded")) {
+      EXPECT_TRUE(names.contains(spec.name)) << spec.name;
+      EXPECT_TRUE(candidate.parameters.erase(spec.name)) << spec.name;
+    }
+    EXPECT_EQ(candidate.parameters, (ParameterValues{{"mls.method", 0}, {"fill.method", 1}}));
+  }
+  ParameterValues unfilled = standards;
+  unfilled["fill.method"] = 0;
+  unfilled["mls.method"] = 1;
+  const ChainSettings candidate = chain_settings("auto", "bounded", unfilled);
+  EXPECT_FALSE(candidate.parameters.contains("fill.size"));
+  EXPECT_FALSE(candidate.parameters.contains("mls.cell"));
+  EXPECT_TRUE(candidate.parameters.contains("mls.radius"));
+  EXPECT_EQ(chain_settings("gp3", "bounded", standards).parameters, standards);
+}
+
+TEST(RunChain, AutoRunsTheMethodsThemselves) {
+  const std::vector<Point> cloud = torus_cloud(40, 16);
+  ParameterValues values = standard_values(chain_parameters("auto", "schroeder"));
+  values["hoppe.resolution"] = 32;
+  Chain chain(cloud);
+  for (const double m : {0.0, 2.0}) {
+    values["method"] = m;
+    const ChainSettings candidate = chain_settings("auto", "schroeder", values);
+    ChainSettings plain{candidate.method, "schroeder", {}};
+    for (const ParameterSpec& spec : chain_parameters(plain.method, "schroeder")) {
+      plain.parameters[spec.name] = values.at(spec.name);
+    }
+    EXPECT_TRUE(same_bytes(chain.run(candidate).mesh, Chain(cloud).run(plain).mesh)) << m;
+  }
+}
+
+// Each way to fill holes and to smooth is another surface, kept under its own key.
+TEST(RunChain, TellsTheWaysToFillAndSmoothApart) {
+  std::vector<Point> cloud = torus_cloud(40, 16);
+  std::erase_if(cloud, [](const Point& p) { return (p - Point(1.4, 0, 0)).norm() < 0.5; });
+  Chain chain(cloud);
+  ParameterValues values = standard_values(chain_parameters("auto", kNoDecimator));
+  values["fill.size"] = 0.5;
+  const auto run = [&] { return chain.run(chain_settings("auto", kNoDecimator, values)).mesh; };
+  std::vector<TriangleMesh> meshes;
+  for (const double fill : {0.0, 1.0, 2.0}) {
+    for (const double mls : {0.0, 1.0, 2.0}) {
+      values["fill.method"] = fill;
+      values["mls.method"] = mls;
+      values["mls.cell"] = 1.5;
+      meshes.push_back(run());
+      EXPECT_EQ(check_mesh(meshes.back().view()).boundary_edges > 0, fill == 0) << fill << mls;
+    }
+  }
+  for (std::size_t a = 0; a < meshes.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_FALSE(same_bytes(meshes[a], meshes[b])) << a << ' ' << b;
+  }
+  EXPECT_EQ(chain.reconstructions(), 3u);
+  values.erase("mls.cell");
+  EXPECT_THROW(run(), Error);
 }
 
 // The twin of the caches is none: every candidate by a chain of its own.

@@ -40,6 +40,17 @@ TEST(ConditionalGenes, RefuseConditionsThatNameNoCategory) {
   EXPECT_NO_THROW(LinearDomain{narrowed});
 }
 
+TEST(ConditionalGenes, MayNameTheCategoryThatTheyAreWithout) {
+  Problem p;
+  p.genes = {{"fill", Kind::kCategorical, 0, 2},
+             {"size", Kind::kContinuous, 0, 1, Gene::Condition{0, 0, true}}};
+  const LinearDomain domain(p);
+  EXPECT_FALSE(domain.has_meaning({0, 0.5}, 1));
+  EXPECT_TRUE(domain.has_meaning({1, 0.5}, 1));
+  EXPECT_TRUE(domain.has_meaning({2, 0.5}, 1));
+  EXPECT_EQ(domain.movable_with_meaning({0, 0.5}), std::vector<std::size_t>{0});
+}
+
 TEST(ConditionalGenes, MutationsOfOneGeneChangeOneThatCounts) {
   const LinearDomain domain(two_methods());
   RandomStream random(31, 0, RandomStream::Purpose::kTest);
@@ -49,7 +60,7 @@ TEST(ConditionalGenes, MutationsOfOneGeneChangeOneThatCounts) {
       const std::vector<Genes> parents = {domain.sample(random)};
       const Genes child = mutation({domain, parents, 0.9, 2, 0.1}, random);
       for (std::size_t k = 0; k < child.size(); ++k) {
-        if (child[k] != parents[0][k]) EXPECT_TRUE(domain.has_meaning(parents[0], k)) << k;
+        EXPECT_TRUE(child[k] == parents[0][k] || domain.has_meaning(parents[0], k)) << k;
       }
     }
   }

@@ -183,5 +183,45 @@ TEST_F(ConfigTest, RefusesWhatCannotBeRead) {
   EXPECT_THROW(read_config(std::filesystem::temp_directory_path(), parameters()), Error);
 }
 
+// Methods as categories, each with parameters of its own.
+TEST(Config, CategoriesBecomeGenesWithTheirStarts) {
+  using Kind = ParameterSpec::Kind;
+  const std::vector<ParameterSpec> specs = {
+      {"method", Kind::kCategorical, 0, 2, 1, "how", {"gp3", "poisson", "hoppe"}},
+      {"mu",
+       Kind::kContinuous,
+       2,
+       6,
+       3,
+       "search radius",
+       {},
+       ParameterSpec::Condition{"method", 0}},
+      {"fill", Kind::kCategorical, 0, 1, 0, "holes", {"none", "all"}},
+      {"size",
+       Kind::kContinuous,
+       0,
+       1,
+       0.5,
+       "of holes",
+       {},
+       ParameterSpec::Condition{"fill", 0, true}},
+  };
+  const std::string text = default_config_text(specs);
+  EXPECT_NE(text.find("0: gp3, 1: poisson, 2: hoppe"), std::string::npos) << text;
+  EXPECT_NE(text.find("only with method = 0"), std::string::npos) << text;
+  EXPECT_NE(text.find("only without fill = 0"), std::string::npos) << text;
+  Config config = default_config(specs);
+  const Problem problem = make_problem(config, "");
+  EXPECT_EQ(problem.genes[0].kind, Gene::Kind::kCategorical);
+  EXPECT_EQ(problem.genes[1].only_with, (Gene::Condition{0, 0}));
+  EXPECT_EQ(problem.genes[3].only_with, (Gene::Condition{2, 0, true}));
+  EXPECT_EQ(problem.starts,
+            (std::vector<Genes>{{1, 3, 0, 0.5}, {0, 3, 0, 0.5}, {2, 3, 0, 0.5}, {1, 3, 1, 0.5}}));
+  config.genes[0].fixed = 2;
+  const Problem narrowed = make_problem(config, "");
+  EXPECT_EQ(narrowed.starts, (std::vector<Genes>{{2, 3, 0, 0.5}, {2, 3, 1, 0.5}}));
+  EXPECT_EQ(Genocop(narrowed, {}, 1).ask().genes, narrowed.starts[0]);
+}
+
 }  // namespace
 }  // namespace emax

@@ -47,6 +47,7 @@ std::uint64_t seed_of_every_fault(const Config& config) {
 class OptimizeTest : public testing::Test {
  protected:
   OptimizeTest() {
+    settings_.decimator = "schroeder";
     settings_.config = default_config(chain_parameters("gp3", "schroeder"));
     settings_.config.search.budget = kBudget;
     settings_.jobs = 2;
@@ -90,7 +91,8 @@ void expect_same(const OptimizeState& a, const OptimizeState& b) {
   EXPECT_EQ(a.failures, b.failures);
   ASSERT_TRUE(a.best && b.best);
   EXPECT_EQ(a.best->index, b.best->index);
-  EXPECT_EQ(a.best->parameters, b.best->parameters);
+  EXPECT_EQ(a.best->chain.method, b.best->chain.method);
+  EXPECT_EQ(a.best->chain.parameters, b.best->chain.parameters);
   EXPECT_EQ(a.best->error, b.best->error);
   EXPECT_EQ(a.best->unmeshed_points, b.best->unmeshed_points);
   EXPECT_TRUE(same_bytes(a.best->mesh, b.best->mesh));

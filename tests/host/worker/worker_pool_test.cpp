@@ -100,7 +100,7 @@ TEST(WorkerPool, RunsPoissonAgainAndAgain) {
 TEST(WorkerPool, GivesCandidatesToTheWorkerThatHasTheirReconstruction) {
   std::vector<ChainSettings> candidates;
   for (int i = 0; i < 8; ++i) {
-    candidates.push_back(settings(i % 4 < 2 ? "gp3" : "hoppe"));
+    candidates.push_back(settings(i % 2 == 0 ? "gp3" : "hoppe"));
     candidates.back().parameters["schroeder.reduction"] = 0.1 * i;
   }
   std::size_t made = 0;
