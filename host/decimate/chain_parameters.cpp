@@ -41,7 +41,7 @@ const std::vector<ParameterSpec>& bounded() {
        "0: edge collapses; 1: then moves, turns and mended collapses; 2: until nothing is gained"},
       {"bounded.normal_cosine", kContinuous, -0.5, 0.9, 0.2,
        "least cosine between a triangle and the one that it replaces"},
-      {"bounded.flatness", kContinuous, 1e-4, 0.1, 1e-3,
+      {"bounded.flatness", kContinuous, 1e-4, 0.01, 1e-3,
        "least height of a new triangle over its longest side"},
   };
   return specs;

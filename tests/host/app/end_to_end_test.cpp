@@ -308,6 +308,25 @@ TEST_F(EndToEnd, AllMethodsAndMeshFormats) {
   }
 }
 
+// Every method is a gene: its candidates may lie in any worker's cache, or in none.
+TEST_F(EndToEnd, AutoGivesTheSameBytesForAnyJobs) {
+  std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "8%",
+                                        "-o",       "mesh.ply", "--budget",    "9",
+                                        "--method", "auto",     "--jobs",      "1"};
+  const ProgramRun run = emax(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const json c = read("mesh.ply.certificate.json");
+  EXPECT_EQ(c.at("valid"), true);
+  EXPECT_NE(c.at("method"), "auto");
+  EXPECT_EQ(c.at("parameters").contains("gp3.mu"), c.at("method") == "gp3");
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+  const std::string mesh = text("mesh.ply"), certificate = text("mesh.ply.certificate.json");
+  arguments.back() = "2";
+  ASSERT_EQ(emax(arguments).exit_code, 0);
+  EXPECT_EQ(text("mesh.ply"), mesh);
+  EXPECT_EQ(text("mesh.ply.certificate.json"), certificate);
+}
+
 TEST_F(EndToEnd, TheBoundedDecimatorKeepsBothBounds) {
   std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "3%",
                                         "-o",       "mesh.ply", "--budget",    "4",
