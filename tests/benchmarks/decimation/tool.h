@@ -34,7 +34,7 @@ Tool vtk_decimate_pro_tool();
 Tool meshoptimizer_tool();
 Tool cgal_lindstrom_turk_tool();
 Tool cgal_garland_heckbert_tool();
-// Lindstrom and Turk's within CGAL's polyhedral envelope: 45 s a call for 13,000 triangles.
+// Lindstrom and Turk's within CGAL's polyhedral envelope.
 Tool cgal_envelope_tool();
 
 }  // namespace emax::benchmarks
