@@ -108,9 +108,7 @@ def main():
         search_bench.main(others, install_peers())
         return
     if arguments.decimate:
-        if not arguments.quick:
-            fetch_dragon()
-        decimation_bench.main(others, arguments.quick, None if arguments.quick else install_peers())
+        decimation_bench.main(others, arguments.quick, fetch_dragon, install_peers)
         return
     if arguments.error:
         error_bench.main(install_peers())

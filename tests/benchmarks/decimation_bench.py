@@ -308,7 +308,8 @@ def quick():
         print("\n" + table(store, scan, percent, tools))
 
 
-def main(words, is_quick, python):
+def main(words, is_quick, fetch_dragon, install_python):
+    """The last two make data/dragon.ply and an interpreter with Matplotlib, or None."""
     parser = argparse.ArgumentParser(prog="./dev bench --decimate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scans", nargs="+", choices=BOUNDS, default=list(BOUNDS))
@@ -321,6 +322,9 @@ def main(words, is_quick, python):
     if is_quick:
         quick()
         return
+    if "dragon" in options.scans and not options.only_write:
+        fetch_dragon()
+    python = install_python()
     if options.fresh:
         shutil.rmtree(FOLDER, ignore_errors=True)
     store = Store(FOLDER / "results.jsonl")
