@@ -176,7 +176,7 @@ def table(store, scan, percent, tools):
     lines = [f"### {scan}, {percent:g} % of the width\n"]
     if told:
         left = f", {told['left_out']} left out that cannot be joined to the mesh" if told["left_out"] else ""
-        lines.append(f"{told['text'][0].upper()}{told['text'][1:]}: {told['points']} points{left}; the start has "
+        lines.append(f"{told['text']}: {told['points']} points{left}; the start has "
                      f"{told['start']} triangles.\n")
     lines += ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 2) + "---|"]
     lines += [row(tool, result, compared, sharp) for tool, result in results]
@@ -199,6 +199,8 @@ def summary(store):
              "|---|---:|---|---:|---:|---:|---:|---:|---:|"]
     for scan, bounds in BOUNDS.items():
         for percent in bounds:
+            if not any(store.get(scan, percent, tool) for tool in OWN + PEERS):
+                continue
             peer = best_peer(store, scan, percent)
             told = [peer["name"], str(peer["triangles"]), number(peer["back"])] if peer else ["none", "–", "–"]
             own = [fewer(store.get(scan, percent, tool), peer) for tool in (ONE, ONE + "-deep", TWO, TWO + "-deep")]
