@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kHopeless = 4;    // squared distance / limit^2 from which finer steps do not help
 constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
+constexpr double kSecondChoice = 0.5;  // squared distance / limit^2 up to which a vertex stays put
+constexpr double kNothing = 1e-8;      // an energy that a move is not worth
 constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
@@ -79,7 +81,14 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   if (hoppe) options.power = 2;
   const double before = search_.energy_before(options.power) + options_.representation;
   Fit fit;
-  if (feature != FeatureEdges::Collapse::kAnywhere) {
+  if (feature == FeatureEdges::Collapse::kAlong) {
+    // The planes' quadrics have it where the sides of the feature meet.
+    bool any = false;
+    for (const Point& at : {search_.quadric_optimum(), pa, pb}) {
+      any = any || (search_.evaluate(at, options.power, fit) && fit.worst <= 1);
+    }
+    if (!any) return false;
+  } else if (feature != FeatureEdges::Collapse::kAnywhere) {
     const Point& kept = feature == FeatureEdges::Collapse::kAtFirst ? pa : pb;
     if (!search_.evaluate(kept, options.power, fit)) return false;
     if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
@@ -128,11 +137,21 @@ void DecimationPasses::push(std::uint32_t a, std::uint32_t b) {
 }
 
 bool DecimationPasses::apply_collapse(const Candidate& candidate) {
-  if (!search_.prepare_collapse(candidate.a, candidate.b)) return false;
-  if (!search_.finish(candidate.fit, true, edit_)) return false;
-  if (!state_.permits(edit_)) return false;
-  make_collapse(candidate.a, candidate.b);
-  return true;
+  const std::uint32_t a = candidate.a, b = candidate.b;
+  if (!search_.prepare_collapse(a, b)) return false;
+  const auto try_at = [&](const Fit& fit) {
+    return search_.finish(fit, true, edit_) && state_.permits(edit_);
+  };
+  bool made = try_at(candidate.fit);
+  // Where the two were, little is new that could meet anything.
+  if (!made && options_.features.permitted(a, b) == FeatureEdges::Collapse::kAnywhere) {
+    for (const Point& end : {state_.mesh().position(a), state_.mesh().position(b)}) {
+      Fit fit;
+      made = made || (search_.evaluate(end, 4, fit) && fit.worst <= kSecondChoice && try_at(fit));
+    }
+  }
+  if (made) make_collapse(a, b);
+  return made;
 }
 
 void DecimationPasses::make_collapse(std::uint32_t a, std::uint32_t b) {
@@ -220,9 +239,10 @@ std::size_t DecimationPasses::collapse() {
 }
 
 bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limit) {
-  if (options_.features.vertex_class(vertex) == VertexClass::kCorner) return false;
+  if (options_.features.fixed(vertex)) return false;
   if (!search_.prepare_relocation(vertex)) return false;
   const double before = search_.energy_before(power);
+  if (before < kNothing) return false;
   Fit fit;
   LocalSearch::Options options;
   options.power = power;

@@ -32,13 +32,16 @@ class FeatureEdges {
   }
   bool on(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
 
-  // How an edge collapse keeps the features: not at all, with the new vertex anywhere, or only
-  // where one of the two is. A corner stays where it is, a feature is only shortened along itself,
-  // and what is not on a feature may be drawn into it.
-  enum class Collapse { kForbidden, kAnywhere, kAtFirst, kAtSecond };
+  // How an edge collapse keeps the features: not at all, with the new vertex anywhere, along the
+  // feature that the edge is part of, or only where one of the two is. A corner stays where it is,
+  // a feature is only shortened along itself, and what is not on a feature may be drawn into it.
+  enum class Collapse { kForbidden, kAnywhere, kAlong, kAtFirst, kAtSecond };
   Collapse permitted(std::uint32_t a, std::uint32_t b) const;
   // b was drawn into a; `neighbours` of b before.
   void collapsed(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& neighbours);
+
+  // Whether the vertex stays where it is when nothing around it collapses.
+  bool fixed(std::uint32_t vertex) const { return on_feature(vertex); }
 
  private:
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {

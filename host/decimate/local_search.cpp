@@ -179,7 +179,7 @@ Point LocalSearch::quadric_optimum() const {
   // Repeated, so that planes that meet in an edge or corner are met to the last digits, while where
   // they do not, the start decides.
   Point optimum = Point::Zero();
-  for (int i = 0; i < 3; ++i) optimum = solver.solve(right + weight * optimum);
+  for (int i = 0; i < 6; ++i) optimum = solver.solve(right + weight * optimum);
   return start + optimum;
 }
 

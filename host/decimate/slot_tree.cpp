@@ -234,7 +234,7 @@ void SlotTree::insert(std::uint32_t slot, const Box& box) {
     deepest_ = std::max(deepest_, depth + 1);
     break;
   }
-  refit(leaf_of_[slot] / kPlaces);
+  refit(node);
 }
 
 bool SlotTree::outgrown(const EditableMesh& mesh) const {
