@@ -144,7 +144,8 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
   };
   bool made = try_at(candidate.fit);
   // Where the two were, little is new that could meet anything.
-  if (!made && options_.features.permitted(a, b) == FeatureEdges::Collapse::kAnywhere) {
+  if (!made && options_.representation == 0 &&
+      options_.features.permitted(a, b) == FeatureEdges::Collapse::kAnywhere) {
     for (const Point& end : {state_.mesh().position(a), state_.mesh().position(b)}) {
       Fit fit;
       made = made || (search_.evaluate(end, 4, fit) && fit.worst <= kSecondChoice && try_at(fit));

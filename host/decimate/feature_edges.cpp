@@ -87,7 +87,7 @@ FeatureEdges::Collapse FeatureEdges::permitted(std::uint32_t a, std::uint32_t b)
     const bool corner_a = vertex_class(a) == VertexClass::kCorner;
     const bool corner_b = vertex_class(b) == VertexClass::kCorner;
     if (!on(a, b) || (corner_a && corner_b)) return Collapse::kForbidden;
-    return corner_a ? Collapse::kAtFirst : corner_b ? Collapse::kAtSecond : Collapse::kAnywhere;
+    return corner_a ? Collapse::kAtFirst : corner_b ? Collapse::kAtSecond : Collapse::kAlong;
   }
   // What ends at a boundary or a complex vertex keeps its end.
   if (on(a, b)) return first ? Collapse::kAtSecond : Collapse::kAtFirst;

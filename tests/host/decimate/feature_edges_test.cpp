@@ -135,6 +135,7 @@ TEST(FeatureEdges, OfAMachinePartStayWhereTheyAre) {
   ASSERT_GT(before.points.size(), 1000u);
   DecimationSettings settings;
   settings.epsilon = 0.005 * bounds_of(mesh.vertices).width();
+  settings.effort = DecimationSettings::Effort::kCollapse;
   const BoundedDecimator decimator(reference.mesh, mesh.vertices);
   const auto sharp_distance = [&] {
     const TriangleMesh result = decimator.run(settings).mesh;
