@@ -9,7 +9,6 @@ case and writes nothing, a minute.
 """
 
 import argparse
-import hashlib
 import json
 import math
 import platform
@@ -26,10 +25,6 @@ HERE = Path("tests/benchmarks")
 PROGRAM = Path("build/bench/bin/emax_decimation_benchmark")
 FOLDER = Path("build/bench/decimation")
 PLOTS = Path("docs/plots")
-FANDISK = Path("data/fandisk.off")
-FANDISK_SHA256 = "edffb263f037b023757259befd5532fccb48bdc3c35a1da2e11e235a647bd050"
-PACKAGE, ARCHIVE = "libcgal-demo", "./usr/share/doc/libcgal-dev/data.tar.gz"
-MEMBER = "data/meshes/fandisk.off"
 
 # Percent of the width.
 BOUNDS = {"bunny": [0.642, 0.321, 0.193, 0.0642], "fandisk": [0.5, 0.1, 0.02], "torus": [0.25], "building": [0.5],
@@ -49,22 +44,6 @@ NOTHING_GONE = 0.98  # of the triangles of the start: the tool found nothing to 
 
 def say(text):
     print(f"bench: {text}", flush=True)
-
-
-def fetch_fandisk():
-    def there():
-        return FANDISK.exists() and hashlib.sha256(FANDISK.read_bytes()).hexdigest() == FANDISK_SHA256
-    if there():
-        return
-    say(f"fetching fandisk.off from Debian's {PACKAGE}")
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["apt-get", "-q", "-o", "APT::Sandbox::User=root", "download", PACKAGE], cwd=folder, check=True,
-                       stdout=subprocess.DEVNULL)
-        deb = next(Path(folder).glob("*.deb"))
-        command = f"dpkg-deb --fsys-tarfile '{deb}' | tar -xO {ARCHIVE} | tar -xzO {MEMBER}"
-        FANDISK.write_bytes(subprocess.run(command, shell=True, check=True, stdout=subprocess.PIPE).stdout)
-    if not there():
-        sys.exit(f"bench: the fandisk.off of {PACKAGE} is not the one that is measured here")
 
 
 class Store:
@@ -320,7 +299,6 @@ def main(words, is_quick, fetch_dragon, install_python):
     parser.add_argument("--fresh-own", action="store_true", help="forget emax's own earlier results")
     parser.add_argument("--only-write", action="store_true", help="from the results that are there")
     options = parser.parse_args(words)
-    fetch_fandisk()
     if is_quick:
         quick()
         return
