@@ -94,6 +94,23 @@ HWY_INLINE std::uint32_t still_settled(const SearchJob& job, std::size_t i, floa
   return settled;
 }
 
+// Packets of a supergroup whose balls a triangle settles, and which.
+class SettledBalls {
+ public:
+  HWY_INLINE void add(std::uint32_t packets, std::uint32_t leaf) {
+    for (std::uint32_t more = packets & ~bits_; more != 0; more &= more - 1) {
+      leaves_[hwy::Num0BitsBelowLS1Bit_Nonzero32(more)] = leaf;
+    }
+    bits_ |= packets;
+  }
+  HWY_INLINE bool has(std::size_t packet) const { return (bits_ >> packet & 1) != 0; }
+  HWY_INLINE std::uint32_t leaf(std::size_t packet) const { return leaves_[packet]; }
+
+ private:
+  std::uint32_t bits_ = 0;
+  std::array<std::uint32_t, kSupergroupPackets> leaves_;
+};
+
 struct Visit {
   float squared;
   std::uint32_t node;
@@ -248,18 +265,24 @@ constexpr std::size_t kFew = 4;
     const bool use_prisms = s % kPrismTrial == 0 || 2 * inside_prisms >= in_packets * kPacketPoints;
     inside_prisms = in_packets = 0;
     // Where the maximum is large beside packets, one triangle settles many of them at once.
-    const BallLanes balls(job.cloud.balls[s],
-                          allowed_distance(limit_of(job.worst), job.mesh.reach));
-    std::uint32_t within = 0;
+    const float ball_limit = limit_of(job.worst) * kProven;
+    const BallLanes balls(job.cloud.balls[s], allowed_distance(ball_limit, job.mesh.reach));
+    SettledBalls within;
     bool new_hint = balls.smaller() != 0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      if (new_hint) within |= balls.within(job.mesh.records[hint]);
-      new_hint = false;
-      if ((within >> (i - range.begin) & 1) != 0) continue;
+      SettledPacket& settled = job.settled.packets[i];
       const Packet& packet = job.cloud.packets[i];
       const float limit = limit_of(job.worst, packet);
-      SettledPacket& settled = job.settled.packets[i];
       std::uint32_t open = kAll & ~still_settled(job, i, limit, hint);
+      if (open != 0) {
+        if (new_hint) within.add(balls.within(job.mesh.records[hint]), hint);
+        new_hint = false;
+        if (within.has(i - range.begin)) {
+          settled = {ball_limit, job.settled.now, {}};
+          settled.leaves.fill(within.leaf(i - range.begin));
+          continue;
+        }
+      }
       const float proven_before = open != kAll ? settled.squared_limit : 0.0f;
       if (open != 0) {
         PacketLanes lanes(packet);
