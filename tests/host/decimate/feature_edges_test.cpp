@@ -112,8 +112,8 @@ struct Sharp {
         const std::uint32_t a = t[i], b = t[(i + 1) % 3];
         if (a > b || !features.on(a, b)) continue;
         edges.triangles.push_back({a, b, b});
-        for (int k = 0; k <= 8; ++k) {
-          points.push_back(mesh.vertices[a] + k / 8.0 * (mesh.vertices[b] - mesh.vertices[a]));
+        for (int k = 0; k <= 2; ++k) {
+          points.push_back(mesh.vertices[a] + k / 2.0 * (mesh.vertices[b] - mesh.vertices[a]));
         }
       }
     }
@@ -132,7 +132,7 @@ TEST(FeatureEdges, OfAMachinePartStayWhereTheyAre) {
   const TriangleMesh mesh = read_mesh(EMAX_DATA_FOLDER "/fandisk.off");
   const ReferenceSurface reference = reference_surface(mesh, mesh.vertices, 1e-3);
   const Sharp before(reference.mesh, kAngle);
-  ASSERT_GT(before.points.size(), 1000u);
+  ASSERT_GT(before.points.size(), 500u);
   DecimationSettings settings;
   settings.epsilon = 0.005 * bounds_of(mesh.vertices).width();
   settings.effort = DecimationSettings::Effort::kCollapse;
@@ -148,9 +148,8 @@ TEST(FeatureEdges, OfAMachinePartStayWhereTheyAre) {
   const double with = sharp_distance();
   RecordProperty("without", std::to_string(without / settings.epsilon));
   RecordProperty("with", std::to_string(with / settings.epsilon));
-  // Either surface may be epsilon off, and where two meet slantwise the edge a little more.
-  EXPECT_LE(with, 2 * settings.epsilon);
-  EXPECT_LE(without, 2 * settings.epsilon);
+  EXPECT_LE(with, settings.epsilon);
+  EXPECT_GT(without, 2 * settings.epsilon);
 }
 
 }  // namespace
