@@ -17,11 +17,9 @@ struct Material {
   std::vector<PointWords> points;
   std::vector<RecordWords> records;
 
-  const PointWords& any_point(Random& random) const {
-    return points[random.below(static_cast<std::uint32_t>(points.size()))];
-  }
+  const PointWords& any_point(Random& random) const { return points[random.below(points.size())]; }
   const RecordWords& any_record(Random& random) const {
-    return records[random.below(static_cast<std::uint32_t>(records.size()))];
+    return records[random.below(records.size())];
   }
 };
 
@@ -66,7 +64,7 @@ const Material& any_material(Random& random) {
     for (const test::Stimulus& s : test::all_stimuli(1)) all.push_back(s.name);
     return all;
   }();
-  return material(names[random.below(static_cast<std::uint32_t>(names.size()))]);
+  return material(names[random.below(names.size())]);
 }
 
 // Zeros, subnormals, the ends of the normal range, huge squares, infinities, NaNs of both kinds.

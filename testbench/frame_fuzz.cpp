@@ -124,7 +124,7 @@ std::vector<std::uint8_t> any_frame(const Host& host, std::uint8_t turn, Random&
   if (random.one_in(8)) frame.sequence = static_cast<std::uint8_t>(random.word());
   if (random.one_in(16)) frame.version = static_cast<std::uint8_t>(random.word());
   std::vector<std::uint8_t> bytes = encode(frame);
-  const auto any_byte = [&] { return random.below(static_cast<std::uint32_t>(bytes.size())); };
+  const auto any_byte = [&] { return random.below(bytes.size()); };
   switch (random.below(12)) {
     case 0:
       bytes[any_byte()] ^= static_cast<std::uint8_t>(1u << random.below(8));

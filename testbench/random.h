@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string_view>
@@ -17,7 +18,8 @@ class Random {
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
-  std::uint32_t below(std::uint32_t end) {
+  // `end` at most 2^32.
+  std::uint32_t below(std::size_t end) {
     return static_cast<std::uint32_t>((engine_() >> 32) * end >> 32);
   }
   Point point(double low, double high) {

@@ -118,7 +118,7 @@ TEST(Driver, SeesEveryWrongWord) {
   Random random(3);
   for (int i = 0; i < 20; ++i) {
     Expected wrong = right;
-    const std::size_t at = random.below(static_cast<std::uint32_t>(right.nearest.size()));
+    const std::size_t at = random.below(right.nearest.size());
     wrong.nearest[at].squared ^= 1u << random.below(32);
     EXPECT_EQ(mismatch_of(wrong).sample, at);
     EXPECT_EQ(mismatch_of(wrong).pair, right.nearest[at].pair);
@@ -126,7 +126,7 @@ TEST(Driver, SeesEveryWrongWord) {
     wrong.nearest[at].last = !wrong.nearest[at].last;
     EXPECT_EQ(mismatch_of(wrong).sample, at);
     wrong = right;
-    const std::size_t block = random.below(static_cast<std::uint32_t>(right.worst.size()));
+    const std::size_t block = random.below(right.worst.size());
     wrong.worst[block].index ^= 1u << random.below(kPointBits);
     EXPECT_EQ(mismatch_of(wrong).stream, "m_axis_worst");
     wrong = right;

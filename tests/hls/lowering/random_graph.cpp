@@ -20,7 +20,7 @@ DataflowGraph random_graph(Random& random, std::size_t operations, DataflowGraph
     reals.push_back(graph.add_constant(ValueKind::kReal, word));
   }
   const auto draw = [&random](const std::vector<NodeId>& from) {
-    return from[random.below(static_cast<std::uint32_t>(from.size()))];
+    return from[random.below(from.size())];
   };
   for (std::size_t i = 0; i < operations; ++i) {
     const Operation operation = kDrawn[random.below(std::size(kDrawn))];

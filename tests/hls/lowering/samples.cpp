@@ -29,10 +29,10 @@ std::vector<Sample> samples(std::uint64_t seed, std::size_t count, const MakeRec
       const Normalization normalization = normalization_of(s.cloud);
       const auto points = normalized_points(s.cloud, normalization);
       for (int i = 0; i < 200; ++i) {
-        const auto triangle = random.below(static_cast<std::uint32_t>(s.triangles.size()));
+        const auto triangle = random.below(s.triangles.size());
         std::array<Point, 3> corners = s.mesh().corners(triangle);
         for (Point& corner : corners) corner = normalization.apply(corner);
-        const Vector3<float>& p = points[random.below(static_cast<std::uint32_t>(points.size()))];
+        const Vector3<float>& p = points[random.below(points.size())];
         Sample sample{words_of(make(make_frame(corners), triangle)),
                       {to_word(p.x), to_word(p.y), to_word(p.z)}};
         const int spoiled = i % 4;  // how many of 16 words become words of any kind

@@ -54,7 +54,7 @@ std::string fault(const DataflowGraph& graph, const Latencies& latencies, const 
 
 Latencies random_latencies(Random& random) {
   const auto draw = [&random](int low, int high) {
-    return low + static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1)));
+    return low + static_cast<int>(random.below(high - low + 1));
   };
   Latencies l;
   l.add = draw(1, 13);

@@ -162,7 +162,7 @@ TEST(XrtDevice, GivesTheWordsOfTheModelHoweverTransfersEnd) {
       const bool list = random.below(2) == 0;
       const auto words = random_block(random, points, random.below(12), list);
       // A command may be cut anywhere.
-      const std::size_t cut = random.below(static_cast<std::uint32_t>(words.size()));
+      const std::size_t cut = random.below(words.size());
       for (Device* device : {static_cast<Device*>(&model), static_cast<Device*>(&card.device)}) {
         device->send(std::span(words).first(cut));
         device->send(std::span(words).subspan(cut));

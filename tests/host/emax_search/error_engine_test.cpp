@@ -20,10 +20,6 @@
 namespace emax {
 namespace {
 
-std::size_t pick(test::Random& random, std::size_t count) {
-  return random.below(static_cast<std::uint32_t>(count));
-}
-
 using Bits = std::vector<std::uint32_t>;
 
 constexpr std::pair<Strategy, const char*> kStrategies[] = {{Strategy::kAutomatic, "automatic"},
@@ -167,15 +163,15 @@ TEST(ErrorEngine, RemembersWithoutError) {
 // order of those that stay another.
 test::Stimulus edited(test::Stimulus s, test::Random& random) {
   for (int i = 0; i < 6; ++i) {
-    Point& moved = s.vertices[pick(random, s.vertices.size())];
+    Point& moved = s.vertices[random.below(s.vertices.size())];
     moved += random.point(-0.3, 0.3);
   }
   for (int i = 0; i < 20; ++i) {
     s.triangles.erase(s.triangles.begin() +
-                      static_cast<std::ptrdiff_t>(pick(random, s.triangles.size())));
+                      static_cast<std::ptrdiff_t>(random.below(s.triangles.size())));
   }
   for (std::size_t i = s.triangles.size(); i > 1; --i) {
-    std::swap(s.triangles[i - 1], s.triangles[pick(random, i)]);
+    std::swap(s.triangles[i - 1], s.triangles[random.below(i)]);
   }
   return s;
 }
@@ -196,7 +192,7 @@ TEST(ErrorEngine, KeepsWhatStillHolds) {
       const auto nearest = ErrorEngine(cloud).squared_distances(mesh);
       const EmaxResult worst = worst_of(nearest);
       // Questions that end early leave packets with what was known before.
-      const std::uint32_t limit = nearest[pick(random, nearest.size())];
+      const std::uint32_t limit = nearest[random.below(nearest.size())];
       if (step % 3 == 1) {
         const auto violation = warm.violation(mesh, limit);
         ASSERT_EQ(violation.has_value(), worst.squared_bits > limit);

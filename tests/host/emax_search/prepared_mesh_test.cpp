@@ -11,10 +11,6 @@
 namespace emax {
 namespace {
 
-std::size_t pick(test::Random& random, std::size_t count) {
-  return random.below(static_cast<std::uint32_t>(count));
-}
-
 TEST(PreparedMesh, HasTheModelsRecordsAlongACurve) {
   for (const test::Stimulus& s : test::all_stimuli(70)) {
     SCOPED_TRACE(s.name + ", seed 70");
@@ -61,7 +57,7 @@ TEST(MeshLeaves, FindsTheTrianglesThatStayed) {
   const test::Stimulus before = test::bumpy_sphere(15, 20, 100, 81);
   test::Stimulus now = before;
   for (int i = 0; i < 30; ++i) {
-    now.vertices[pick(random, now.vertices.size())] += Point(0, 0, 1e-5);
+    now.vertices[random.below(now.vertices.size())] += Point(0, 0, 1e-5);
   }
   std::ranges::reverse(now.triangles);
   for (std::size_t i = 0; i < now.triangles.size(); i += 7) {

@@ -325,7 +325,7 @@ TEST(BadCloudBytes, MutatedFilesAreReadOrRefused) {
     for (int i = 0; i < 1500; ++i) {
       std::string bytes = whole;
       for (std::uint32_t change = random.below(3) + 1; change-- != 0;) {
-        const std::size_t at = random.below(static_cast<std::uint32_t>(bytes.size()));
+        const std::size_t at = random.below(bytes.size());
         const char byte = random.below(2) == 0 ? static_cast<char>(random.below(256))
                                                : "0123456789 -.e\n,;/#"[random.below(19)];
         switch (random.below(3)) {

@@ -31,7 +31,7 @@ template <class Value>
 std::vector<Value> any_of(const std::vector<Value>& values, std::size_t count, Random& random) {
   std::vector<Value> chosen;
   for (std::size_t i = 0; i < count; ++i) {
-    chosen.push_back(values[random.below(static_cast<std::uint32_t>(values.size()))]);
+    chosen.push_back(values[random.below(values.size())]);
   }
   return chosen;
 }
@@ -40,7 +40,7 @@ std::vector<Value> any_of(const std::vector<Value>& values, std::size_t count, R
 // before points, too many points, unknown opcodes.
 void append_any_command(std::vector<Word>& words, const std::vector<Material>& all,
                         Random& random) {
-  const Material& m = all[random.below(static_cast<std::uint32_t>(all.size()))];
+  const Material& m = all[random.below(all.size())];
   switch (random.below(10)) {
     case 0:
     case 1:
@@ -161,7 +161,7 @@ TEST_P(Core, ResetInMidStreamLeavesNothingBehind) {
     const auto broken =
         dense_block(all[0], 1 + random.below(200), 1 + random.below(20), random.one_in(2), random);
     // Some of the words, some cycles, then the reset.
-    const std::size_t cut = random.below(static_cast<std::uint32_t>(broken.size()));
+    const std::size_t cut = random.below(broken.size());
     for (std::size_t sent = 0; sent < cut;) {
       core_->offer_command(&broken[sent]);
       core_->set_answer_ready(false);
