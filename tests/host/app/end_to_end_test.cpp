@@ -310,8 +310,9 @@ TEST_F(EndToEnd, AllMethodsAndMeshFormats) {
 
 // Every method is a gene: its candidates may lie in any worker's cache, or in none.
 TEST_F(EndToEnd, AutoGivesTheSameBytesForAnyJobs) {
+  test::write_scan(folder_.path() / "scan.xyz", 400, 2);
   std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "8%",
-                                        "-o",       "mesh.ply", "--budget",    "9",
+                                        "-o",       "mesh.ply", "--budget",    "4",
                                         "--method", "auto",     "--jobs",      "1"};
   const ProgramRun run = emax(arguments);
   ASSERT_EQ(run.exit_code, 0) << run.errors;
@@ -328,6 +329,7 @@ TEST_F(EndToEnd, AutoGivesTheSameBytesForAnyJobs) {
 }
 
 TEST_F(EndToEnd, TheBoundedDecimatorKeepsBothBounds) {
+  test::write_scan(folder_.path() / "scan.xyz", 600, 2);
   std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "3%",
                                         "-o",       "mesh.ply", "--budget",    "4",
                                         "--json",   "r.json",   "--jobs",      "2"};
