@@ -55,7 +55,8 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
   bound.epsilon = constraint.provable_distance() - moved;
   if (two_sided) bound.epsilon_back = *settings.epsilon_back - moved;
   if (bound.epsilon <= 0 || (two_sided && bound.epsilon_back <= 0)) {
-    throw Error("the tolerance is lost where this format rounds; write .ply, .obj or .off");
+    throw Error(settings.output.string() +
+                ": the tolerance is lost where this format rounds; write .ply, .obj or .off");
   }
   if (!two_sided && constraint.excludable() == 0) return bound;
 

@@ -82,7 +82,7 @@ pack() { # BUNNY BUILDING: the package with these two texts as its data files
 bunny=$'OFF\n2 0 0\n0 0 0\n1 1 1\n'
 building=$'ply\nformat ascii 1.0\nelement vertex 1\nend_header\n0 0 0\n'
 sum() { printf '%s' "$1" | sha256sum | cut -d' ' -f1; }
-sed -i -e "s|^\(bunny00.off .*off\) .*|\1 $(sum "$bunny") 2|" \
+sed -i -e "/^fandisk.off /d" -e "s|^\(bunny00.off .*off\) .*|\1 $(sum "$bunny") 2|" \
   -e "s|^\(building.ply .*ply\) .*|\1 $(sum "$building") 1\"|" "$dev"
 export DEB=$folder/libcgal-demo_9.9-1_all.deb
 # shellcheck disable=SC2016

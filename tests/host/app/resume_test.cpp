@@ -161,8 +161,9 @@ TEST_F(Resume, StopsAndLimitsAreSaid) {
   EXPECT_LT(json().at("evaluations"), 20);
 
   // No evaluation is done in a millisecond; each is counted.
-  const ProgramRun hasty =
-      test::run_emax(command({"--evaluation-time", "0.001"}, "mesh.ply", "3"), folder_.path());
+  const ProgramRun hasty = test::run_emax(
+      command({"--decimator", "schroeder", "--evaluation-time", "0.001"}, "mesh.ply", "3"),
+      folder_.path());
   EXPECT_EQ(hasty.exit_code, 1);
   EXPECT_NE(hasty.errors.find("3 failed (timed out)"), std::string::npos) << hasty.errors;
   EXPECT_FALSE(exists("mesh.ply.run"));
