@@ -37,8 +37,8 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
   const bool direct =
       settings.feature_angle > 0 || settings.objective != DecimationSettings::Objective::kFewest;
   std::vector<TriangleMesh>& meshes = meshes_[settings.two_sided ? 1 : 0];
-  std::size_t level = 0;
-  for (double below = finest_; !direct && below > 0 && below <= kShare * bound; below *= 2) {
+  double below = finest_;
+  for (std::size_t level = 0; !direct && below > 0 && below <= kShare * bound; ++level) {
     if (level == meshes.size()) {
       DecimationSettings sweep;
       sweep.epsilon = below;
@@ -49,7 +49,8 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
       if (swept.interrupted) return swept;
       meshes.push_back(std::move(swept.mesh));
     }
-    start = &meshes[level++];
+    start = &meshes[level];
+    below *= 2;
   }
   return decimator_.run(*start, settings, 0);
 }

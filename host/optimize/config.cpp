@@ -419,7 +419,9 @@ Problem make_problem(const Config& config, std::string_view monotone_gene) {
   for (std::size_t i = 0; i < problem.genes.size(); ++i) {
     const Gene& gene = problem.genes[i];
     if (gene.kind != Gene::Kind::kCategorical) continue;
-    for (double category = gene.lower; category <= gene.upper; ++category) {
+    const auto categories = static_cast<std::size_t>(gene.upper - gene.lower) + 1;
+    for (std::size_t c = 0; c < categories; ++c) {
+      const double category = gene.lower + static_cast<double>(c);
       if (category == start[i]) continue;
       problem.starts.push_back(start);
       problem.starts.back()[i] = category;

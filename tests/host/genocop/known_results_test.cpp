@@ -71,7 +71,8 @@ TEST(KnownResults, AreNotAskedForWhenNothingNewIsFound) {
   bench.evaluate = [](const Genes& g) { return Evaluation{true, g[0] - g[1] + g[2], -1.0}; };
   const Genes unknown = {1, 2, 0};
   for (int i = 0; i < 27; ++i) {
-    const Genes genes = {double(i % 3), double(i / 3 % 3), double(i / 9)};
+    const int second = i / 3 % 3, third = i / 9;
+    const Genes genes = {double(i % 3), double(second), double(third)};
     if (genes != unknown) bench.problem.known.emplace_back(genes, bench.evaluate(genes));
   }
   Settings settings;
