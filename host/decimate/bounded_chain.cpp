@@ -10,16 +10,7 @@
 namespace emax {
 
 BoundedStage::BoundedStage(std::span<const Point> points, DecimationBound bound)
-    : bound_(std::move(bound)) {
-  kept_.reserve(points.size());
-  auto outlier = bound_.outliers.begin();
-  for (std::uint32_t p = 0; p < points.size(); ++p) {
-    if (outlier != bound_.outliers.end() && *outlier == p) {
-      ++outlier;
-    } else {
-      kept_.push_back(points[p]);
-    }
-  }
+    : bound_(std::move(bound)), kept_(points_without(points, bound_.outliers)) {
   if (!two_sided()) return;
   constexpr double kInside = 1 - 1e-9;  // where the decimator's own limit, less roundings, is too
   back_.emplace(bound_.reference, kInside * bound_.epsilon_back);

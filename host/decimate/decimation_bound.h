@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "host/geometry/triangle_mesh.h"
@@ -14,5 +16,16 @@ struct DecimationBound {
   TriangleMesh reference;   // of a two-sided bound, as reference_surface() gives it
   std::vector<std::uint32_t> outliers;  // ascending; points that count for nothing
 };
+
+// The points that count; `outliers` ascending.
+inline std::vector<Point> points_without(std::span<const Point> points,
+                                         std::span<const std::uint32_t> outliers) {
+  std::vector<Point> kept;
+  kept.reserve(points.size());
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    if (!std::ranges::binary_search(outliers, p)) kept.push_back(points[p]);
+  }
+  return kept;
+}
 
 }  // namespace emax

@@ -1,6 +1,5 @@
 #include "host/optimize/run_bound.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "host/decimate/bounded_decimation.h"
@@ -33,15 +32,6 @@ TriangleMesh standard_surface(std::span<const Point> cloud, const OptimizeSettin
   return std::move(std::get<ChainResult>(completed->outcome).mesh);
 }
 
-std::vector<Point> without(std::span<const Point> cloud, std::span<const std::uint32_t> outliers) {
-  std::vector<Point> kept;
-  kept.reserve(cloud.size() - outliers.size());
-  for (std::uint32_t p = 0; p < cloud.size(); ++p) {
-    if (!std::ranges::binary_search(outliers, p)) kept.push_back(cloud[p]);
-  }
-  return kept;
-}
-
 }  // namespace
 
 DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
@@ -70,8 +60,8 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
                : std::vector<std::uint32_t>{};
   };
   bound.outliers = beyond(surface);
-  bound.reference = reference_surface(surface, without(cloud, bound.outliers), bound.epsilon / 2,
-                                      settings.interrupted)
+  bound.reference = reference_surface(surface, points_without(cloud, bound.outliers),
+                                      bound.epsilon / 2, settings.interrupted)
                         .mesh;
   if (settings.interrupted()) throw Interrupted{};
   // Also what could not be inserted, but no more what an insertion came near.
