@@ -42,10 +42,16 @@ class ExactMesh {
 
   // `upper` is the least upper bound over all triangles, the same to the bit as without the tree,
   // and `triangle` the lowest index that attains it. The search may stop at any triangle within
-  // `enough`; then `upper` <= enough is all that is promised, and `lower` is 0.
-  Nearest nearest(const Point& p, double enough = -std::numeric_limits<double>::infinity()) const;
+  // `enough`; then `upper` <= enough is all that is promised, and `lower` is 0. A triangle known to
+  // be near, `seed`, makes it faster and changes nothing else.
+  Nearest nearest(const Point& p, double enough = -std::numeric_limits<double>::infinity(),
+                  std::uint32_t seed = ~0u) const;
 
   DistanceBounds distance(const Point& p) const { return nearest(p).distance; }
+
+  const std::array<Point, 3>& corners(std::uint32_t triangle) const {
+    return corners_[place_of_[triangle]];
+  }
 
   // Bounds of the distance to one triangle of the mesh.
   DistanceBounds distance_to(const Point& p, std::uint32_t triangle) const;

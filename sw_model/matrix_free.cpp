@@ -18,32 +18,38 @@ Scalar clamped_ratio(Scalar numerator, Scalar denominator) {
 }  // namespace
 
 template <class Scalar>
-Scalar ericson_squared_distance(const Vector<Scalar>& p, const Vector<Scalar>& a,
-                                const Vector<Scalar>& b, const Vector<Scalar>& c) {
+Vector<Scalar> ericson_offset(const Vector<Scalar>& p, const Vector<Scalar>& a,
+                              const Vector<Scalar>& b, const Vector<Scalar>& c) {
   const Vector<Scalar> ab = b - a, ac = c - a, ap = p - a;
   const Scalar d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  if (d1 <= 0 && d2 <= 0) return ap;
 
   const Vector<Scalar> bp = p - b;
   const Scalar d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  if (d3 >= 0 && d4 <= d3) return bp;
 
   const Scalar vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return ap - d1 / (d1 - d3) * ab;
 
   const Vector<Scalar> cp = p - c;
   const Scalar d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  if (d6 >= 0 && d5 <= d6) return cp;
 
   const Scalar vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return ap - d2 / (d2 - d6) * ac;
 
   const Scalar va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).squaredNorm();
+    return bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
   }
   const Scalar scale = 1 / (va + vb + vc);
-  return (ap - vb * scale * ab - vc * scale * ac).squaredNorm();
+  return ap - vb * scale * ab - vc * scale * ac;
+}
+
+template <class Scalar>
+Scalar ericson_squared_distance(const Vector<Scalar>& p, const Vector<Scalar>& a,
+                                const Vector<Scalar>& b, const Vector<Scalar>& c) {
+  return ericson_offset(p, a, b, c).squaredNorm();
 }
 
 template <class Scalar>
@@ -84,6 +90,8 @@ Scalar eberly_squared_distance(const Vector<Scalar>& p, const Vector<Scalar>& co
 }
 
 #define EMAX_INSTANTIATE(Scalar)                                                          \
+  template Vector<Scalar> ericson_offset(const Vector<Scalar>&, const Vector<Scalar>&,    \
+                                         const Vector<Scalar>&, const Vector<Scalar>&);   \
   template Scalar ericson_squared_distance(const Vector<Scalar>&, const Vector<Scalar>&,  \
                                            const Vector<Scalar>&, const Vector<Scalar>&); \
   template Scalar eberly_squared_distance(const Vector<Scalar>&, const Vector<Scalar>&,   \

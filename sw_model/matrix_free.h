@@ -6,10 +6,17 @@ namespace emax {
 
 // Squared distance from a point to a triangle straight from the corners, without a frame made
 // beforehand: what the paper's transformation (section 4) is measured against. Checks and
-// benchmarks use them; nothing that decides does. For float and double; O(1).
+// benchmarks use them; what decides takes at most a guess from them that it then proves. For float
+// and double; O(1).
 
-// Ericson, "Real-Time Collision Detection" (2005), 5.1.5, ClosestPtPointTriangle. For a degenerate
-// triangle the result can be NaN.
+// Ericson, "Real-Time Collision Detection" (2005), 5.1.5, ClosestPtPointTriangle, as the vector
+// from the nearest point of the triangle to p. For a degenerate triangle the result can be NaN.
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 1> ericson_offset(const Eigen::Matrix<Scalar, 3, 1>& p,
+                                           const Eigen::Matrix<Scalar, 3, 1>& a,
+                                           const Eigen::Matrix<Scalar, 3, 1>& b,
+                                           const Eigen::Matrix<Scalar, 3, 1>& c);
+
 template <class Scalar>
 Scalar ericson_squared_distance(const Eigen::Matrix<Scalar, 3, 1>& p,
                                 const Eigen::Matrix<Scalar, 3, 1>& a,

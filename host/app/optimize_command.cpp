@@ -9,7 +9,6 @@
 #include "host/app/progress.h"
 #include "host/app/result_files.h"
 #include "host/app/run_identity.h"
-#include "host/decimate/certified_decimation.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/sha256.h"
@@ -19,6 +18,7 @@
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
 #include "sw_model/error.h"
+#include "sw_model/surface_distance.h"
 
 namespace emax {
 namespace {

@@ -48,10 +48,8 @@ TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
 
 double BoundedStage::back_distance(const TriangleMesh& mesh) const {
   if (!two_sided()) return 0;
-  SurfaceDistanceOptions decide;
-  decide.relative = 0;
-  decide.limit = bound_.epsilon_back;
-  const SurfaceDistance decided = surface_distance(mesh.view(), *exact_reference_, decide);
+  const SurfaceDistance decided =
+      decided_distance(mesh.view(), *exact_reference_, bound_.epsilon_back);
   if (decided.within(bound_.epsilon_back)) return decided.upper;
   constexpr double kPrecision = 0.05;  // enough to compare candidates that fail
   SurfaceDistanceOptions measure;

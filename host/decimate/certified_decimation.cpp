@@ -16,8 +16,7 @@ constexpr int kDecimatedInsertions = 2;   // after which the mesh is decimated o
 constexpr int kRestarts = 4;              // with smaller bounds
 constexpr double kFirstReduction = 1e-3;  // of the bounds; later ones are kGrowth times the last
 constexpr double kGrowth = 8;
-constexpr double kPrecision = 1e-3;  // of distances that are not decided by a bound
-constexpr int kMostPieces = 64;      // that a triangle is halved into in search of its far points
+constexpr int kMostPieces = 64;  // that a triangle is halved into in search of its far points
 
 // The farthest points found in triangles of `from` that are not proven to lie within the limit of
 // `to`, beyond it.
@@ -65,21 +64,6 @@ std::vector<Point> points_beyond(const TriangleMesh& from, const TriangleMesh& t
   }
   return beyond;
 }
-
-}  // namespace
-
-SurfaceDistance decided_distance(MeshView from, const ExactMesh& to, double limit) {
-  SurfaceDistanceOptions options;
-  options.relative = kPrecision;
-  options.absolute = kPrecision * limit;
-  SurfaceDistance found = surface_distance(from, to, options);
-  if (found.within(limit) || found.lower > limit) return found;
-  options.limit = limit;
-  options.relative = options.absolute = 0;
-  return surface_distance(from, to, options);
-}
-
-namespace {
 
 class Attempts {
  public:

@@ -38,7 +38,4 @@ struct CertifiedDecimation {
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings);
 
-// To a per mille, and finer where that does not decide whether it is within the limit.
-SurfaceDistance decided_distance(MeshView from, const ExactMesh& to, double limit);
-
 }  // namespace emax

@@ -178,6 +178,22 @@ TEST(ExactMesh, EqualsBruteForce) {
   }
 }
 
+TEST(ExactMesh, FindsTheSameFromAnySeed) {
+  for (const test::Stimulus& s : test::all_stimuli(63)) {
+    SCOPED_TRACE(s.name + ", seed 63");
+    const ExactMesh tree(s.mesh());
+    for (std::size_t i = 0; i < std::min<std::size_t>(s.cloud.size(), 100); ++i) {
+      const ExactMesh::Nearest found = tree.nearest(s.cloud[i]);
+      for (std::uint32_t seed = 0; seed < s.triangles.size(); seed += 7) {
+        const ExactMesh::Nearest seeded = tree.nearest(s.cloud[i], -INFINITY, seed);
+        ASSERT_EQ(seeded.distance.upper, found.distance.upper) << seed;
+        ASSERT_EQ(seeded.triangle, found.triangle) << seed;
+        ASSERT_LE(seeded.distance.lower, seeded.distance.upper) << seed;
+      }
+    }
+  }
+}
+
 TEST(ExactMesh, StopsEarlyOnlyWithinWhatIsEnough) {
   const test::Stimulus s = test::bumpy_sphere(20, 30, 500, 62);
   const ExactMesh tree(s.mesh());

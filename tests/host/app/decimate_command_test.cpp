@@ -79,6 +79,22 @@ TEST_F(DecimateCommand, BoundsBothSurfacesAndVerifyAgrees) {
   EXPECT_EQ(test::files_in(folder_.path()).size(), 5u);
 }
 
+TEST_F(DecimateCommand, VerifyRefusesWhatACertificateClaimsWrongly) {
+  ASSERT_EQ(decimate("out.ply").exit_code, 0);
+  const json honest = certificate("out.ply");
+  for (const char* key : {"mesh_to_reference", "reference_to_mesh"}) {
+    const double claim = honest.at("reference").at(key);
+    for (const double wrong : {0.97 * claim, 1.5 * claim, -claim}) {
+      json forged = honest;
+      forged["reference"][key] = wrong;
+      std::ofstream(folder_ / "out.ply.certificate.json") << forged;
+      const ProgramRun run = emax({"verify", "out.ply.certificate.json"});
+      EXPECT_EQ(run.exit_code, 2) << key << wrong;
+      EXPECT_NE(run.output.find("it claims"), std::string::npos) << run.output;
+    }
+  }
+}
+
 TEST_F(DecimateCommand, KeepsToTheCloudThatIsGiven) {
   for (const std::string bound : {"one-sided", "two-sided"}) {
     ASSERT_EQ(decimate("out.off", {"--cloud", "scan.xyz", "--bound", bound}).exit_code, 0);
