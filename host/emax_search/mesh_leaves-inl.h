@@ -85,22 +85,29 @@ struct LeafLanes {
   alignas(64) std::array<double, kTriangles> segment;  // not 0 for one
 };
 
-// One corner of each lane's triangle. Four vertices are turned as a matrix, which is faster than
-// to gather their coordinates.
+// One corner of each lane's triangle. Four vertices at a time are turned as a matrix, which is
+// faster than to gather their coordinates.
 struct CornerLanes {
   Lanes<DoubleTag> x, y, z;
   HWY_INLINE CornerLanes(const NormalizedVertex* vertices, const std::int64_t* which) {
     const DoubleTag d;
 #if HWY_TARGET != HWY_SCALAR
-    if constexpr (kVector == 4) {
-      const auto row = [&](std::size_t k)
-                           HWY_ATTR { return hn::Load(d, vertices[which[k]].at.data()); };
+    if constexpr (kVector >= 4) {
+      const auto row = [&](std::size_t k) HWY_ATTR {
+        if constexpr (kVector == 4) {
+          return hn::Load(d, vertices[which[k]].at.data());
+        } else {
+          const hn::Half<DoubleTag> half;
+          return hn::Combine(d, hn::Load(half, vertices[which[k + 4]].at.data()),
+                             hn::Load(half, vertices[which[k]].at.data()));
+        }
+      };
       const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
       const auto xz01 = hn::InterleaveLower(d, r0, r1), xz23 = hn::InterleaveLower(d, r2, r3);
       const auto y01 = hn::InterleaveUpper(d, r0, r1), y23 = hn::InterleaveUpper(d, r2, r3);
-      x.vec = hn::ConcatLowerLower(d, xz23, xz01);
-      y.vec = hn::ConcatLowerLower(d, y23, y01);
-      z.vec = hn::ConcatUpperUpper(d, xz23, xz01);
+      x.vec = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(xz23), xz01);
+      y.vec = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(y23), y01);
+      z.vec = hn::OddEvenBlocks(xz23, hn::SwapAdjacentBlocks(xz01));
       return;
     }
 #endif
