@@ -36,6 +36,7 @@ struct DecimateOptions {
   std::string back_error;  // empty: max_error
   std::string output;
   std::string effort = "normal";  // or quick, deep
+  double feature_angle = 0;       // degrees; 0: no features
   std::string json;
   std::string excluded_share = "0";
   std::optional<double> seconds;

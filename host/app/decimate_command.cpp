@@ -45,6 +45,7 @@ class DecimateCommand {
     settings_.decimation.epsilon_back = back ? checked(*back, "--back-error") : epsilon_;
     settings_.decimation.two_sided = options.two_sided;
     settings_.decimation.effort = effort_named(options.effort);
+    settings_.decimation.feature_angle = options.feature_angle;
     settings_.format = mesh_format(options.output);
     settings_.whole_reference = own_cloud_;
     require_storable(given_, settings_.format, std::min(epsilon_, epsilon_back()), options.output);
@@ -162,8 +163,10 @@ class DecimateCommand {
     certificate.triangles = result_.mesh.triangles.size();
     certificate.validity = result_.validity;
     certificate.transform = normalization_of(scan_.cloud.points);
-    certificate.chain = {
-        "none", "bounded", {{"bounded.effort", static_cast<double>(settings_.decimation.effort)}}};
+    certificate.chain = {"none",
+                         "bounded",
+                         {{"bounded.effort", static_cast<double>(settings_.decimation.effort)},
+                          {"bounded.feature_angle", settings_.decimation.feature_angle}}};
     std::vector<ResultFile> files;
     if (options_.two_sided) {
       std::string sum;

@@ -34,15 +34,19 @@ struct Options {
   bool quick = false;
 };
 
+constexpr double kFeatureAngle = 40;  // as in the README's advice for machine parts
+
 struct OwnWay {
   const char *key, *name;
   bool two_sided;
   Effort effort;
+  double feature_angle = 0;
 };
 
 constexpr OwnWay kOwnWays[] = {
     {"emax-two-sided", "emax, two-sided", true, Effort::kRelax},
     {"emax-two-sided-deep", "emax, two-sided, deep", true, Effort::kDeep},
+    {"emax-two-sided-features", "emax, two-sided, features", true, Effort::kRelax, kFeatureAngle},
     {"emax-two-sided-quick", "emax, two-sided, quick", true, Effort::kCollapse},
     {"emax-one-sided", "emax, one-sided", false, Effort::kRelax},
     {"emax-one-sided-deep", "emax, one-sided, deep", false, Effort::kDeep},
@@ -60,6 +64,7 @@ TriangleMesh decimated(const DecimationScan& scan, const OwnWay& way) {
   settings.decimation.epsilon = scan.epsilon;
   settings.decimation.two_sided = way.two_sided;
   settings.decimation.effort = way.effort;
+  settings.decimation.feature_angle = way.feature_angle;
   return decimate_certified(scan.start, scan.cloud, settings).mesh;
 }
 

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/decimate/feature_edges.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/cloud_file.h"
 #include "host/geometry/mesh_file.h"
@@ -93,6 +95,30 @@ TEST_F(DecimateCommand, VerifyRefusesWhatACertificateClaimsWrongly) {
       EXPECT_NE(run.output.find("it claims"), std::string::npos) << run.output;
     }
   }
+}
+
+TEST_F(DecimateCommand, KeepsTheCornersOfAPartSharp) {
+  const std::string part = "part.off";
+  std::filesystem::copy_file(EMAX_DATA_FOLDER "/fandisk.off", folder_ / part);
+  const auto corners_left = [&](const std::string& output, std::vector<std::string> more) {
+    EXPECT_EQ(decimate(output, std::move(more), part, "1%").exit_code, 0);
+    const std::vector<Point> kept = read_mesh(folder_ / output).vertices;
+    const TriangleMesh mesh = read_mesh(folder_ / part);
+    const FeatureEdges features(mesh, 40);
+    std::size_t corners = 0, left = 0;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+      if (features.vertex_class(v) != VertexClass::kCorner) continue;
+      ++corners;
+      left += std::ranges::find(kept, mesh.vertices[v]) != kept.end() ? 1 : 0;
+    }
+    EXPECT_GT(corners, 10u);
+    return static_cast<double>(left) / static_cast<double>(corners);
+  };
+  EXPECT_EQ(corners_left("sharp.ply", {"--feature-angle", "40"}), 1);
+  EXPECT_LT(corners_left("any.ply", {}), 0.5);
+  EXPECT_EQ(certificate("sharp.ply").at("parameters").at("bounded.feature_angle"), 40);
+  EXPECT_EQ(verify("sharp.ply"), 0);
+  EXPECT_NE(decimate("no.ply", {"--feature-angle", "200"}).exit_code, 0);
 }
 
 TEST_F(DecimateCommand, KeepsToTheCloudThatIsGiven) {
