@@ -81,22 +81,6 @@ TEST_F(DecimateCommand, BoundsBothSurfacesAndVerifyAgrees) {
   EXPECT_EQ(test::files_in(folder_.path()).size(), 5u);
 }
 
-TEST_F(DecimateCommand, VerifyRefusesWhatACertificateClaimsWrongly) {
-  ASSERT_EQ(decimate("out.ply").exit_code, 0);
-  const json honest = certificate("out.ply");
-  for (const char* key : {"mesh_to_reference", "reference_to_mesh"}) {
-    const double claim = honest.at("reference").at(key);
-    for (const double wrong : {0.97 * claim, 1.5 * claim, -claim}) {
-      json forged = honest;
-      forged["reference"][key] = wrong;
-      std::ofstream(folder_ / "out.ply.certificate.json") << forged;
-      const ProgramRun run = emax({"verify", "out.ply.certificate.json"});
-      EXPECT_EQ(run.exit_code, 2) << key << wrong;
-      EXPECT_NE(run.output.find("it claims"), std::string::npos) << run.output;
-    }
-  }
-}
-
 TEST_F(DecimateCommand, KeepsTheCornersOfAPartSharp) {
   const std::string part = "part.off";
   std::filesystem::copy_file(EMAX_DATA_FOLDER "/fandisk.off", folder_ / part);
@@ -170,6 +154,12 @@ TEST_F(DecimateCommand, VerifyCatchesEveryFalseClaim) {
   for (const char* key : {"mesh_to_reference", "reference_to_mesh", "epsilon_back"}) {
     const double claimed = honest.at("reference").at(key);
     EXPECT_EQ(verdict([&](json&, json& r) { r[key] = claimed / 2; }), 2) << key;
+  }
+  for (const char* key : {"mesh_to_reference", "reference_to_mesh"}) {
+    const double claimed = honest.at("reference").at(key);
+    for (const double wrong : {0.97 * claimed, 1.5 * claimed, -claimed}) {
+      EXPECT_EQ(verdict([&](json&, json& r) { r[key] = wrong; }), 2) << key << wrong;
+    }
   }
   EXPECT_EQ(verdict([](json&, json& r) { r["points_to_reference"] = -1; }), 2);
   EXPECT_EQ(verdict([](json&, json& r) { r["sha256"] = "00"; }), 2);
