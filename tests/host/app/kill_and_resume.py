@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Kills `emax optimize` at random moments and continues it: the result has the same bytes each time.
 
-    kill_and_resume.py EMAX [--kills N] [--seed N] [--points N] [--budget N]
+    kill_and_resume.py EMAX [--kills N] [--seed N] [--points N] [--budget N] [--method M]
 
 Half of the moments are drawn over the time that an undisturbed run takes, half over its evaluations.
 After each kill a copy of the folder is run to its end with one job or two, and compared; the killed
@@ -47,6 +47,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--points", type=int, default=500)
     parser.add_argument("--budget", type=int, default=16)
+    parser.add_argument("--method", default="gp3")
     options = parser.parse_args()
     emax = options.emax.resolve()
     generator = random.Random(options.seed)
@@ -57,7 +58,8 @@ def main():
 
         def start(mesh, run, jobs):
             command = [emax, "optimize", "scan.xyz", "--max-error", "6%", "-o", mesh, "--resume", run,
-                       "--budget", str(options.budget), "--jobs", str(jobs)]
+                       "--budget", str(options.budget), "--jobs", str(jobs),
+                       "--method", options.method]
             return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE,
                                     stderr=subprocess.DEVNULL, text=True)
 
