@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/geometry/bounds.h"
 
 namespace emax {
 namespace {
 
-constexpr double kFinest = 1.0 / 32;  // of the vertices' spacing on a square of the width
-constexpr double kShare = 0.5;        // of a cut's bounds, the most that a mesh it goes on from has
-constexpr double kReach = 0.1;        // of the width
+constexpr double kFinest = 1.0 / 32;           // of the vertices' spacing on a square of the width
+constexpr double kStep = std::numbers::sqrt2;  // from a mesh's bounds to the next one's
+constexpr double kShare = 0.72;  // of a cut's bounds, the most that a mesh it goes on from has
+constexpr double kReach = 0.1;   // of the width
 constexpr double kLeastFinest = 1e-12;  // of the greatest coordinate
 
 }  // namespace
@@ -32,7 +34,7 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
     bound = std::min(bound, settings.epsilon_back);
   }
   const TriangleMesh* start = &reference_;
-  // The features of a mesh that was swept without them are not the reference's, and Hoppe's energy
+  // The features of a mesh that was made without them are not the reference's, and Hoppe's energy
   // has vertices where no other objective leaves any.
   const bool direct =
       settings.feature_angle > 0 || settings.objective != DecimationSettings::Objective::kFewest;
@@ -40,17 +42,17 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
   double below = finest_;
   for (std::size_t level = 0; !direct && below > 0 && below <= kShare * bound; ++level) {
     if (level == meshes.size()) {
-      DecimationSettings sweep;
-      sweep.epsilon = below;
-      sweep.two_sided = settings.two_sided;
-      sweep.effort = DecimationSettings::Effort::kSweep;
-      sweep.interrupted = settings.interrupted;
-      DecimatedMesh swept = decimator_.run(*start, sweep, reach_);
-      if (swept.interrupted) return swept;
-      meshes.push_back(std::move(swept.mesh));
+      DecimationSettings finer;
+      finer.epsilon = below;
+      finer.two_sided = settings.two_sided;
+      finer.effort = DecimationSettings::Effort::kCollapse;
+      finer.interrupted = settings.interrupted;
+      DecimatedMesh made = decimator_.run(*start, finer, reach_);
+      if (made.interrupted) return made;
+      meshes.push_back(std::move(made.mesh));
     }
     start = &meshes[level];
-    below *= 2;
+    below *= kStep;
   }
   return decimator_.run(*start, settings, 0);
 }

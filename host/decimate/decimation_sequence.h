@@ -8,11 +8,11 @@
 
 namespace emax {
 
-// The decimation of one reference, cut at any bounds and effort: meshes under bounds that double
-// from far below the points' spacing are made once, each swept from the one before it, and a cut
-// goes on from the coarsest that is well below its own bounds. What a cut gives is as
-// BoundedDecimator promises, and depends on the settings alone, not on the cuts before; its bytes
-// are not those of a direct run. Not for concurrent use.
+// The decimation of one reference, cut at any bounds and effort: meshes under bounds that grow
+// by a factor of sqrt(2) from far below the points' spacing are made once, each by collapses from
+// the one before it, and a cut goes on from the coarsest that is well below its own bounds. What a
+// cut gives is as BoundedDecimator promises, and depends on the settings alone, not on the cuts
+// before; its bytes are not those of a direct run. Not for concurrent use.
 class DecimationSequence {
  public:
   // Both outlive the sequence.
