@@ -1,6 +1,7 @@
 #include "host/decimate/bounded_decimation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -171,11 +172,23 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     state.reassign();
     tell("moves", passes.relocate(4));
     relax();
-    for (bool gained = true; gained && !passes.stopped();) {
+    const auto gain = [&] {
       state.reassign();
       const std::size_t mended = tell("mended collapses", passes.collapse_and_mend());
-      const std::size_t more = relax();
-      gained = mended + more > 0 && settings.effort == Effort::kDeep;
+      return mended + relax() > 0;
+    };
+    const bool deep = settings.effort == Effort::kDeep;
+    bool gained = gain();
+    while (gained && deep && !passes.stopped()) gained = gain();
+    // Another measure of how well points are met moves the mesh out of where the search has ended.
+    constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
+    const std::size_t tries = deep ? kOtherPowers.size() : 1;
+    for (std::size_t vain = 0; vain < tries && !passes.stopped();) {
+      const int power = kOtherPowers[vain++];
+      tell("turns", passes.flip(power));
+      tell("moves", passes.relocate(power));
+      tell("moves", passes.relocate(4));
+      while (gain() && deep && !passes.stopped()) vain = 0;
     }
   }
   result.interrupted = passes.stopped();

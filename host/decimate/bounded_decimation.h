@@ -37,7 +37,7 @@ struct DecimationSettings {
     kSweep,     // edge collapses far below the bounds, which leave a few times the fewest triangles
     kCollapse,  // and the others
     kRelax,     // and vertices moved, edges turned, collapses that these make possible
-    kDeep,      // the same until nothing is gained
+    kDeep,      // the same until nothing is gained, from several local minima of the energy
   } effort = Effort::kRelax;
 
   double normal_cosine = 0.2;  // least, between a triangle and the one that it replaces
