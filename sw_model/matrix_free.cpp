@@ -21,18 +21,19 @@ template <class Scalar>
                                                     const Vector<Scalar>& a,
                                                     const Vector<Scalar>& b,
                                                     const Vector<Scalar>& c) {
-  const Vector<Scalar> ab = b - a, ac = c - a, ap = p - a;
+  const Vector<Scalar> ab = b - a, ac = c - a;
+  Vector<Scalar> ap = p - a;
   const Scalar d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return ap;
 
-  const Vector<Scalar> bp = p - b;
+  Vector<Scalar> bp = p - b;
   const Scalar d3 = ab.dot(bp), d4 = ac.dot(bp);
   if (d3 >= 0 && d4 <= d3) return bp;
 
   const Scalar vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return ap - d1 / (d1 - d3) * ab;
 
-  const Vector<Scalar> cp = p - c;
+  Vector<Scalar> cp = p - c;
   const Scalar d5 = ab.dot(cp), d6 = ac.dot(cp);
   if (d6 >= 0 && d5 <= d6) return cp;
 
