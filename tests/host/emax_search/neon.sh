@@ -6,7 +6,7 @@ mkdir -p "$out"
 ln -sfn /usr/include/hwy "$out/hwy" # headers alone: the rest of Highway is for this machine
 left_out=$(sed -n 's/.*\(HWY_DISABLED_TARGETS=([^)]*)\).*/\1/p' sw_model/CMakeLists.txt)
 googletest=/usr/src/googletest/googletest
-export out googletest disabled
+export out googletest left_out
 
 # What Highway's library would find out at run time.
 cat >"$out/supported_targets.cpp" <<'CODE'
