@@ -1,5 +1,6 @@
 """`./dev bench --decimate`: the bounded decimator beside OpenMesh, VTK, meshoptimizer and CGAL on
-five scans; writes the section "Decimation" of docs/benchmarks.md and its plots.
+five scans; writes the section "Decimation" of docs/benchmarks.md, its plots and
+docs/benchmarks_decimation.md.
 
 Every peer is bisected to its fewest triangles within the same one-sided bound. Each result is kept
 in build/bench/decimation/, so that a measurement can be interrupted and continued; --fresh begins
@@ -40,6 +41,7 @@ ONLY = {ENVELOPE: ENVELOPE_CASES, FEATURES: [("fandisk", percent) for percent in
 POINTS = [10000, 30000, 100000, 300000, 1000000]
 POINTS_PERCENT = 0.25
 POINTS_TOOLS = [TWO, ONE, "meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh"]
+DETAILS = "benchmarks_decimation.md"
 TIME_LIMIT = 7200
 NOTHING_GONE = 0.98  # of the triangles of the start: the tool found nothing to remove
 
@@ -154,7 +156,7 @@ def table(store, scan, percent, tools):
     head += ["to the true surface, %: greatest; root mean square"] if compared else []
     head += ["from sharp edges, %"] if sharp else []
     head += ["s", "s, all calls", "calls", "options"]
-    lines = [f"### {scan}, {percent:g} % of the width\n"]
+    lines = [f"## {scan}, {percent:g} % of the width\n"]
     if told:
         left = f", {told['left_out']} left out that cannot be joined to the mesh" if told["left_out"] else ""
         lines.append(f"{told['text']}: {told['points']} points{left}; the start has "
@@ -251,12 +253,29 @@ parameter, a number of triangles or its own bound, to the fewest triangles whose
 same ε; several sets of options are tried, and the best is told. CGAL's AABB-tree confirms e_max of every result. All
 start from the same mesh: manifold and free of self-intersections, with points farther than ε/2 joined to it, as emax
 starts; what that takes is in no time here.
+"""
+
+
+COLUMNS = """\
+# Decimation, case by case
+
+Written by `./dev bench --decimate`; [benchmarks.md](benchmarks.md#decimation) says how it is measured.
 
 Back: the greatest distance from any point of the result to that start, which two-sided emax holds to ε too and the
 others do not bound. From sharp edges: the greatest distance from an edge of the start that turns by more than 40° to
 one of the result that turns by more than 25°. "s" is the call that gave the result, "all calls" the whole bisection
 with these options. Time of the processor, one thread.
 """
+
+
+def details(store):
+    parts = [COLUMNS]
+    for scan, bounds in BOUNDS.items():
+        parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + PEERS))]
+    if succeeded(envelope := store.get(*ENVELOPE_CASES[0], ENVELOPE)):
+        parts.append(f"CGAL's polyhedral envelope, {number(envelope['seconds'])} s a call there, is measured on "
+                     f"{ENVELOPE_CASES[0][0]} alone.\n")
+    return "\n".join(parts)
 
 
 def section(store, plots):
@@ -274,11 +293,7 @@ def section(store, plots):
     if told := growth(store):
         parts.append(f"Time by points: one call on a torus with little noise, ε {POINTS_PERCENT} % of the width; the "
                      f"peers go to 2000 triangles, OpenMesh to its own bound of ε. {told}")
-    for scan, bounds in BOUNDS.items():
-        parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + PEERS))]
-    if succeeded(envelope := store.get(*ENVELOPE_CASES[0], ENVELOPE)):
-        parts.append(f"CGAL's polyhedral envelope, {number(envelope['seconds'])} s a call there, is measured on "
-                     f"{ENVELOPE_CASES[0][0]} alone.\n")
+    parts.append(f"Every tool in every case: [{DETAILS}]({DETAILS}).\n")
     return "\n".join(parts)
 
 
@@ -316,6 +331,7 @@ def main(words, is_quick, fetch_dragon, install_python):
         measure(store, options.scans, options.tools)
     plots = curves(store)
     sections.put("decimation", section(store, plots))
+    sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))
     if python:
         file = FOLDER / "curves.json"
         file.write_text(json.dumps(plots))

@@ -52,6 +52,7 @@ class DecimationBenchTest(unittest.TestCase):
         self.assertIn("| meshoptimizer | cannot |", told)
         self.assertIn("| cgal-lt | ended by signal 11 |", told)
         self.assertIn("| bunny | 0.321 | OpenMesh | 2000 | 0.400 | 900 (-55 %) |", bench.summary(self.store))
+        self.assertIn(told, bench.details(self.store))
         self.assertEqual(len({line.count("|") for line in told.splitlines() if line.startswith("|")}), 1)
 
     def test_all_rows_have_the_columns_of_their_table(self):

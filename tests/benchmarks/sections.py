@@ -22,14 +22,18 @@ def existing(name):
     return document[start:stop + len(end)] if 0 <= start < stop else ""
 
 
+def write(file, body):
+    partial = file.with_suffix(".part")
+    partial.write_text(body)
+    os.replace(partial, file)
+
+
 def put(name, body):
     """In place of the section that is there, else at the end."""
     begin, end = marks(name)
     document, old, new = text(), existing(name), begin + body + end
     document = document.replace(old, new) if old else document.rstrip("\n") + "\n\n" + new
-    partial = DOCUMENT.with_suffix(".part")
-    partial.write_text(document)
-    os.replace(partial, DOCUMENT)
+    write(DOCUMENT, document)
 
 
 def kept():
