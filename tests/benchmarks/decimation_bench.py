@@ -191,6 +191,17 @@ def summary(store):
     return "\n".join(lines) + "\n"
 
 
+def missing(store):
+    """What the tables lack because it was not measured, which is no failure of a tool."""
+    lacks = []
+    for scan, bounds in BOUNDS.items():
+        for percent in bounds:
+            tools = [tool for tool in OWN + PEERS if (scan, percent) in ONLY.get(tool, [(scan, percent)])]
+            if unmeasured := [tool for tool in tools if not store.get(scan, percent, tool)]:
+                lacks.append(f"{scan} at {percent:g} %: {', '.join(unmeasured)}")
+    return f"Not measured: {'; '.join(lacks)}.\n" if lacks else ""
+
+
 def line(title, at, values):
     return {"title": title, "at": at, "median": values, "least": values, "greatest": values}
 
@@ -286,7 +297,7 @@ def section(store, plots):
              EXPLAINED,
              f"{machine()}; " + ", ".join(f"{name} {version}" for name, version in sorted(versions.items())) +
              f"; {seconds / 60:.0f} minutes of the tools' own time in all.\n",
-             "Triangles, and in brackets against the best peer's, which is one-sided in every row:\n", summary(store)]
+             "Triangles, and in brackets against the best peer's, which is one-sided in every row:\n", summary(store), missing(store)]
     parts += [f"![{plot['title']}](plots/{plot['name']}.svg)" for plot in plots]
     if plots:
         parts.append("")

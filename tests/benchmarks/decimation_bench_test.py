@@ -55,6 +55,16 @@ class DecimationBenchTest(unittest.TestCase):
         self.assertIn(told, bench.details(self.store))
         self.assertEqual(len({line.count("|") for line in told.splitlines() if line.startswith("|")}), 1)
 
+    def test_what_was_not_measured_is_named(self):
+        for scan, bounds in bench.BOUNDS.items():
+            for percent in bounds:
+                for tool in bench.OWN + bench.PEERS:
+                    if (scan, percent, tool) != ("dragon", 0.2, "openmesh"):
+                        self.put(scan, percent, tool, {"failure": "ended by signal 11"})
+        self.assertEqual(bench.missing(self.store), "Not measured: dragon at 0.2 %: openmesh.\n")
+        self.put("dragon", 0.2, "openmesh", {"failure": "ended by signal 11"})
+        self.assertEqual(bench.missing(self.store), "")
+
     def test_all_rows_have_the_columns_of_their_table(self):
         self.put("torus", 0.25, "openmesh", result("OpenMesh", 2000, true_greatest=0.2, true_rms=0.01))
         self.put("torus", 0.25, "vtk-pro", {"failure": "not within 60 minutes"})
