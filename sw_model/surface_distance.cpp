@@ -21,6 +21,7 @@ constexpr std::size_t kQueriesPerPoll = 1024;
 // longest edge, so pieces shrink however they are cut.
 constexpr double kLeastPart = 1.0 / 16;
 constexpr unsigned kHalvingPeriod = 4;
+constexpr double kPlain = 1 + 1e-6;  // times a plain distance, where that one is right
 
 struct Corner {
   Point point;
@@ -159,6 +160,10 @@ class Search {
       }
     }
     try_candidate(likely, piece);
+    // The plain distance to a sliver may be anything.
+    if (least == kInfinity || piece.bound > least * kPlain + 16 * margin(depth + 1)) {
+      for (const std::uint32_t candidate : candidates) try_candidate(candidate, piece);
+    }
     if (options_.fault == Fault::kNearestOfEachCorner) {
       piece.bound = std::max(
           {corners[0].distance.upper, corners[1].distance.upper, corners[2].distance.upper});

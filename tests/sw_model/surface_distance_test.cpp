@@ -192,6 +192,28 @@ TEST(SurfaceDistance, EndsOnAMeshThatLiesInTheReference) {
   EXPECT_EQ(same.cuts, 0u);
 }
 
+// Plain distances to slivers are wrong by any amount, and mislead the choice of candidates.
+TEST(SurfaceDistance, SliversOfTheReferenceChangeNothing) {
+  const test::Stimulus coarse = test::bumpy_sphere(10, 14, 0, 206);
+  test::Stimulus fine = test::bumpy_sphere(24, 36, 0, 206);
+  const auto without = surface_distance(coarse.mesh(), ExactMesh(fine.mesh()), {.relative = 1e-4});
+  const std::vector<Triangle> triangles = fine.triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    const Point along = fine.vertices[a] + 0.3 * (fine.vertices[b] - fine.vertices[a]);
+    const double height = t % 3 == 0 ? 0 : t % 3 == 1 ? 1e-16 : 1e-12;
+    fine.vertices.push_back(along + height * (fine.vertices[c] - along));
+    fine.triangles.push_back({a, b, static_cast<std::uint32_t>(fine.vertices.size() - 1)});
+  }
+  const ExactMesh reference(fine.mesh());
+  const auto with = surface_distance(coarse.mesh(), reference, {.relative = 1e-4});
+  EXPECT_LE(with.lower, without.upper);
+  EXPECT_GE(with.upper, without.lower);
+  EXPECT_LT(with.cuts, 2 * without.cuts + 100);
+  const double limit = 1.001 * without.upper;
+  EXPECT_TRUE(decided_distance(coarse.mesh(), reference, limit).within(limit));
+}
+
 TEST(SurfaceDistance, DecidesWithAViolatingPointAndLessWork) {
   const test::Stimulus coarse = test::bumpy_sphere(10, 14, 0, 205);
   const test::Stimulus fine = test::bumpy_sphere(24, 36, 0, 205);
