@@ -121,7 +121,7 @@ class Search {
         {options_.limit, result_.lower * (1 + options_.relative), result_.lower + finest_});
   }
   bool decides() const { return options_.limit >= 0; }
-  bool refuted() const { return options_.limit >= 0 && result_.lower > options_.limit; }
+  bool refuted() const { return decides() && result_.lower > options_.limit; }
 
   Corner corner_at(const Point& point, std::uint32_t triangle, unsigned depth,
                    std::uint32_t seed = ~0u) {
@@ -317,7 +317,7 @@ class Search {
   double settled_ = -1;  // the greatest bound of the pieces that need no cut
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> free_;  // places in pieces_
-  std::vector<Rank> open_;           // a heap of the others
+  std::vector<Rank> open_;           // the others: a heap, in a decision a stack
 };
 
 }  // namespace

@@ -36,15 +36,18 @@ BlockQuestions::BlockQuestions(std::span<const Point> cloud, double epsilon)
 
 std::vector<BlockVerdict> BlockQuestions::ask(std::span<const BlockQuestion> questions,
                                               Evaluator& evaluator) const {
-  std::vector<TriangleRecord<float>> records;
+  std::vector<Point> corners;
+  std::vector<Triangle> triangles;
   for (const BlockQuestion& question : questions) {
     if (question.triangles.empty()) throw std::invalid_argument("a question without triangles");
-    for (std::array<Point, 3> corners : question.triangles) {
-      for (Point& corner : corners) corner = normalization_.apply(corner);
-      records.push_back(
-          make_record(make_frame(corners), static_cast<std::uint32_t>(records.size())));
+    for (const std::array<Point, 3>& triangle : question.triangles) {
+      const auto first = static_cast<std::uint32_t>(corners.size());
+      corners.insert(corners.end(), triangle.begin(), triangle.end());
+      triangles.push_back({first, first + 1, first + 2});
     }
   }
+  const std::vector<TriangleRecord<float>> records =
+      make_records({corners, triangles}, normalization_);
   evaluator.begin(points_, records);
 
   std::vector<float> farthest(questions.size(), 0);  // squared
@@ -78,7 +81,7 @@ std::vector<BlockVerdict> BlockQuestions::ask(std::span<const BlockQuestion> que
     const double distance = std::sqrt(static_cast<double>(farthest[q]));
     const auto feasible = largest_feasible_bits(epsilon_, epsilon_ + reach);
     // Twice the margin: once for the kernel, once for the point, which was rounded before.
-    const double margin = 2 * (kKappa * (distance + reach) + kDistanceFloor);
+    const double margin = 2 * kernel_distance_margin(distance, reach, 0);
     verdicts.push_back(feasible && float_bits(farthest[q]) <= *feasible ? BlockVerdict::kWithin
                        : distance - margin > epsilon_                   ? BlockVerdict::kBeyond
                                                                         : BlockVerdict::kOpen);

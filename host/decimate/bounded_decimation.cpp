@@ -172,14 +172,20 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     state.reassign();
     tell("moves", passes.relocate(4));
     relax();
-    const auto gain = [&] {
-      state.reassign();
-      const std::size_t mended = tell("mended collapses", passes.collapse_and_mend());
-      return mended + relax() > 0;
-    };
     const bool deep = settings.effort == Effort::kDeep;
-    bool gained = gain();
-    while (gained && deep && !passes.stopped()) gained = gain();
+    // Once, or until nothing is gained; whether anything was.
+    const auto mend = [&] {
+      bool any = false;
+      for (bool again = true; again && !passes.stopped();) {
+        state.reassign();
+        const std::size_t mended = tell("mended collapses", passes.collapse_and_mend());
+        const bool gained = mended + relax() > 0;
+        any = any || gained;
+        again = gained && deep;
+      }
+      return any;
+    };
+    mend();
     // Another measure of how well points are met moves the mesh out of where the search has ended.
     constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
     const std::size_t tries = deep ? kOtherPowers.size() : 1;
@@ -188,7 +194,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
       tell("turns", passes.flip(power));
       tell("moves", passes.relocate(power));
       tell("moves", passes.relocate(4));
-      while (gain() && deep && !passes.stopped()) vain = 0;
+      if (mend() && deep) vain = 0;
     }
   }
   result.interrupted = passes.stopped();
