@@ -162,14 +162,18 @@ void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
     std::optional<std::size_t> bred_by;
     if (record.bred) bred_by = record.bred->entry;
     bool in_repair = false;
+    // Populations that share nothing keep their own offspring, once there are references.
+    const bool apart = record.bred && !settings_.share_feasible &&
+                       references_.size() >= settings_.reference_population;
+    const bool of_references = record.bred && record.bred->from_references;
     if (evaluation.feasible()) {
-      enter_references(individual, std::nullopt);
+      if (!apart || of_references) enter_references(individual, std::nullopt);
     } else if (record.role == Role::kSearch || record.role == Role::kLinear) {
       in_repair = start_repair(individual, bred_by, random);
     }
     if (record.bred && !in_repair)
       reward(record.bred->entry, key(individual) < record.bred->parent);
-    enter_search(individual, random);
+    if (!apart || !of_references) enter_search(individual, random);
   } else if (record.bred) {
     reward(record.bred->entry, false);
   }
@@ -223,8 +227,11 @@ void Genocop::enter_search(Individual individual, RandomStream& random) {
   }
   const std::vector<double> probabilities =
       ranking_probabilities(search_.size(), settings_.selection_pressure);
-  Individual& victim = search_[search_.size() - 1 - select(probabilities, random)];
-  if (key(individual) < key(victim)) victim = std::move(individual);
+  const std::size_t rank = search_.size() - 1 - select(probabilities, random);
+  const bool may_go = rank > 0 && !settings_.replace_worse_only;
+  if (Individual& victim = search_[rank]; may_go || key(individual) < key(victim)) {
+    victim = std::move(individual);
+  }
 }
 
 // A repaired point competes with the reference it was repaired towards, any other with the worst.

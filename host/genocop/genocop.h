@@ -80,6 +80,7 @@ class Genocop {
   struct Bred {  // by which operator, from what
     std::size_t entry;
     SortKey parent;
+    bool from_references;
   };
   struct Record {
     Genes free;

@@ -232,8 +232,11 @@ std::optional<Genocop::Proposal> Genocop::offspring(RandomStream& random) {
   if (monotone_ && random.chance(settings_.monotone_share)) {
     child = monotone_->aim(child, parents[0], population[ranks[0]].evaluation);
   }
-  return Proposal{
-      std::move(child), entry.name, Role::kSearch, {}, Bred{drawn, key(population[ranks[0]])}};
+  return Proposal{std::move(child),
+                  entry.name,
+                  Role::kSearch,
+                  {},
+                  Bred{drawn, key(population[ranks[0]]), from_references}};
 }
 
 double Genocop::remaining() const {

@@ -4,7 +4,7 @@ namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
   using S = Settings;
-  static const std::array<SettingInfo, 27> infos = {{
+  static const std::array<SettingInfo, 29> infos = {{
       {"budget", &S::budget, 1, 1e9, "evaluations, every trial charged"},
       {"look_ahead", &S::look_ahead, 1, 1e6,
        "candidate i knows the results up to i - look_ahead; at least the number of workers, less "
@@ -16,6 +16,12 @@ std::span<const SettingInfo> setting_infos() {
        "q: share of the selections that goes to the best of a large population"},
       {"reference_share", &S::reference_share, 0, 1,
        "of the offspring have reference points as parents"},
+      {"replace_worse_only", &S::replace_worse_only, 0, 0,
+       "offspring take a search point's place only if they are better; without, always, but for "
+       "the best"},
+      {"share_feasible", &S::share_feasible, 0, 0,
+       "feasible offspring of search points become references; without, only while these are too "
+       "few"},
       {"repair", &S::repair, 0, 0,
        "trials between an infeasible point and a reference: \"random\", \"deterministic\" (1/2, "
        "1/4, ...) or \"value-aware\" (regula falsi on the violation)"},
@@ -62,6 +68,9 @@ Settings Settings::original() {
   Settings settings;
   settings.look_ahead = 1;
   settings.search_population = settings.reference_population = 70;
+  settings.selection_pressure = 0.02;
+  settings.non_uniform_power = 6;
+  settings.replace_worse_only = settings.share_feasible = false;
   settings.replacement_probability = 0.15;
   settings.repair = RepairMethod::kRandom;
   settings.max_repair_tries = 100;

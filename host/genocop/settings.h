@@ -19,7 +19,8 @@ enum class RepairMethod {
 
 // Everything the search depends on besides problem and seed. The strategies that are not in
 // Genocop III are monotone_step, linear_model, finish, adaptive_frequencies, sobol_starts,
-// first_phase and the value-aware repair; each is switched by its own setting.
+// first_phase, replace_worse_only with share_feasible, and the value-aware repair; each is switched
+// by its own setting.
 struct Settings {
   std::size_t budget = 150;     // T of the operators whose steps shrink
   std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
@@ -28,6 +29,8 @@ struct Settings {
   std::size_t reference_population = 8;
   double selection_pressure = 0.1;  // q of the ranking selection, in (0, 1)
   double reference_share = 0.5;     // of the offspring have reference points as parents
+  bool replace_worse_only = true;   // offspring take a search point's place only if better
+  bool share_feasible = true;       // feasible offspring of search points become references
 
   RepairMethod repair = RepairMethod::kValueAware;
   std::size_t max_repair_tries = 3;       // evaluations spent on one search point; 0: no repair
@@ -58,8 +61,10 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 
   // Genocop III as published (Michalewicz & Nazhiyath 1995; Michalewicz 1996): populations of 70,
-  // p_r = 0.15, q = 0.1, its ten operators, repair at random until feasible, one result after the
-  // other. The first phase stands in for the user, whom it asks for a first feasible point.
+  // p_r = 0.15, its ten operators, offspring that replace whatever their value, populations that
+  // meet in repairs alone, repair at random until feasible, one result after the other. Of what its
+  // sources leave open or give differently, q = 0.02 and b = 6 reach its published results. The
+  // first phase stands in for the user, whom it asks for a first feasible point.
   static Settings original();
 
   static constexpr std::array<double, kOperators.size()> standard_frequencies() {

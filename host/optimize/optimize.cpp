@@ -11,11 +11,6 @@
 namespace emax {
 namespace {
 
-// The gene along which triangles fall and e_max rises, by decimator.
-std::string_view monotone_gene(std::string_view decimator) {
-  return decimator == "schroeder" ? "schroeder.reduction" : "";
-}
-
 bool same_bits(const Genes& a, const Genes& b) {
   return std::ranges::equal(
       a, b, {}, [](double x) { return std::bit_cast<std::uint64_t>(x); },
@@ -46,7 +41,7 @@ class Run {
         device_(device),
         settings_(settings),
         observe_(observe),
-        problem_(make_problem(settings.config, monotone_gene(settings.decimator))),
+        problem_(search_problem(settings)),
         genocop_(problem_, settings.config.search, settings.seed),
         scheduler_(genocop_, settings.config.search.budget) {
     state_.budget = settings.config.search.budget;
@@ -172,11 +167,7 @@ class Run {
     state_.measuring += std::chrono::duration<double>(Clock::now() - start).count();
     settings_.measured(result.mesh.view(), result.error);
     e.triangles = result.mesh.triangles.size();
-    e.violation = result.error.violation;
-    if (settings_.bound.epsilon_back > 0) {
-      const double back = made.back_distance / settings_.bound.epsilon_back - 1;
-      e.violation = std::max(e.violation, back);
-    }
+    e.violation = violation_of(made, result.error, settings_.bound);
     e.squared_bits = result.error.kept.squared_bits;
     e.reconstruction_triangles = made.reconstruction_triangles;
     e.unmeshed_points = made.unmeshed_points;
@@ -321,6 +312,18 @@ WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings
   options.memory_limit = limits.memory;
   options.allow_test_methods = settings.allow_test_methods;
   return options;
+}
+
+Problem search_problem(const OptimizeSettings& settings) {
+  // Along it triangles fall and e_max rises.
+  return make_problem(settings.config,
+                      settings.decimator == "schroeder" ? "schroeder.reduction" : "");
+}
+
+double violation_of(const ChainResult& made, const MeasuredError& error,
+                    const DecimationBound& bound) {
+  if (!(bound.epsilon_back > 0)) return error.violation;
+  return std::max(error.violation, made.back_distance / bound.epsilon_back - 1);
 }
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,

@@ -81,6 +81,14 @@ inline constexpr std::chrono::milliseconds kHeartbeat{100};
 
 WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings);
 
+// What is searched.
+Problem search_problem(const OptimizeSettings& settings);
+
+// By what share the worse of the two bounds is broken: e_max, and the back bound where there is
+// one. At most 0 when feasible.
+double violation_of(const ChainResult& made, const MeasuredError& error,
+                    const DecimationBound& bound);
+
 // Evaluations run in worker processes; e_max is measured here, on the device or, without one, on
 // this processor. A run that ends by its budget, target or stagnation gives the same state for any
 // number of jobs and any device, and so does one that continues from its log, however often it was

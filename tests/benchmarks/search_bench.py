@@ -1,15 +1,15 @@
-"""`./dev bench --search`: Genocop III beside pagmo and NLopt on g01 to g11 and a staircase; writes the
-section "Search" of docs/benchmarks.md.
+"""`./dev bench --search`: Genocop III beside pagmo and NLopt on g01 to g11, a staircase and scans;
+writes the section "Search" of docs/benchmarks.md, its plot and docs/benchmarks_search.md.
 
 Every run is kept in build/bench/search/, so that a measurement can be interrupted and continued;
---fresh begins anew. All budgets take about two hours of one core; --budgets 200 1000 5000 a quarter of it.
+--fresh begins anew, --only functions or --only scans measures one part, --only-write writes from
+what is there. The functions take about two hours of one core, the scans six.
 """
 
 import argparse
 import json
 import math
 import shutil
-import statistics
 import subprocess
 from pathlib import Path
 
@@ -17,19 +17,33 @@ import sections
 
 HERE = Path("tests/benchmarks")
 BUDGETS = [200, 1000, 5000, 50000]
+SEEDS = 11
 PROBLEMS = [f"g{i:02}" for i in range(1, 12)] + ["staircase"]
 PEERS = ["pagmo gaco", "pagmo cstrs_self_adaptive", "NLopt ISRES", "NLopt COBYLA"]
+RANDOM = "random search"
 SEARCHES = ["emax", "emax, look-ahead 16"]
+LOOK_AHEAD_BUDGETS = [200, 1000, 5000]  # where every evaluation is dear
 ABLATIONS = ["without finish", "without linear model", "without both", "without monotone step",
-             "without adaptive frequencies", "without Sobol starts", "without first phase", "repair at random",
+             "without adaptive frequencies", "without Sobol starts", "without first phase", "replacement as published",
+             "repair at random",
              "populations 70/70"]
 ABLATION_BUDGETS = [200, 1000]
 ORIGINAL = "original"
 ORIGINAL_BUDGET = 350000
-PUBLISHED = {"g02": ("0.80351", -0.80351), "g07": ("25.883", 25.883), "g09": ("680.640", 680.640),
-             "g10": ("7286.650", 7286.650)}
+PUBLISHED = {"g02": "0.80351", "g07": "25.883", "g09": "680.640", "g10": "7286.650"}
 OPTIMA = {"g02": -0.803619, "g07": 24.306209, "g09": 680.630057, "g10": 7049.248021, "g01": -15, "g03": -1.0005001,
           "g04": -30665.538672, "g05": 5126.496714, "g06": -6961.813876, "g08": -0.095825, "g11": 0.7499}
+
+# Scan, percent of the width, decimator; without COBYLA and ISRES, which know no categories.
+SCANS = ["bunny 0.321 schroeder", "building 1 schroeder", "bunny 0.321 bounded"]
+SCAN_PEERS = ["pagmo gaco", "pagmo cstrs_self_adaptive", RANDOM]
+SCAN_BUDGET, SCAN_SEEDS, RANGE_SEEDS = 200, 3, 1
+SCAN_ABLATIONS = [way for way in ABLATIONS if way != "without both"] + [ORIGINAL]
+# The paper's Fig. 3: the bunny at these percents of the width; 0.321 is its 0.5 mm.
+RANGE = [0.193, 0.257, 0.321, 0.449, 0.642]
+PAPER_PERCENT, PAPER_TRIANGLES = 0.321, 24161
+DETAILS = "benchmarks_search.md"
+PLOTS = Path("docs/plots")
 
 
 class Store:
@@ -69,30 +83,58 @@ class Store:
         return list(self.gaps.get((way, problem, budget), {}).values())
 
 
-def measure(store, options):
+def by_percent(percent):
+    return f"bunny {percent:g} schroeder"
+
+
+def measure_functions(store, options):
     program, library = options.build / "bin/emax_search_benchmark", options.build / "lib/libemax_search_problems.so"
-    plan = [(way, problem, budget) for budget in options.budgets for problem in PROBLEMS for way in SEARCHES]
+    plan = [(way, problem, budget) for budget in BUDGETS for problem in PROBLEMS
+            for way in SEARCHES if way == "emax" or budget in LOOK_AHEAD_BUDGETS]
     plan += [(way, problem, budget) for budget in ABLATION_BUDGETS for problem in PROBLEMS for way in ABLATIONS]
     plan += [(ORIGINAL, problem, ORIGINAL_BUDGET) for problem in PUBLISHED]
     for way, problem, budget in plan:
-        if not store.has(way, problem, budget, options.seeds):
-            store.run([program, "--ways", way, "--problems", problem, "--budgets", budget, "--seeds", options.seeds],
-                      "emax")
-    for budget in options.budgets:
+        run_own(store, program, way, problem, budget, SEEDS)
+    for budget in BUDGETS:
         for problem in PROBLEMS:
-            if options.python and not all(store.has(way, problem, budget, options.seeds) for way in PEERS):
-                store.run([options.python, "-B", HERE / "peers/search_peers.py", "--library", library, "--problems",
-                           problem, "--budgets", budget, "--seeds", options.seeds], "peers")
+            run_peers(store, options.python, ["--library", library], PEERS, problem, budget, SEEDS)
+
+
+def measure_scans(store, options):
+    program = options.build / "bin/emax_search_benchmark"
+    for scan in SCANS:
+        run_own(store, program, "emax", scan, SCAN_BUDGET, SCAN_SEEDS)
+        run_peers(store, options.python, ["--program", program], SCAN_PEERS, scan, SCAN_BUDGET, SCAN_SEEDS)
+        if scan == SCANS[0]:
+            for percent in RANGE:
+                run_own(store, program, "emax", by_percent(percent), SCAN_BUDGET, RANGE_SEEDS)
+            for way in SCAN_ABLATIONS:
+                run_own(store, program, way, scan, SCAN_BUDGET, SCAN_SEEDS)
+
+
+def run_own(store, program, way, problem, budget, seeds):
+    if not store.has(way, problem, budget, seeds):
+        store.run([program, "--ways", way, "--problems", problem, "--budgets", budget, "--seeds", seeds], "emax")
+
+
+def run_peers(store, python, source, ways, problem, budget, seeds):
+    missing = [way for way in ways if not store.has(way, problem, budget, seeds)]
+    if python and missing:
+        store.run([python, "-B", HERE / "peers/search_peers.py", *source, "--problems", problem, "--ways", *missing,
+                   "--budgets", budget, "--seeds", seeds], "peers")
+
+
+def median(gaps):
+    return sorted(gaps)[len(gaps) // 2]
 
 
 def text_of(gaps):
     """The median, and the share of feasible runs where it is not all of them."""
     if not gaps:
         return "–"
-    median = sorted(gaps)[len(gaps) // 2]
-    share = sum(math.isfinite(gap) for gap in gaps)
-    body = "none" if not math.isfinite(median) else "0" if abs(median) < 1e-12 else f"{median:.2g}"
-    return body if share == len(gaps) else f"{body} ({share}/{len(gaps)})"
+    middle, feasible = median(gaps), sum(math.isfinite(gap) for gap in gaps)
+    body = "none" if not math.isfinite(middle) else "0" if abs(middle) < 1e-12 else f"{middle:.2g}"
+    return body if feasible == len(gaps) else f"{body} ({feasible}/{len(gaps)})"
 
 
 def table(store, ways, budget):
@@ -102,58 +144,130 @@ def table(store, ways, budget):
     return "\n".join(lines) + "\n"
 
 
-def standing(store, budget):
+def standing(store):
     """On how many functions the search is best or tied, and how many it always solves feasibly."""
-    best = feasible = 0
-    for problem in PROBLEMS[:-1]:
-        own = store.of("emax", problem, budget)
-        if not own:
-            return ""
-        others = [sorted(gaps)[len(gaps) // 2] for way in PEERS if (gaps := store.of(way, problem, budget))]
-        tie = 1e-4 * max(1, abs(OPTIMA[problem]))
-        median = sorted(own)[len(own) // 2]
-        best += math.isfinite(median) and all(median <= other + tie for other in others)
-        feasible += all(math.isfinite(gap) for gap in own)
-    stairs, others = store.of("emax", "staircase", budget), [store.of(way, "staircase", budget) for way in PEERS]
-    text = f"emax is best or tied (within 1e-4·max(1, |f*|)) on {best} of the 11 functions and feasible in every run on {feasible}."
-    if stairs and all(others):
-        ratio = statistics.median(stairs) / min(statistics.median(gaps) for gaps in others)
-        text += f" On the staircase its gap is {ratio:.2f} × the best peer's."
-    return text + "\n"
+    lines = ["| evaluations | best or tied on, of 11 | feasible in every run on, of 11 | gap on the staircase, of the best peer's |",
+             "|---:|---:|---:|---:|"]
+    for budget in BUDGETS:
+        best = feasible = 0
+        for problem in PROBLEMS[:-1]:
+            own = store.of("emax", problem, budget)
+            others = [median(gaps) for way in PEERS if (gaps := store.of(way, problem, budget))]
+            if not own or len(others) < len(PEERS):
+                break
+            tie = 1e-4 * max(1, abs(OPTIMA[problem]))
+            best += math.isfinite(median(own)) and all(median(own) <= other + tie for other in others)
+            feasible += all(math.isfinite(gap) for gap in own)
+        else:
+            stairs = store.of("emax", "staircase", budget)
+            others = [median(gaps) for way in PEERS if (gaps := store.of(way, "staircase", budget))]
+            ratio = f"{median(stairs) / min(others):.2f}" if stairs and others and min(others) > 0 else "–"
+            lines.append(f"| {budget} | {best} | {feasible} | {ratio} |")
+    return "\n".join(lines) + "\n"
 
 
-def section(store, options):
-    parts = ["## Search\n",
-             "Written by `./dev bench --search`. Median (best feasible − optimum) of "
-             f"{options.seeds} runs, every evaluation charged; in brackets the runs that ended feasible, where not all "
-             "did; none: no feasible point in the median run; –: not measured. Functions as in "
-             "`tests/host/genocop/benchmark_problems.h` and `staircase.h`, the same library for all; equalities hold "
-             "within 1e-4, and a peer's inequalities within 1e-8. pagmo and NLopt get single constraint values, as "
-             "emax does, the linear ones among them, and the staircase's start point. COBYLA restarts from random "
-             f"points. Every optimizer knows every earlier result, but for the row that looks ahead. {store.versions}.\n"]
-    for budget in options.budgets:
-        parts += [f"### {budget} evaluations\n", standing(store, budget), table(store, SEARCHES + PEERS, budget)]
-    parts += ["### Each strategy left out\n", "The last rows show what replaces one part by the published one.\n"]
+def triangles(gaps):
+    """Median, least and greatest; how many runs were feasible where not all were."""
+    if not gaps:
+        return "–"
+    found = sorted(gap for gap in gaps if math.isfinite(gap))
+    if not found:
+        return "none"
+    share = "" if len(found) == len(gaps) else f", {len(found)}/{len(gaps)} feasible"
+    return f"{median(gaps):.0f} ({found[0]:.0f}–{found[-1]:.0f}{share})"
+
+
+def scan_table(store, ways, scans):
+    scans = [scan for scan in scans if store.of("emax", scan, SCAN_BUDGET)]
+    lines = ["| | " + " | ".join(scans) + " |", "|---|" + "---:|" * len(scans)]
+    for way in ways:
+        cells = [triangles(store.of(way, scan, SCAN_BUDGET)) for scan in scans]
+        if any(cell != "–" for cell in cells):
+            lines.append(f"| {way} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def curve(store):
+    """The paper's Fig. 3: triangles by the bound."""
+    found = [(percent, gaps) for percent in RANGE if (gaps := store.of("emax", by_percent(percent), SCAN_BUDGET))
+             if all(math.isfinite(gap) for gap in gaps)]
+    if not found:
+        return []
+    line = {"title": f"emax, {SCAN_BUDGET} evaluations", "at": [percent for percent, _ in found],
+            "median": [median(gaps) for _, gaps in found], "least": [min(gaps) for _, gaps in found],
+            "greatest": [max(gaps) for _, gaps in found]}
+    paper = {"title": "the paper's result", "at": [PAPER_PERCENT],
+             **{key: [PAPER_TRIANGLES] for key in ("median", "least", "greatest")}}
+    return [{"name": "search_bound", "axis": "ε, % of the width", "unit": "triangles",
+             "title": "the bunny by its bound", "lines": [line, paper]}]
+
+
+def published(store):
+    lines = ["| | published best | best here | median | runs |", "|---|---:|---:|---:|---:|"]
+    for problem, value in PUBLISHED.items():
+        gaps = store.of(ORIGINAL, problem, ORIGINAL_BUDGET)
+        values = [abs(gap + OPTIMA[problem]) for gap in (min(gaps), median(gaps))] if gaps else []
+        told = " | ".join(f"{value:.7g}" for value in values) or "– | –"
+        lines.append(f"| {problem} | {value} | {told} | {len(gaps)} |")
+    return "\n".join(lines) + "\n"
+
+
+EXPLAINED = f"""\
+Written by `./dev bench --search`. Every evaluation is charged. On functions: g01 to g11 and a staircase shaped like the
+real job, {SEEDS} runs each, beside pagmo's gaco and cstrs_self_adaptive and NLopt's ISRES and COBYLA; tied: within
+1e-4·max(1, |f*|) of the best peer's median. [{DETAILS}]({DETAILS}) has every median, each strategy left out, and the
+published setting.
+"""
+
+SCANS_EXPLAINED = f"""\
+On scans: greedy projection, {SCAN_BUDGET} evaluations one after the other, {SCAN_SEEDS} runs each; median of the least
+triangles within the bound, in brackets the least and the greatest. The name says scan, ε in percent of the width and
+decimator: Schroeder's is bounded on the points (one-sided, as in the paper), the bounded one in both directions; of the
+building 0.5 % of the points may be excluded. All begin with the standard values.
+"""
+
+FUNCTIONS_EXPLAINED = f"""\
+Median (best feasible − optimum) of {SEEDS} runs; in brackets the runs that ended feasible, where not all did; none: no
+feasible point in the median run; –: not measured. Functions as in `tests/host/genocop/benchmark_problems.h` and
+`staircase.h`, the same library for all; equalities hold within 1e-4, and a peer's inequalities within 1e-8. pagmo and
+NLopt get single constraint values, as emax does, the linear ones among them, and the staircase's start point. COBYLA
+restarts from random points. Every optimizer knows every earlier result, but for the row that looks ahead.
+"""
+
+
+def section(store, plots):
+    parts = ["## Search\n", EXPLAINED, standing(store)]
+    if any(store.of("emax", scan, SCAN_BUDGET) for scan in SCANS):
+        parts += [SCANS_EXPLAINED, scan_table(store, ["emax"] + SCAN_PEERS, SCANS)]
+    if plots:
+        parts.append(f"The paper's chain on the bunny by its bound (the paper's Fig. 3; it gives {PAPER_TRIANGLES} triangles at "
+                     f"{PAPER_PERCENT} %):\n\n![{plots[0]['title']}](plots/{plots[0]['name']}.svg)\n")
+    return "\n".join(parts)
+
+
+def details(store):
+    parts = ["# Search, function by function\n",
+             "Written by `./dev bench --search`; [benchmarks.md](benchmarks.md#search) has the summary.\n",
+             FUNCTIONS_EXPLAINED, f"{store.versions}.\n"]
+    for budget in BUDGETS:
+        parts += [f"## {budget} evaluations\n", table(store, (SEARCHES if budget in LOOK_AHEAD_BUDGETS else SEARCHES[:1]) + PEERS,
+                                                  budget)]
+    parts += ["## Each strategy left out\n", "The last rows show what replaces one part by the published one.\n"]
     for budget in ABLATION_BUDGETS:
         parts += [f"{budget} evaluations:\n", table(store, ["emax"] + ABLATIONS, budget)]
-    parts += ["### The published Genocop III\n",
+    if any(store.of(way, SCANS[0], SCAN_BUDGET) for way in SCAN_ABLATIONS):
+        parts += [f"On a scan, {SCAN_BUDGET} evaluations, {SCAN_SEEDS} runs; triangles, median (least–greatest):\n",
+                  scan_table(store, ["emax"] + SCAN_ABLATIONS, SCANS[:1])]
+    parts += ["## The published Genocop III\n",
               f"`Settings::original()`, {ORIGINAL_BUDGET} evaluations, a first feasible point found by the first phase.\n",
-              "| | published best | best here | median | runs |\n|---|---:|---:|---:|---:|"]
-    rows = []
-    for problem, (published, _) in PUBLISHED.items():
-        gaps = sorted(store.of(ORIGINAL, problem, ORIGINAL_BUDGET))
-        values = [abs(gap + OPTIMA[problem]) for gap in gaps]
-        rows.append(f"| {problem} | {published} | " + (f"{values[0]:.7g} | {values[len(values) // 2]:.7g} | {len(gaps)} |"
-                                                    if gaps else "– | – | 0 |"))
-    parts[-1] += "\n" + "\n".join(rows) + "\n"
+              published(store)]
     return "\n".join(parts)
 
 
 def main(words, python):
     parser = argparse.ArgumentParser(prog="./dev bench --search", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--budgets", nargs="+", type=int, default=BUDGETS)
-    parser.add_argument("--seeds", type=int, default=11)
+    parser.add_argument("--only", choices=["functions", "scans"], help="measure this part")
     parser.add_argument("--fresh", action="store_true", help="forget earlier runs")
     parser.add_argument("--build", type=Path, default=Path("build/bench"))
     parser.add_argument("--only-write", action="store_true", help="from the runs that are there")
@@ -164,5 +278,15 @@ def main(words, python):
         shutil.rmtree(folder, ignore_errors=True)
     store = Store(folder)
     if not options.only_write:
-        measure(store, options)
-    sections.put("search", section(store, options))
+        if options.only != "scans":
+            measure_functions(store, options)
+        if options.only != "functions":
+            measure_scans(store, options)
+    plots = curve(store)
+    sections.put("search", section(store, plots))
+    sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))
+    if plots and python:
+        file = folder / "curves.json"
+        file.write_text(json.dumps(plots))
+        PLOTS.mkdir(exist_ok=True)
+        subprocess.run([python, "-B", HERE / "peers/plot.py", file, PLOTS], check=True)

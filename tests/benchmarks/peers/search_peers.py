@@ -1,6 +1,7 @@
 """Runs pagmo and NLopt on the search's test functions; prints one JSON line for each run.
 
-The functions come from a library with C linkage, so every optimizer minimises the very same ones.
+The functions come from a library with C linkage, those on scans from the program that also runs the
+search, so every optimizer minimises the very same ones.
 Every call is charged. A peer's point counts as feasible where every inequality holds within 1e-8
 and every equality within 1e-4; linear constraints are inequalities like the others. Where a problem
 gives a start point, every peer starts from it.
@@ -8,8 +9,11 @@ gives a start point, every peer starts from it.
 
 import argparse
 import ctypes
+import itertools
 import json
 import math
+import subprocess
+import sys
 from importlib.metadata import version
 
 import nlopt
@@ -23,18 +27,58 @@ class Spent(Exception):
     pass
 
 
+class Library:
+    """A test function of the library."""
+
+    def __init__(self, library, name):
+        self.library = ctypes.CDLL(library)
+        self.library.emax_optimum.restype = ctypes.c_double
+        self.index = self.library.emax_problem(name.encode())
+        sizes = (ctypes.c_int * 3)()
+        self.library.emax_sizes(self.index, sizes)
+        genes, self.inequalities, self.equalities = sizes
+        table = (ctypes.c_double * (4 * genes))()
+        self.library.emax_genes(self.index, table)
+        self.genes = numpy.array(table).reshape(-1, 4)
+        self.optimum = self.library.emax_optimum(self.index)
+
+    def values(self, x):
+        values = numpy.empty(1 + self.inequalities + self.equalities)
+        pointer = ctypes.POINTER(ctypes.c_double)
+        self.library.emax_evaluate(self.index, x.ctypes.data_as(pointer), values.ctypes.data_as(pointer))
+        return values
+
+
+class Served:
+    """A problem that a program evaluates, line by line."""
+
+    def __init__(self, program, name):
+        self.process = subprocess.Popen([program, "--serve", "--problems", name], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, text=True)
+        told = self.answer()
+        self.inequalities, self.equalities, self.optimum = told["inequalities"], told["equalities"], told["optimum"]
+        self.genes = numpy.array(told["genes"], dtype=float)  # null becomes NaN
+
+    def answer(self):
+        line = self.process.stdout.readline()
+        if not line:
+            sys.exit("the program that evaluates has ended")
+        return json.loads(line)
+
+    def values(self, x):
+        self.process.stdin.write(json.dumps(x.tolist()) + "\n")
+        self.process.stdin.flush()
+        return numpy.array(self.answer(), dtype=float)
+
+
 class Problem:
     """One run: counts calls and keeps the best feasible objective."""
 
-    def __init__(self, library, name, budget):
-        self.library, self.name, self.budget = library, name, budget
-        self.index = library.emax_problem(name.encode())
-        sizes = (ctypes.c_int * 3)()
-        library.emax_sizes(self.index, sizes)
-        self.genes, self.inequalities, self.equalities = sizes
-        table = (ctypes.c_double * (4 * self.genes))()
-        library.emax_genes(self.index, table)
-        self.lower, self.upper, self.whole, self.start = numpy.array(table).reshape(-1, 4).T
+    def __init__(self, source, budget):
+        self.source, self.budget = source, budget
+        self.inequalities, self.equalities = source.inequalities, source.equalities
+        self.lower, self.upper, self.whole, self.start = source.genes.T
+        self.genes = len(self.lower)
         self.has_start = not math.isnan(self.start[0])
         self.width = 1 + self.inequalities + self.equalities
         self.calls, self.best = 0, math.inf
@@ -45,9 +89,7 @@ class Problem:
         self.calls += 1
         x = numpy.ascontiguousarray(numpy.clip(x, self.lower, self.upper))
         x = numpy.where(self.whole > 0, numpy.round(x), x)
-        values = numpy.empty(self.width)
-        pointer = ctypes.POINTER(ctypes.c_double)
-        self.library.emax_evaluate(self.index, x.ctypes.data_as(pointer), values.ctypes.data_as(pointer))
+        values = self.source.values(x)
         values = numpy.where(numpy.isfinite(values), values, 1e30)
         equal = values[1:1 + self.equalities]
         if (abs(equal) <= EQUALITY).all() and (values[1 + self.equalities:] <= INEQUALITY).all():
@@ -157,33 +199,44 @@ def cobyla(problem, seed):
         x = random.uniform(problem.lower, problem.upper)
 
 
-PEERS = {"pagmo gaco": gaco, "pagmo cstrs_self_adaptive": self_adaptive, "NLopt ISRES": isres, "NLopt COBYLA": cobyla}
+def at_random(problem, seed):
+    random = numpy.random.default_rng(seed)
+    if problem.has_start:
+        problem(problem.start)
+    while True:
+        whole = random.integers(problem.lower.astype(int), problem.upper.astype(int), endpoint=True)
+        problem(numpy.where(problem.whole > 0, whole, random.uniform(problem.lower, problem.upper)))
+
+
+PEERS = {"pagmo gaco": gaco, "pagmo cstrs_self_adaptive": self_adaptive, "NLopt ISRES": isres, "NLopt COBYLA": cobyla,
+         "random search": at_random}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--library", required=True)
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("--library", help="of the test functions")
+    source.add_argument("--program", help="that serves the problems")
     parser.add_argument("--problems", nargs="+", required=True)
+    parser.add_argument("--ways", nargs="+", choices=PEERS, required=True)
     parser.add_argument("--budgets", nargs="+", type=int, required=True)
     parser.add_argument("--seeds", type=int, required=True)
     arguments = parser.parse_args()
-    library = ctypes.CDLL(arguments.library)
-    library.emax_optimum.restype = ctypes.c_double
     print(json.dumps({"versions": f"pygmo {version('pygmo')}, nlopt {version('nlopt')}"}), flush=True)
     for name in arguments.problems:
-        for budget in arguments.budgets:
-            for title, peer in PEERS.items():
-                for seed in range(1, arguments.seeds + 1):
-                    problem = Problem(library, name, budget)
-                    try:
-                        peer(problem, seed)
-                    except Spent:
-                        pass
-                    except Exception as error:  # what a package cannot do is said in the table
-                        print(json.dumps({"failure": f"{title} on {name}: {str(error)[:200]}"}), flush=True)
-                    gap = problem.best - library.emax_optimum(problem.index)
-                    print(json.dumps({"way": title, "problem": name, "budget": budget, "seed": seed,
-                                      "gap": gap if math.isfinite(gap) else None}), flush=True)
+        source = Served(arguments.program, name) if arguments.program else Library(arguments.library, name)
+        for budget, title in itertools.product(arguments.budgets, arguments.ways):
+            for seed in range(1, arguments.seeds + 1):
+                problem = Problem(source, budget)
+                try:
+                    PEERS[title](problem, seed)
+                except Spent:
+                    pass
+                except Exception as error:  # what a package cannot do is said in the table
+                    print(json.dumps({"failure": f"{title} on {name}: {str(error)[:200]}"}), flush=True)
+                gap = problem.best - source.optimum
+                print(json.dumps({"way": title, "problem": name, "budget": budget, "seed": seed,
+                                  "gap": gap if math.isfinite(gap) else None}), flush=True)
 
 
 if __name__ == "__main__":

@@ -294,7 +294,8 @@ TEST(Genocop, EveryStrategyIsASwitchAndRepeatable) {
   EXPECT_EQ(all, trail(hard, base));
   for (bool Settings::*strategy :
        {&Settings::linear_model, &Settings::finish, &Settings::adaptive_frequencies,
-        &Settings::sobol_starts, &Settings::first_phase}) {
+        &Settings::sobol_starts, &Settings::first_phase, &Settings::replace_worse_only,
+        &Settings::share_feasible}) {
     Settings settings = base;
     settings.*strategy = false;
     EXPECT_NE(trail(hard, settings), all);
