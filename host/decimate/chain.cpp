@@ -2,8 +2,10 @@
 
 #include <chrono>
 
+#include "host/decimate/close_holes.h"
 #include "host/decimate/decimate.h"
 #include "host/decimate/fill_holes_smoothly.h"
+#include "host/decimate/manifold_part.h"
 #include "host/reconstruct/moving_least_squares.h"
 #include "sw_model/error.h"
 
@@ -23,13 +25,27 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
+FillMethod fill_method(const ParameterValues& values) {
   const auto chosen = values.find(kFillMethod);
-  const auto method =
-      chosen == values.end() ? FillMethod::kFlat : static_cast<FillMethod>(chosen->second);
+  return chosen == values.end() ? FillMethod::kFlat : static_cast<FillMethod>(chosen->second);
+}
+
+// As the paper's chain does it.
+TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
+  const FillMethod method = fill_method(values);
   if (method == FillMethod::kNone) return mesh;
   const double size = values.at("fill.size");
   return method == FillMethod::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
+}
+
+// A surface, with the holes closed that making it one leaves.
+TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values) {
+  const FillMethod method = fill_method(values);
+  if (method == FillMethod::kNone) return manifold_part(mesh).mesh;
+  const double size = values.at("fill.size");
+  const bool smooth = method == FillMethod::kSmooth;
+  TriangleMesh surface = manifold_part(smooth ? fill_holes_smoothly(mesh, size) : mesh).mesh;
+  return close_holes(std::move(surface), size).mesh;
 }
 
 }  // namespace
@@ -54,12 +70,13 @@ const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSec
 }
 
 const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds) {
-  const bool bounded = settings.decimator == "bounded";
-  return surfaces_.get({surface_key(settings), bounded}, [&] {
+  return surfaces_.get({surface_key(settings), settings.decimator}, [&] {
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
-    TriangleMesh filled = fill(reconstruction.mesh, settings.parameters);
-    if (bounded) filled = bounded_.start(filled);
+    const bool surface = settings.decimator != "schroeder";
+    TriangleMesh filled = surface ? closed_surface(reconstruction.mesh, settings.parameters)
+                                  : fill(reconstruction.mesh, settings.parameters);
+    if (settings.decimator == "bounded") filled = bounded_.start(filled);
     seconds.prepare = watch.lap();
     return Surface{std::move(filled), reconstruction.mesh.triangles.size(),
                    reconstruction.unmeshed_points};

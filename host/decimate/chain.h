@@ -47,8 +47,7 @@ class Chain {
   std::vector<Point> points_;
   BoundedStage bounded_;
   StageCache<StageKey, Reconstructed> reconstructions_;
-  StageCache<std::pair<StageKey, bool>, Surface>
-      surfaces_;  // true: as the bounded decimator's start
+  StageCache<std::pair<StageKey, std::string>, Surface> surfaces_;  // and the decimator
 };
 
 }  // namespace emax
