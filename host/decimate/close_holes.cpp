@@ -126,7 +126,9 @@ class Opening {
 
  private:
   bool take(std::uint32_t hole) {
-    return small_enough(adjacency_.holes()[hole]) && (holes_.insert(hole), true);
+    if (!small_enough(adjacency_.holes()[hole])) return false;
+    holes_.insert(hole);
+    return true;
   }
 
   bool drop(std::span<const std::uint32_t> triangles) {
