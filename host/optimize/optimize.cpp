@@ -112,11 +112,7 @@ class Run {
     return known;
   }
 
-  ChainSettings chain(const Genes& genes) const {
-    ParameterValues values;
-    for (std::size_t i = 0; i < genes.size(); ++i) values[problem_.genes.at(i).name] = genes[i];
-    return chain_settings(settings_.method, settings_.decimator, values);
-  }
+  ChainSettings chain(const Genes& genes) const { return chain_of(settings_, problem_, genes); }
 
   void receive() {
     std::optional<Completed> completed = pool_->wait_for(kHeartbeat);
@@ -318,6 +314,13 @@ Problem search_problem(const OptimizeSettings& settings) {
   // Along it triangles fall and e_max rises.
   return make_problem(settings.config,
                       settings.decimator == "schroeder" ? "schroeder.reduction" : "");
+}
+
+ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
+                       const Genes& genes) {
+  ParameterValues values;
+  for (std::size_t i = 0; i < genes.size(); ++i) values[problem.genes.at(i).name] = genes[i];
+  return chain_settings(settings.method, settings.decimator, values);
 }
 
 double violation_of(const ChainResult& made, const MeasuredError& error,

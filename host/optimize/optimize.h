@@ -84,6 +84,10 @@ WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings
 // What is searched.
 Problem search_problem(const OptimizeSettings& settings);
 
+// The candidate that genes of that problem are.
+ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
+                       const Genes& genes);
+
 // By what share the worse of the two bounds is broken: e_max, and the back bound where there is
 // one. At most 0 when feasible.
 double violation_of(const ChainResult& made, const MeasuredError& error,

@@ -29,11 +29,7 @@ struct RealSearch {
   }
 
   Evaluation evaluate(const Genes& genes) {
-    ParameterValues values;
-    for (std::size_t i = 0; i < genes.size(); ++i) {
-      values[problem.genes[i].name] = genes[i];
-    }
-    pool->submit(0, chain_settings(settings.method, settings.decimator, values));
+    pool->submit(0, chain_of(settings, problem, genes));
     const Completed completed = pool->wait();
     const auto* made = std::get_if<ChainResult>(&completed.outcome);
     if (made == nullptr) return {};
