@@ -367,7 +367,10 @@ TEST_F(EndToEnd, TheBoundedDecimatorKeepsBothBounds) {
 TEST_F(EndToEnd, TheBoundedDecimatorLeavesOutliersOut) {
   std::ofstream scan(folder_.path() / "scan.xyz", std::ios::app);
   // Too far from each other for a reconstruction to join them.
-  for (int i = 0; i < 7; ++i) scan << 0.9 * (i % 3) - 0.9 << ' ' << 0.9 * (i / 3) - 0.9 << " 1.6\n";
+  for (const double x : {-0.9, 0.0, 0.9}) {
+    for (const double y : {-0.9, 0.0}) scan << x << ' ' << y << " 1.6\n";
+  }
+  scan << "-0.9 0.9 1.6\n";
   scan.close();
   const std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "3%",
                                               "-o",       "mesh.ply", "--budget",    "4"};
