@@ -24,6 +24,7 @@ struct OptimizeOptions {
   unsigned jobs = 0;   // 0: one per processor
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
   std::optional<std::uint64_t> target_triangles, stagnation;
+  bool polish = true;
   std::optional<double> evaluation_seconds;
   std::optional<std::uint64_t> evaluation_memory;  // bytes
 };

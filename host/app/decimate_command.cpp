@@ -165,7 +165,7 @@ class DecimateCommand {
     certificate.transform = normalization_of(scan_.cloud.points);
     certificate.chain = {"none",
                          "bounded",
-                         {{"bounded.effort", static_cast<double>(settings_.decimation.effort)},
+                         {{kBoundedEffort, static_cast<double>(settings_.decimation.effort)},
                           {"bounded.feature_angle", settings_.decimation.feature_angle}}};
     std::vector<ResultFile> files;
     if (options_.two_sided) {

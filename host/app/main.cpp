@@ -97,13 +97,16 @@ int run(int argc, char** argv) {
       .add_option("--stagnation", optimize.stagnation,
                   "stop after so many evaluations without a better mesh")
       ->check(CLI::PositiveNumber);
+  optimize_command.add_flag("--polish,!--no-polish", optimize.polish,
+                            "decimate the best mesh once more in the end, deep (default; only "
+                            "with --decimator bounded)");
   optimize_command.add_option("--resume", optimize.resume,
                               "folder that keeps the run: created when missing, continued when "
                               "there (default: MESH.run, removed when the run has ended)");
   optimize_command
       .add_option("--evaluation-time", optimize.evaluation_seconds,
                   "give an evaluation up after this many seconds (default: 600, or 0.002 a point "
-                  "where that is more)")
+                  "where that is more), and --polish after ten times as many")
       ->check(CLI::PositiveNumber);
   optimize_command
       .add_option("--evaluation-memory", optimize.evaluation_memory,

@@ -46,6 +46,7 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   settings.target_triangles = options.target_triangles;
   settings.stagnation = options.stagnation;
+  settings.polish = options.polish;
   settings.output = options.output;
   settings.interrupted = was_interrupted;
   return settings;
@@ -289,6 +290,10 @@ class OptimizeCommand {
                : state_.target_reached ? "; target reached"
                : state_.stagnated      ? "; no better mesh for long"
                                        : "");
+    if (state_.polished) {
+      fmt::print("polished       {} triangles before the best mesh was decimated deep\n",
+                 grouped(*state_.polished));
+    }
     print_shares(seconds);
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
     if (address_.board) print_prediction(*address_.board, *counters_, cpu_->seconds());

@@ -10,6 +10,14 @@
 #include "host/app/scan.h"
 
 namespace emax {
+namespace {
+
+std::string minutes(std::chrono::duration<double> time) {
+  const long seconds = std::lround(time.count());
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+}  // namespace
 
 Progress::Progress(const ErrorConstraint& constraint,
                    std::optional<std::chrono::duration<double>> time)
@@ -27,8 +35,7 @@ std::string Progress::time_left(const OptimizeState& state) const {
     left = left < 0 ? until : std::min(left, until);
   }
   if (left < 0) return "estimating the time left";
-  const long seconds = std::lround(left);
-  return fmt::format("{}:{:02} left", seconds / 60, seconds % 60);
+  return minutes(std::chrono::duration<double>(left)) + " left";
 }
 
 std::string Progress::line(const OptimizeState& state) const {
@@ -41,11 +48,14 @@ std::string Progress::line(const OptimizeState& state) const {
                        constraint_.in_file_units(state.least_error->squared_bits));
   }
   return fmt::format("{}/{} evaluations, {}, {}", state.evaluations, state.budget, best,
-                     time_left(state));
+                     polishing_ ? "decimating it deep for " + minutes(Clock::now() - *polishing_)
+                                : time_left(state));
 }
 
 void Progress::show(const OptimizeState& state) {
   const auto now = Clock::now();
+  const bool begins_polishing = state.polishing && !polishing_;
+  if (begins_polishing) polishing_ = now;
   const std::optional<std::size_t> triangles =
       state.best ? std::optional(state.best->triangles) : std::nullopt;
   if (terminal_) {
@@ -57,7 +67,7 @@ void Progress::show(const OptimizeState& state) {
     return;
   }
   const std::uint64_t tenth = 10 * state.evaluations / std::max<std::uint64_t>(state.budget, 1);
-  if (triangles == best_triangles_ && tenth == tenth_) return;
+  if (triangles == best_triangles_ && tenth == tenth_ && !begins_polishing) return;
   best_triangles_ = triangles;
   tenth_ = tenth;
   fmt::print(stderr, "{}\n", line(state));

@@ -33,6 +33,7 @@ class Progress {
   bool open_line_ = false;
   std::optional<std::size_t> best_triangles_;
   std::uint64_t tenth_ = 0;
+  std::optional<Clock::time_point> polishing_;  // since when
 };
 
 }  // namespace emax

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iterator>
 
 #include "hls/kernel/command_words.h"
 #include "host/geometry/input_file.h"
@@ -62,8 +63,10 @@ std::string checksum(const DecimationBound& bound) {
 std::string describe(const RunLog& log, std::uint64_t budget) {
   const std::string folder = log.folder().string();
   if (log.size() == 0) return "starts in " + folder;
+  const auto& logged = log.evaluations();
+  const auto count = std::distance(logged.begin(), logged.lower_bound(budget));
   std::string text =
-      fmt::format("continues in {}: {} of {} evaluations are there", folder, log.size(), budget);
+      fmt::format("continues in {}: {} of {} evaluations are there", folder, count, budget);
   const RecordFile::Loss loss = log.loss();
   if (loss.torn > 0) text += fmt::format("; {} bytes of a torn record were cut off", loss.torn);
   if (loss.damaged > 0) text += fmt::format("; {} damaged bytes were passed over", loss.damaged);

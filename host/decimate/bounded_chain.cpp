@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/decimate/chain_parameters.h"
 #include "host/decimate/far_points.h"
 #include "host/decimate/manifold_part.h"
 #include "sw_model/error.h"
@@ -39,7 +40,9 @@ TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
   settings.epsilon = bound_.epsilon;
   settings.epsilon_back = bound_.epsilon_back;
   settings.two_sided = two_sided();
-  settings.effort = static_cast<DecimationSettings::Effort>(values.at("bounded.effort"));
+  static_assert(static_cast<DecimationSettings::Effort>(kDeepEffort) ==
+                DecimationSettings::Effort::kDeep);
+  settings.effort = static_cast<DecimationSettings::Effort>(values.at(kBoundedEffort));
   settings.normal_cosine = values.at("bounded.normal_cosine");
   settings.flatness = values.at("bounded.flatness");
   const TriangleMesh& reference = two_sided() ? bound_.reference : start;

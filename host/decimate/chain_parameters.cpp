@@ -37,8 +37,16 @@ const std::vector<ParameterSpec>& schroeder() {
 
 const std::vector<ParameterSpec>& bounded() {
   static const std::vector<ParameterSpec> specs = {
-      {"bounded.effort", kInteger, 0, 2, 2,
-       "0: edge collapses; 1: then moves, turns and mended collapses; 2: until nothing is gained"},
+      {kBoundedEffort,
+       kInteger,
+       0,
+       kDeepEffort,
+       2,
+       "0: edge collapses far below the bound; 1: and the others; 2: and moves, turns and mended "
+       "collapses; 3: these until nothing is gained",
+       {},
+       std::nullopt,
+       false},
       {"bounded.normal_cosine", kContinuous, -0.5, 0.9, 0.2,
        "least cosine between a triangle and the one that it replaces"},
       {"bounded.flatness", kContinuous, 1e-4, 0.01, 1e-3,

@@ -59,6 +59,10 @@ std::span<const std::string_view> decimators();
 // P_D of a decimator with domains and standards. Throws Error when there is no such decimator.
 std::span<const ParameterSpec> decimation_parameters(std::string_view decimator);
 
+// Of the bounded decimator: DecimationSettings::Effort.
+inline constexpr const char* kBoundedEffort = "bounded.effort";
+inline constexpr double kDeepEffort = 3;
+
 // In place of a decimator: the chain ends with the surface, its holes filled.
 inline constexpr const char* kNoDecimator = "none";
 

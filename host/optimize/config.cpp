@@ -136,6 +136,7 @@ void read_gene(const Reader& reader, const toml::table& table, const ParameterSp
   const bool integer = spec.kind != ParameterSpec::Kind::kContinuous;
   const std::string label = "genes." + in_quotes(spec.name);
   bool has_standard = false;
+  if (table.contains("lower") || table.contains("upper")) config.fixed.reset();
   for (const auto& [key, node] : table) {
     const std::string name = label + '.' + std::string(key.str());
     const auto value = [&](const toml::node& n) {
@@ -286,7 +287,8 @@ Config default_config(std::span<const ParameterSpec> parameters) {
       gene.only_with = {static_cast<std::size_t>(of - parameters.begin()), spec.only_with->category,
                         spec.only_with->unless};
     }
-    config.genes.push_back({std::move(gene), spec.standard, {}});
+    config.genes.push_back({std::move(gene), spec.standard,
+                            spec.searched ? std::nullopt : std::optional(spec.standard)});
   }
   return config;
 }
@@ -309,12 +311,16 @@ std::string default_config_text(std::span<const ParameterSpec> parameters) {
   text +=
       "\n# The parameters that are searched. lower and upper may narrow the domain; standard is "
       "the "
-      "value\n# the search starts from; fixed = VALUE takes a parameter out of the search.\n";
+      "value\n# the search starts from; fixed = VALUE takes a parameter out of the search, lower "
+      "and upper\n# in its place put it back.\n";
   for (const ParameterSpec& spec : parameters) {
-    text +=
-        fmt::format("\n# {} ({})\n[genes.{}]\nlower = {}\nupper = {}\nstandard = {}\n",
-                    spec.meaning, kind_text(spec), in_quotes(spec.name), number_text(spec.lower),
-                    number_text(spec.upper), number_text(spec.standard));
+    text += fmt::format("\n# {} ({})\n[genes.{}]\n", spec.meaning, kind_text(spec),
+                        in_quotes(spec.name));
+    text += spec.searched
+                ? fmt::format("lower = {}\nupper = {}\nstandard = {}\n", number_text(spec.lower),
+                              number_text(spec.upper), number_text(spec.standard))
+                : fmt::format("fixed = {}  # lower = {}, upper = {}\n", number_text(spec.standard),
+                              number_text(spec.lower), number_text(spec.upper));
   }
   const std::string first = parameters.empty() ? "gene" : parameters.front().name;
   const std::string last = parameters.empty() ? "gene" : parameters.back().name;

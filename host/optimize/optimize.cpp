@@ -11,6 +11,8 @@
 namespace emax {
 namespace {
 
+constexpr int kPolishTimes = 10;  // as long as an evaluation may the deep decimation take
+
 bool same_bits(const Genes& a, const Genes& b) {
   return std::ranges::equal(
       a, b, {}, [](double x) { return std::bit_cast<std::uint64_t>(x); },
@@ -49,14 +51,18 @@ class Run {
   }
 
   OptimizeState run() {
-    const auto start = Clock::now();
-    pool_.emplace(cloud_, settings_.bound, worker_pool_options(cloud_.size(), settings_));
+    start_workers(settings_.jobs);
     while (!scheduler_.finished() && !cut_short() && !reached_its_end()) {
-      state_.interrupted = settings_.interrupted();
-      state_.out_of_time = settings_.time && Clock::now() - start > *settings_.time;
+      look_for_the_end();
       if (cut_short()) break;
       hand_out();
-      if (pool_->outstanding() > 0 && !reached_its_end()) receive();
+      if (pool_->outstanding() > 0 && !reached_its_end()) {
+        if (std::optional<Result> result = receive()) {
+          const std::uint64_t index = result->evaluation.index;
+          scheduler_.complete(index, evaluation_of(result->evaluation));
+          results_[index] = std::move(*result);
+        }
+      }
       enter_in_order();
       state_.evaluations = genocop_.asked() - in_work_.size();
       observe_(state_);
@@ -64,6 +70,7 @@ class Run {
     // What is in work is given up: its workers end with the pool.
     pool_.reset();
     if (reached_its_end()) state_.evaluations = next_;
+    if (settings_.polish && state_.best && !cut_short() && !state_.target_reached) polish();
     if (cut_short()) enter_the_rest();
     if (std::optional<BestMesh>& shown = state_.best ? state_.best : state_.least_error;
         shown && shown->mesh.triangles.empty()) {
@@ -75,10 +82,22 @@ class Run {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void look_for_the_end() {
+    state_.interrupted = settings_.interrupted();
+    state_.out_of_time = settings_.time && Clock::now() - start_ > *settings_.time;
+  }
+
   bool cut_short() const {
     return state_.interrupted || state_.out_of_time || !state_.device_failure.empty();
   }
   bool reached_its_end() const { return state_.target_reached || state_.stagnated; }
+
+  void start_workers(unsigned jobs, int times = 1) {
+    WorkerPoolOptions options = worker_pool_options(cloud_.size(), settings_);
+    options.jobs = jobs;
+    options.time_limit *= times;
+    pool_.emplace(cloud_, settings_.bound, options);
+  }
 
   // Gives the workers what they can take, and one more, so that none waits for the next candidate.
   // What the log knows is answered at once.
@@ -114,9 +133,10 @@ class Run {
 
   ChainSettings chain(const Genes& genes) const { return chain_of(settings_, problem_, genes); }
 
-  void receive() {
+  // In the log, if there is one.
+  std::optional<Result> receive() {
     std::optional<Completed> completed = pool_->wait_for(kHeartbeat);
-    if (!completed) return;
+    if (!completed) return std::nullopt;
     const std::uint64_t index = completed->ticket;
     Result result;
     result.evaluation.index = index;
@@ -125,15 +145,45 @@ class Run {
       judge(std::move(completed->outcome), result);
     } catch (const DeviceFailure& failure) {  // neither of these says anything of the candidate
       state_.device_failure = failure.what();
-      return;
+      return std::nullopt;
     } catch (const Interrupted&) {
       state_.interrupted = true;
-      return;
+      return std::nullopt;
     }
     keep(result);
     in_work_.erase(index);
-    scheduler_.complete(index, evaluation_of(result.evaluation));
-    results_[index] = std::move(result);
+    return result;
+  }
+
+  // As the candidate behind the last one.
+  void polish() {
+    const auto effort = std::ranges::find(problem_.genes, kBoundedEffort, &Gene::name);
+    if (effort == problem_.genes.end()) return;
+    const std::uint64_t index = settings_.config.search.budget;
+    Genes deep = best_genes_;
+    double& value = deep[static_cast<std::size_t>(effort - problem_.genes.begin())];
+    if (value >= kDeepEffort) return;
+    value = kDeepEffort;
+    const std::size_t before = state_.best->triangles;
+    const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
+    // Of another best where the run then ended elsewhere.
+    if (known != nullptr && same_bits(known->genes, deep)) {
+      enter(Result{*known, {}, {}});
+      state_.polished = before;
+      return;
+    }
+    state_.polishing = true;
+    start_workers(1, kPolishTimes);
+    pool_->submit(index, chain(deep));
+    in_work_ = {{index, std::move(deep)}};
+    for (look_for_the_end(); !cut_short() && !state_.polished; look_for_the_end()) {
+      observe_(state_);
+      std::optional<Result> result = receive();
+      if (!result) continue;
+      enter(std::move(*result));
+      state_.polished = before;
+    }
+    pool_.reset();
   }
 
   void judge(std::variant<ChainResult, Failure> outcome, Result& result) {
@@ -233,6 +283,7 @@ class Run {
     for (const auto& old : {&state_.best, &state_.least_error}) {
       if (*old) drop((*old)->index);
     }
+    if (result.feasible()) best_genes_ = e.genes;
     place = BestMesh{e.index,
                      e.triangles,
                      e.violation,
@@ -265,12 +316,11 @@ class Run {
     }
   }
 
-  TriangleMesh make_again(const LoggedEvaluation& known) const {
-    WorkerPoolOptions options = worker_pool_options(cloud_.size(), settings_);
-    options.jobs = 1;
-    WorkerPool pool(cloud_, settings_.bound, options);
-    pool.submit(known.index, chain(known.genes));
-    Completed completed = pool.wait();
+  TriangleMesh make_again(const LoggedEvaluation& known) {
+    start_workers(1);
+    pool_->submit(known.index, chain(known.genes));
+    Completed completed = pool_->wait();
+    pool_.reset();
     if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
       throw Error(settings_.log->folder().string() +
                   ": the mesh of the best evaluation is lost: " + failure->message +
@@ -286,11 +336,13 @@ class Run {
   const OptimizeSettings& settings_;
   const OptimizeObserver& observe_;
   const Problem problem_;
+  const Clock::time_point start_ = Clock::now();
   Genocop genocop_;
   LookAheadScheduler scheduler_;
   std::optional<WorkerPool> pool_;
   SearchOptions search_;
   OptimizeState state_;
+  Genes best_genes_;
   std::map<std::uint64_t, Genes> in_work_;
   std::map<std::uint64_t, Result> results_;  // not entered yet
   std::uint64_t next_ = 0;                   // to enter

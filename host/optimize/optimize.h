@@ -39,6 +39,9 @@ struct OptimizeSettings {
   std::optional<std::chrono::duration<double>> time;
   std::optional<std::uint64_t> target_triangles;  // a feasible mesh of at most so many
   std::optional<std::uint64_t> stagnation;        // so many evaluations without a better mesh
+  // The best mesh of the bounded decimator is decimated once more in the end, deep, unless the run
+  // was cut short or has reached its target.
+  bool polish = true;
   std::filesystem::path output;                   // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
   // Called with every mesh whose error was measured.
@@ -67,6 +70,8 @@ struct OptimizeState {
   std::optional<BestMesh> best;         // feasible
   std::optional<BestMesh> least_error;  // the least violation of the meshes before that
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
+  bool polishing = false;               // has begun to
+  std::optional<std::size_t> polished;  // has; the triangles before that
   std::string device_failure;  // that ended the run
   // What evaluations that were made took: their stages in the workers, e_max here.
   StageSeconds stages;

@@ -20,6 +20,7 @@ const std::vector<ParameterSpec>& parameters() {
       {"gp3.min_angle", Kind::kContinuous, 0, 10, 5, "least angle in degrees"},
       {"gp3.max_angle", Kind::kContinuous, 120, 175, 150, "greatest angle in degrees"},
       {"decimate.reduction", Kind::kContinuous, 0, 0.98, 0.1, "share of triangles removed"},
+      {"decimate.effort", Kind::kInteger, 0, 3, 2, "how much", {}, std::nullopt, false},
   };
   return specs;
 }
@@ -98,6 +99,9 @@ TEST_F(ConfigTest, EverySettingIsRead) {
   const std::string gene = "[genes.\"gp3.mu\"]\n";
   for (const char* of : {"lower = 2.5", "upper = 5", "standard = 3", "fixed = 2.7"})
     changes(gene + of);
+  for (const char* of : {"lower = 1", "upper = 2", "fixed = 3"}) {
+    changes("[genes.\"decimate.effort\"]\n" + std::string(of));
+  }
   const std::string linear = "[[linear]]\nterms = { \"gp3.mu\" = ";
   for (const char* of : {"1 }\nat_most = 3", "1 }\nequals = 2.7", "1.5 }\nat_most = 5",
                          "1 }\nat_most = 3.5", "1, \"gp3.min_angle\" = 1 }\nat_most = 8"}) {
@@ -132,12 +136,26 @@ equals = 4
   EXPECT_EQ(problem.monotone_gene, 4u);
   EXPECT_EQ(problem.genes[0].lower, 12);
   EXPECT_EQ(problem.genes[0].upper, 12);
-  EXPECT_EQ(problem.starts, (std::vector<Genes>{{12, 3, 5, 150, 0.1}}));
+  EXPECT_EQ(problem.starts, (std::vector<Genes>{{12, 3, 5, 150, 0.1, 2}}));
   Genocop search(problem, config.search, 1);
   EXPECT_EQ(search.ask().genes[0], 12);
 
   EXPECT_EQ(make_problem(config, "").monotone_gene, std::nullopt);
   EXPECT_EQ(make_problem(config, "normals.k").monotone_gene, std::nullopt);  // fixed
+}
+
+TEST_F(ConfigTest, WhatIsNotSearchedIsOnceItHasADomain) {
+  const auto domain = [&](const std::string& text) {
+    const Gene gene = make_problem(read(text), "").genes.back();
+    return std::pair(gene.lower, gene.upper);
+  };
+  const std::string effort = "[genes.\"decimate.effort\"]\n";
+  EXPECT_EQ(domain(""), std::pair(2.0, 2.0));
+  EXPECT_EQ(domain(effort + "standard = 1"), std::pair(2.0, 2.0));
+  EXPECT_EQ(domain(effort + "fixed = 1"), std::pair(1.0, 1.0));
+  EXPECT_EQ(domain(effort + "lower = 1"), std::pair(1.0, 3.0));
+  EXPECT_EQ(domain(effort + "upper = 2"), std::pair(0.0, 2.0));
+  EXPECT_EQ(domain(effort + "fixed = 1\nlower = 0"), std::pair(1.0, 1.0));
 }
 
 TEST_F(ConfigTest, RefusesWithFileLineAndRemedy) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "host/decimate/chain.h"
 #include "host/emax_search/simd_evaluator.h"
 #include "sw_model/error.h"
 #include "tests/host/geometry/temporary_folder.h"
@@ -232,6 +233,56 @@ TEST_F(OptimizeTest, AMeshThatIsLostIsMadeAgain) {
   expect_same(run(&log), whole);
   std::filesystem::remove(path_ / name);
   expect_same(run(&log), whole);
+}
+
+// The twin is a worker's chain, run here with the best's parameters.
+TEST_F(OptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
+  settings_.decimator = "bounded";
+  settings_.config = default_config(chain_parameters("gp3", "bounded"));
+  settings_.config.search.budget = 3;
+  settings_.bound.epsilon = 0.05;  // so fine that triangles are left to remove
+  settings_.polish = false;
+  const OptimizeState plain = run();
+  ASSERT_TRUE(plain.best);
+  EXPECT_FALSE(plain.polished);
+  ChainSettings deep = plain.best->chain;
+  EXPECT_EQ(std::exchange(deep.parameters.at(kBoundedEffort), kDeepEffort), 2);
+  Chain chain(cloud_, settings_.bound, 1 << 20);
+  const TriangleMesh twin = chain.run(deep).mesh;
+  ASSERT_LT(twin.triangles.size(), plain.best->triangles);
+
+  settings_.polish = true;
+  const OptimizeState whole = run();
+  EXPECT_EQ(whole.polished, plain.best->triangles);
+  EXPECT_TRUE(same_bytes(whole.best->mesh, as_stored(twin, MeshFormat::kPly)));
+  EXPECT_EQ(whole.best->chain.parameters, deep.parameters);
+  EXPECT_EQ(whole.evaluations, plain.evaluations);
+
+  // Cut short in the middle of it, and gone on with.
+  RunLog log(path_, kSettings);
+  bool interrupted = false;
+  settings_.log = &log;
+  settings_.interrupted = [&] { return interrupted; };
+  const OptimizeState cut =
+      optimize(cloud_, constraint_, device_, settings_,
+               [&](const OptimizeState& state) { interrupted = state.polishing; });
+  EXPECT_TRUE(cut.interrupted);
+  EXPECT_TRUE(same_bytes(cut.best->mesh, plain.best->mesh));
+  interrupted = false;
+  expect_same(run(&log), whole);
+  EXPECT_EQ(measured_, 1u);
+  expect_same(run(&log), whole);
+  EXPECT_EQ(measured_, 0u);
+
+  // Not where enough was found, and anew where another is the best.
+  settings_.target_triangles = plain.best->triangles;
+  EXPECT_FALSE(run(&log).polished);
+  settings_.target_triangles.reset();
+  LoggedEvaluation other = *log.find(3);
+  other.genes.front() += 1;
+  log.append(other);
+  expect_same(run(&log), whole);
+  EXPECT_EQ(measured_, 1u);
 }
 
 TEST_F(OptimizeTest, RefusesTheLogOfAnotherSearch) {
