@@ -48,8 +48,11 @@ std::string Progress::line(const OptimizeState& state) const {
                        constraint_.in_file_units(state.least_error->squared_bits));
   }
   return fmt::format("{}/{} evaluations, {}, {}", state.evaluations, state.budget, best,
-                     polishing_ ? "decimating it deep for " + minutes(Clock::now() - *polishing_)
-                                : time_left(state));
+                     polishing_ ? "decimating it deep" + polishing_time() : time_left(state));
+}
+
+std::string Progress::polishing_time() const {
+  return terminal_ ? " for " + minutes(Clock::now() - *polishing_) : std::string();
 }
 
 void Progress::show(const OptimizeState& state) {

@@ -24,6 +24,7 @@ class Progress {
 
   std::string line(const OptimizeState& state) const;
   std::string time_left(const OptimizeState& state) const;
+  std::string polishing_time() const;
 
   const ErrorConstraint& constraint_;
   std::optional<std::chrono::duration<double>> time_;

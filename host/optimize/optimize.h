@@ -42,7 +42,7 @@ struct OptimizeSettings {
   // The best mesh of the bounded decimator is decimated once more in the end, deep, unless the run
   // was cut short or has reached its target.
   bool polish = true;
-  std::filesystem::path output;                   // what this file will hold is what is measured
+  std::filesystem::path output;  // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
   // Called with every mesh whose error was measured.
   std::function<void(MeshView, const MeasuredError&)> measured = [](MeshView, const auto&) {};
@@ -72,7 +72,7 @@ struct OptimizeState {
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   bool polishing = false;               // has begun to
   std::optional<std::size_t> polished;  // has; the triangles before that
-  std::string device_failure;  // that ended the run
+  std::string device_failure;           // that ended the run
   // What evaluations that were made took: their stages in the workers, e_max here.
   StageSeconds stages;
   double measuring = 0;
