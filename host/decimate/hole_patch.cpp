@@ -78,11 +78,12 @@ class HoleTriangulation {
     Best best;
     for (std::size_t k = i + 1; k < j; ++k) {
       std::optional<PatchQuality> quality = at(i, k, j).quality;
-      if (!quality) continue;
+      const auto is_best = [&] { return !best.quality || quality->better_than(*best.quality); };
+      if (!quality || !is_best()) continue;
       if (normal != nullptr) {
         quality->fold = std::min(quality->fold, cosine(*normal, normal_of(i, k, j)));
       }
-      if (!best.quality || quality->better_than(*best.quality)) best = {quality, k};
+      if (is_best()) best = {quality, k};
     }
     return best;
   }
