@@ -4,18 +4,28 @@
 #include <cmath>
 
 #include "host/decimate/chain_parameters.h"
+#include "host/decimate/drop_components.h"
 #include "host/decimate/far_points.h"
 #include "host/decimate/manifold_part.h"
 #include "sw_model/error.h"
 
 namespace emax {
+namespace {
+
+constexpr double kInside = 1 - 1e-9;  // of a bound: where no rounding leads beyond it
+
+}  // namespace
 
 BoundedStage::BoundedStage(std::span<const Point> points, DecimationBound bound)
     : bound_(std::move(bound)), kept_(points_without(points, bound_.outliers)) {
   if (!two_sided()) return;
-  constexpr double kInside = 1 - 1e-9;  // where the decimator's own limit, less roundings, is too
   back_.emplace(bound_.reference, kInside * bound_.epsilon_back);
   exact_reference_.emplace(bound_.reference.view());
+}
+
+TriangleMesh BoundedStage::without_needless(TriangleMesh surface) const {
+  if (!(bound_.epsilon > 0)) return surface;
+  return drop_needless_components(std::move(surface), kept_, bound_.epsilon / 2);
 }
 
 TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
@@ -46,7 +56,8 @@ TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
   settings.normal_cosine = values.at("bounded.normal_cosine");
   settings.flatness = values.at("bounded.flatness");
   const TriangleMesh& reference = two_sided() ? bound_.reference : start;
-  return BoundedDecimator(reference, kept_).run(start, settings).mesh;
+  TriangleMesh mesh = BoundedDecimator(reference, kept_).run(start, settings).mesh;
+  return drop_needless_components(std::move(mesh), kept_, kInside * bound_.epsilon);
 }
 
 double BoundedStage::back_distance(const TriangleMesh& mesh) const {

@@ -21,13 +21,17 @@ class BoundedStage {
 
   bool two_sided() const { return bound_.epsilon_back > 0; }
 
+  // drop_needless_components() at half of epsilon, which leaves decimation room; as it is where the
+  // run fixed no bound.
+  TriangleMesh without_needless(TriangleMesh surface) const;
+
   // What decimation starts from: the surface as a manifold, under a two-sided bound without the
   // triangles that stray from the reference, and with the points inserted that are far from it.
   // Throws what reference_surface() throws, and Error where all of it strays and where the run
   // fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;
 
-  // `values` holds P_D.
+  // `values` holds P_D. Without the components that no point needs any more.
   TriangleMesh decimate(const TriangleMesh& start, const ParameterValues& values) const;
 
   // A certified upper bound on the distance of the mesh from the reference where it keeps

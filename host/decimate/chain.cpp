@@ -38,14 +38,17 @@ TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
   return method == FillMethod::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
 }
 
-// A surface, with the holes closed that making it one leaves.
-TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values) {
+// A surface, with the holes closed that making it one leaves. Pieces that no point needs would be
+// in the patches' way.
+TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values,
+                            const BoundedStage& bounded) {
   const FillMethod method = fill_method(values);
-  if (method == FillMethod::kNone) return manifold_part(mesh).mesh;
-  const double size = values.at("fill.size");
+  const double size = method == FillMethod::kNone ? 0 : values.at("fill.size");
   const bool smooth = method == FillMethod::kSmooth;
-  TriangleMesh surface = manifold_part(smooth ? fill_holes_smoothly(mesh, size) : mesh).mesh;
-  return close_holes(std::move(surface), size).mesh;
+  TriangleMesh surface =
+      bounded.without_needless(manifold_part(smooth ? fill_holes_smoothly(mesh, size) : mesh).mesh);
+  if (method == FillMethod::kNone) return surface;
+  return bounded.without_needless(close_holes(std::move(surface), size).mesh);
 }
 
 }  // namespace
@@ -74,8 +77,9 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
     const bool surface = settings.decimator != "schroeder";
-    TriangleMesh filled = surface ? closed_surface(reconstruction.mesh, settings.parameters)
-                                  : fill(reconstruction.mesh, settings.parameters);
+    TriangleMesh filled = surface
+                              ? closed_surface(reconstruction.mesh, settings.parameters, bounded_)
+                              : fill(reconstruction.mesh, settings.parameters);
     if (settings.decimator == "bounded") filled = bounded_.start(filled);
     seconds.prepare = watch.lap();
     return Surface{std::move(filled), reconstruction.mesh.triangles.size(),

@@ -29,12 +29,14 @@ struct HolePatch {
   PatchQuality quality;
 };
 
-// A triangulation of the polygon `hole` whose sharpest fold is the least there is, and of little
-// area (after Barequet and Sharir 1995 and Liepa 2003). `behind` holds, for the edge from each
+// A triangulation of the polygon `hole` whose sharpest fold is the least there is, up to
+// kExactCorners corners, else nearly, and of little area (after Barequet and Sharir 1995 and Liepa
+// 2003). `behind` holds, for the edge from each
 // corner to the next, the third corner of the mesh's triangle on its other side; `may_join(i, j)`
 // says whether two corners that are not neighbours may be joined. Triangles follow the polygon's
-// direction. Nothing where there is no triangulation without triangles of no area. O(k^4) time and
-// O(k^3) memory for k corners.
+// direction. Nothing where there is no triangulation without triangles of no area, or none is
+// found. O(k^4) time and O(k^3) memory for k corners where it is exact, else O(k^3) and O(k^2).
+inline constexpr std::size_t kExactCorners = 60;
 std::optional<HolePatch> best_patch(std::span<const Point> hole, std::span<const Point> behind,
                                     const std::function<bool(std::size_t, std::size_t)>& may_join);
 
@@ -50,7 +52,7 @@ struct ClosedHoles {
 // has more than kMostHoleEdges edges or is wider than `size`: when a vertex is farther than that
 // many widths of the mesh from their mean. What comes out is as manifold_part() gives it. O(n log
 // n).
-inline constexpr std::size_t kMostHoleEdges = 2000;
+inline constexpr std::size_t kMostHoleEdges = 400;
 inline constexpr int kRimRings = 4;
 ClosedHoles close_holes(TriangleMesh mesh, double size);
 

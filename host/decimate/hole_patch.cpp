@@ -8,8 +8,6 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kExactCorners = 60;
-
 double cosine(const Point& a, const Point& b) {
   const double length = a.norm() * b.norm();
   return length > 0 ? a.dot(b) / length : -1;
@@ -115,70 +113,75 @@ class HoleTriangulation {
   std::vector<Part> parts_;
 };
 
-// Cuts ears off a polygon of many corners, those with the shortest third edge first.
-class Ears {
+// Of many corners: of each part of the polygon only the best triangulation is kept, whatever will
+// lie beside it, so that the whole may miss the best (Liepa 2003). O(k^3) time, O(k^2) memory.
+class QuickTriangulation {
  public:
-  Ears(std::span<const Point> hole, std::span<const Point> behind,
-       const std::function<bool(std::size_t, std::size_t)>& may_join)
-      : hole_(hole), behind_(behind.begin(), behind.end()), may_join_(may_join) {
-    for (std::size_t i = 0; i < hole.size(); ++i) corners.push_back(i);
-  }
+  QuickTriangulation(std::span<const Point> hole, std::span<const Point> behind,
+                     const std::function<bool(std::size_t, std::size_t)>& may_join)
+      : hole_(hole), behind_(behind), may_join_(may_join), parts_(hole.size() * hole.size()) {}
 
-  // False when none can be cut.
-  bool cut() {
-    std::optional<std::size_t> best;
-    double shortest = 0;
-    for (std::size_t p = 0; p < corners.size(); ++p) {
-      const auto [a, v, b] = ear(p);
-      const double length = (hole_[b] - hole_[a]).norm();
-      if ((best && length >= shortest) || !may_join_(a, b)) continue;
-      if (collinear(hole_[a], hole_[v], hole_[b])) continue;
-      best = p;
-      shortest = length;
+  std::optional<HolePatch> run() {
+    const std::size_t n = hole_.size();
+    for (std::size_t width = 2; width < n; ++width) {
+      for (std::size_t i = 0; i + width < n; ++i) solve(i, i + width);
     }
-    if (!best) return false;
-    const auto [a, v, b] = ear(*best);
-    const Point normal = (hole_[v] - hole_[a]).cross(hole_[b] - hole_[a]);
-    patch.triangles.push_back({a, v, b});
-    patch.quality.area += 0.5 * normal.norm();
-    patch.quality.fold =
-        std::min({patch.quality.fold, fold_behind(normal, hole_[a], hole_[v], behind_[a]),
-                  fold_behind(normal, hole_[v], hole_[b], behind_[v])});
-    behind_[a] = hole_[v];
-    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(*best));
-    return true;
-  }
-
-  std::optional<HolePatch> finish() {
-    std::vector<Point> hole, behind;
-    for (const std::size_t c : corners) {
-      hole.push_back(hole_[c]);
-      behind.push_back(behind_[c]);
+    if (!at(0, n - 1).closed()) return std::nullopt;
+    HolePatch patch{{}, at(0, n - 1).quality};
+    std::vector<std::pair<std::size_t, std::size_t>> left = {{0, n - 1}};
+    while (!left.empty()) {
+      const auto [i, j] = left.back();
+      left.pop_back();
+      if (j == i + 1) continue;
+      const std::size_t k = at(i, j).apex;
+      patch.triangles.push_back({i, k, j});
+      left.insert(left.end(), {{i, k}, {k, j}});
     }
-    const std::function<bool(std::size_t, std::size_t)> may_join =
-        [this](std::size_t i, std::size_t j) { return may_join_(corners[i], corners[j]); };
-    const std::optional<HolePatch> rest = HoleTriangulation(hole, behind, may_join).run();
-    if (!rest) return std::nullopt;
-    for (const auto& [a, b, c] : rest->triangles) {
-      patch.triangles.push_back({corners[a], corners[b], corners[c]});
-    }
-    patch.quality.area += rest->quality.area;
-    patch.quality.fold = std::min(patch.quality.fold, rest->quality.fold);
     return patch;
   }
 
-  std::vector<std::size_t> corners;  // that are left
-  HolePatch patch;
-
  private:
-  std::array<std::size_t, 3> ear(std::size_t p) const {
-    const std::size_t n = corners.size();
-    return {corners[(p + n - 1) % n], corners[p], corners[(p + 1) % n]};
+  // Of the polygon from corner i to j, with the triangle (i, apex, j).
+  struct Part {
+    PatchQuality quality;
+    Point normal = Point::Zero();
+    std::size_t apex = 0;
+
+    bool closed() const { return apex > 0; }
+  };
+
+  const Part& at(std::size_t i, std::size_t j) const { return parts_[i * hole_.size() + j]; }
+
+  void solve(std::size_t i, std::size_t j) {
+    const bool last = i == 0 && j + 1 == hole_.size();
+    if (!last && !may_join_(i, j)) return;
+    Part best;
+    for (std::size_t k = i + 1; k < j; ++k) {
+      const Part &low = at(i, k), &high = at(k, j);
+      if ((k > i + 1 && !low.closed()) || (j > k + 1 && !high.closed())) continue;
+      PatchQuality quality = {std::min(low.quality.fold, high.quality.fold),
+                              low.quality.area + high.quality.area};
+      const auto is_best = [&] { return !best.closed() || quality.better_than(best.quality); };
+      if (!is_best() || collinear(hole_[i], hole_[k], hole_[j])) continue;
+      const Point normal = (hole_[k] - hole_[i]).cross(hole_[j] - hole_[i]);
+      quality.area += 0.5 * normal.norm();
+      quality.fold = std::min({quality.fold, fold_at(normal, i, k), fold_at(normal, k, j)});
+      if (last) {
+        quality.fold = std::min(quality.fold, fold_behind(normal, hole_[j], hole_[i], behind_[j]));
+      }
+      if (is_best()) best = {quality, normal, k};
+    }
+    parts_[i * hole_.size() + j] = best;
   }
 
-  std::span<const Point> hole_;
-  std::vector<Point> behind_;  // of each corner's edge to the next one that is left
+  double fold_at(const Point& normal, std::size_t i, std::size_t j) const {
+    return j == i + 1 ? fold_behind(normal, hole_[i], hole_[j], behind_[i])
+                      : cosine(normal, at(i, j).normal);
+  }
+
+  std::span<const Point> hole_, behind_;
   const std::function<bool(std::size_t, std::size_t)>& may_join_;
+  std::vector<Part> parts_;
 };
 
 }  // namespace
@@ -186,11 +189,8 @@ class Ears {
 std::optional<HolePatch> best_patch(std::span<const Point> hole, std::span<const Point> behind,
                                     const std::function<bool(std::size_t, std::size_t)>& may_join) {
   if (hole.size() < 3) return std::nullopt;
-  Ears ears(hole, behind, may_join);
-  while (ears.corners.size() > kExactCorners) {
-    if (!ears.cut()) return std::nullopt;
-  }
-  return ears.finish();
+  return hole.size() > kExactCorners ? QuickTriangulation(hole, behind, may_join).run()
+                                     : HoleTriangulation(hole, behind, may_join).run();
 }
 
 }  // namespace emax

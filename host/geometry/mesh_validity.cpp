@@ -6,26 +6,12 @@
 #include <vector>
 
 #include "host/geometry/box_pairs.h"
+#include "host/geometry/disjoint_sets.h"
 #include "host/geometry/exact_predicates.h"
 #include "host/geometry/triangle_pair.h"
 
 namespace emax {
 namespace {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) { parent_[root(i)] = root(j); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 bool repeats_index(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 

@@ -11,10 +11,11 @@
 namespace emax {
 namespace {
 
-TriangleMesh standard_surface(std::span<const Point> cloud, const OptimizeSettings& settings) {
+TriangleMesh standard_surface(std::span<const Point> cloud, double epsilon,
+                              const OptimizeSettings& settings) {
   WorkerPoolOptions options = worker_pool_options(cloud.size(), settings);
   options.jobs = 1;
-  WorkerPool pool(cloud, options);
+  WorkerPool pool(cloud, {epsilon, 0, {}, {}}, options);
   // Of all methods the first, which follows the points most closely.
   const std::string method = settings.method == kAutoMethod
                                  ? std::string(reconstruction_methods().front())
@@ -50,7 +51,7 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
   }
   if (!two_sided && constraint.excludable() == 0) return bound;
 
-  const TriangleMesh surface = manifold_part(standard_surface(cloud, settings)).mesh;
+  const TriangleMesh surface = manifold_part(standard_surface(cloud, bound.epsilon, settings)).mesh;
   if (surface.triangles.empty()) {
     throw Error("the cloud's reconstruction has no part that is a surface; take another --method");
   }

@@ -116,6 +116,30 @@ TEST(BestPatch, ClosesAPolygonOfManyCorners) {
   EXPECT_NEAR(told.fold, 1, 1e-12);
 }
 
+// A crack between two sheets whose rims waver: its patch runs across it from end to end.
+TEST(BestPatch, ClosesALongCrack) {
+  constexpr int kSideCorners = 60;
+  std::vector<Point> hole, behind;
+  const auto rim = [](double x, double side) {
+    return Point(x, side * (0.3 + 0.2 * std::sin(1.7 * x + side)), 0.2 * std::cos(0.9 * x));
+  };
+  for (const int side : {-1, 1}) {
+    for (int i = 0; i < kSideCorners; ++i) {
+      const double x = side < 0 ? i : kSideCorners - 1 - i;
+      hole.push_back(rim(x, side));
+      behind.push_back(rim(x - 0.5 * side, side) + Point(0, side, 0));
+    }
+  }
+  const auto any = [](std::size_t, std::size_t) { return true; };
+  const std::optional<HolePatch> found = best_patch(hole, behind, any);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->triangles.size(), hole.size() - 2);
+  EXPECT_GT(found->quality.fold, 0.5);
+  const PatchQuality told = quality_of(found->triangles, hole, behind);
+  EXPECT_NEAR(told.fold, found->quality.fold, 1e-12);
+  EXPECT_NEAR(told.area, found->quality.area, 1e-9);
+}
+
 TEST(BestPatch, HasNoTriangleWithoutArea) {
   const std::vector<Point> hole = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
   const std::vector<Point> behind = {{0, -1, 0}, {1, -1, 0}, {3, 1, 0}, {-1, 1, 0}};
