@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -88,6 +89,40 @@ TEST(DropNeedlessComponents, LeavesOneComponentAlone) {
   const TriangleMesh rest = drop_needless_components(square, far, kFar);
   EXPECT_EQ(rest.triangles, square.triangles);
   EXPECT_EQ(rest.vertices, square.vertices);
+}
+
+// Each that stays is needed beside those that are much larger, of many sizes.
+TEST(DropNeedlessComponents, LargerOnesSpareSmallerOnes) {
+  Random random(29);
+  std::size_t spared = 0;
+  for (int round = 0; round < 20; ++round) {
+    TriangleMesh mesh = square_with_pieces(random, 0);
+    for (int i = 0; i < 40; ++i) {
+      const double x = random.uniform(-4, 4), y = random.uniform(-4, 4);
+      add_triangle(mesh, {x, y, random.uniform(0.6, 1.5)}, std::exp(random.uniform(-4, 0)));
+    }
+    const TriangleMesh rest = drop_needless_components(mesh, mesh.vertices, kFar);
+    for (const Point& p : mesh.vertices) EXPECT_LE(distance(p, rest), kFar);
+    const auto area = [&](std::uint32_t t) {
+      const auto [a, b, c] = rest.triangles[t];
+      const double side = (rest.vertices[b] - rest.vertices[a]).norm();
+      return t < 2 ? 16 : 0.5 * side * (rest.vertices[c] - rest.vertices[a]).norm();
+    };
+    for (std::uint32_t t = 2; t < rest.triangles.size(); ++t) {
+      double farthest = 0;
+      for (const std::uint32_t v : rest.triangles[t]) {
+        double to_larger = std::numeric_limits<double>::infinity();
+        for (std::uint32_t other = 0; other < rest.triangles.size(); ++other) {
+          if (area(other) <= 8 * area(t)) continue;
+          to_larger = std::min(to_larger, distance(rest.vertices[v], rest, other));
+        }
+        farthest = std::max(farthest, to_larger);
+      }
+      EXPECT_GT(farthest, kFar);
+    }
+    spared += needed_pieces(mesh, mesh.vertices) + 2 - rest.triangles.size();
+  }
+  EXPECT_GT(spared, 100u);
 }
 
 // By area, not by triangles: the pieces of a fan are more, but smaller.
