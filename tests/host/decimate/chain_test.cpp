@@ -7,6 +7,7 @@
 #include "host/decimate/manifold_part.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/reconstruct/reconstruction_parameters.h"
+#include "surfaces.h"
 #include "sw_model/certificate.h"
 #include "sw_model/error.h"
 #include "sw_model/surface_distance.h"
@@ -121,6 +122,31 @@ TEST(BoundedStage, TellsHowFarAMeshStraysFromTheReference) {
     EXPECT_GE(back, 0.9 * measured.lower) << shift;
     EXPECT_LE(back, std::max(measured.upper, 0.05)) << shift;
   }
+}
+
+// Triangles over a sheet: within half of epsilon, within it, and beyond.
+TEST(BoundedStage, DropsPiecesThatNoPointNeeds) {
+  TriangleMesh surface = sheet(16, 0);
+  for (const double height : {0.04, 0.08, 0.2}) {
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    surface.vertices.insert(surface.vertices.end(), {{0, 5 * height - 0.5, height},
+                                                     {0.1, 5 * height - 0.5, height},
+                                                     {0, 5 * height - 0.4, height}});
+    surface.triangles.push_back({first, first + 1, first + 2});
+  }
+  const auto components = [](const TriangleMesh& mesh) {
+    return check_mesh(mesh.view()).components;
+  };
+  DecimationBound bound;
+  EXPECT_EQ(components(BoundedStage(surface.vertices, bound).without_needless(surface)), 4u);
+  bound.epsilon = 0.1;
+  const BoundedStage stage(surface.vertices, bound);
+  const TriangleMesh start = stage.without_needless(surface);
+  EXPECT_EQ(components(start), 3u);
+  const TriangleMesh mesh =
+      stage.decimate(start, standard_values(decimation_parameters("bounded")));
+  EXPECT_EQ(components(mesh), 2u);
+  EXPECT_LE(certify(surface.vertices, mesh.view()).e_max_upper, bound.epsilon);
 }
 
 TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
