@@ -33,7 +33,7 @@ PUBLISHED = {"g02": "0.80351", "g07": "25.883", "g09": "680.640", "g10": "7286.6
 OPTIMA = {"g02": -0.803619, "g07": 24.306209, "g09": 680.630057, "g10": 7049.248021, "g01": -15, "g03": -1.0005001,
           "g04": -30665.538672, "g05": 5126.496714, "g06": -6961.813876, "g08": -0.095825, "g11": 0.7499}
 
-# Scan, percent of the width, decimator; without COBYLA and ISRES, which know no whole numbers.
+# Scan, percent of the width, decimator; beside fewer peers, as every run is dear.
 SCANS = ["bunny 0.321 schroeder", "building 1 schroeder"]
 SCAN_PEERS = ["pagmo gaco", "pagmo cstrs_self_adaptive", RANDOM]
 SCAN_BUDGET, SCAN_SEEDS, RANGE_SEEDS, SCAN_ABLATION_SEEDS = 200, 3, 1, 1
