@@ -43,11 +43,11 @@ TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
 TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values,
                             const BoundedStage& bounded) {
   const FillMethod method = fill_method(values);
-  const double size = method == FillMethod::kNone ? 0 : values.at("fill.size");
+  if (method == FillMethod::kNone) return bounded.without_needless(manifold_part(mesh).mesh);
+  const double size = values.at("fill.size");
   const bool smooth = method == FillMethod::kSmooth;
   TriangleMesh surface =
       bounded.without_needless(manifold_part(smooth ? fill_holes_smoothly(mesh, size) : mesh).mesh);
-  if (method == FillMethod::kNone) return surface;
   return bounded.without_needless(close_holes(std::move(surface), size).mesh);
 }
 

@@ -3,7 +3,7 @@ writes the section "Search" of docs/benchmarks.md, its plot and docs/benchmarks_
 
 Every run is kept in build/bench/search/, so that a measurement can be interrupted and continued;
 --fresh begins anew, --only functions or --only scans measures one part, --only-write writes from
-what is there. The functions take about three hours of one core, the scans two.
+what is there. The functions take about three hours of one core, the scans five.
 """
 
 import argparse
