@@ -5,11 +5,11 @@
 #include "host/app/commands.h"
 #include "host/app/decimation_progress.h"
 #include "host/app/interrupt.h"
-#include "host/app/result_files.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/sha256.h"
 #include "host/geometry/tolerance.h"
+#include "host/optimize/error_constraint.h"
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
 #include "sw_model/error.h"
@@ -31,13 +31,13 @@ class DecimateCommand {
         share_(parse_share(options.excluded_share)),
         tolerance_(parse_tolerance(options.max_error)) {
     std::optional<Tolerance> back;
-    if (!options.back_error.empty()) back = parse_tolerance(options.back_error);
+    if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
     check_output(options.output, mesh_endings());
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
+    check_distinct({options.output, certificate_path(options.output),
+                    reference_path(options.output), options.json},
+                   {options.mesh, options.cloud});
     given_ = read_mesh(options.mesh);
-    if (given_.triangles.empty()) {
-      throw Error(options.mesh + ": holds no triangles; `emax optimize` makes a mesh of a cloud");
-    }
     scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
                        : read_scan(options.cloud, options.skip_invalid);
     epsilon_ = checked(tolerance_, "--max-error");
@@ -97,9 +97,7 @@ class DecimateCommand {
 
  private:
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
-  std::size_t excludable() const {
-    return static_cast<std::size_t>(share_ * static_cast<double>(scan_.cloud.points.size()));
-  }
+  std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
   // Those that may be excluded, in order.
   std::vector<std::uint32_t> farthest_beyond() const {
     if (excludable() == 0) return {};
@@ -120,8 +118,9 @@ class DecimateCommand {
 
   // The reference is the mesh as it was given, but for its order.
   bool given_is_reference() const { return reference_.dropped == 0 && reference_.inserted == 0; }
-  std::filesystem::path reference_path() const {
-    return given_is_reference() ? options_.mesh : options_.output + ".reference.ply";
+  std::filesystem::path reference_file() const {
+    if (given_is_reference()) return options_.mesh;
+    return reference_path(options_.output);
   }
 
   double checked(const Tolerance& tolerance, const char* option) const {
@@ -167,16 +166,16 @@ class DecimateCommand {
                          "bounded",
                          {{kBoundedEffort, static_cast<double>(settings_.decimation.effort)},
                           {"bounded.feature_angle", settings_.decimation.feature_angle}}};
-    std::vector<ResultFile> files;
+    std::vector<OutputFile> files;
     if (options_.two_sided) {
       std::string sum;
       if (given_is_reference()) {
         sum = sha256_of_file(options_.mesh);
       } else {
-        files.push_back({reference_path(), mesh_bytes(reference_.mesh, MeshFormat::kPly)});
+        files.push_back({reference_file(), mesh_bytes(reference_.mesh, MeshFormat::kPly)});
         sum = sha256(files.back().bytes);
       }
-      certificate.reference = bound(std::move(sum));
+      certificate.reference = reference_bound_ = bound(std::move(sum));
     }
     files.push_back({options_.output, bytes});
     files.push_back({certificate_path(options_.output), to_json_text(certificate)});
@@ -186,7 +185,7 @@ class DecimateCommand {
 
   ReferenceBound bound(std::string sum) const {
     ReferenceBound reference;
-    reference.file = reference_path().filename().string();
+    reference.file = reference_file().filename().string();
     reference.sha256 = std::move(sum);
     reference.triangles = reference_.mesh.triangles.size();
     reference.epsilon_back = epsilon_back();
@@ -203,7 +202,7 @@ class DecimateCommand {
           "reference      {} triangles dropped that are degenerate, not manifold or "
           "intersect others, {} points joined{}\n",
           grouped(reference_.dropped), grouped(reference_.inserted),
-          options_.two_sided ? ": " + reference_path().string() : "");
+          options_.two_sided ? ": " + reference_file().string() : "");
     }
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(result_.mesh.triangles.size()), describe(result_.validity));
@@ -251,7 +250,7 @@ class DecimateCommand {
     report.transform = normalization_of(scan_.cloud.points);
     report.reconstruction_triangles = given_.triangles.size();
     report.device = "cpu";
-    if (options_.two_sided) report.reference = bound("");
+    report.reference = reference_bound_;
     write_atomically(options_.json, to_json_text(report));
   }
 
@@ -266,6 +265,7 @@ class DecimateCommand {
   ReferenceSurface reference_;
   CertifiedDecimation result_;
   EmaxResult kernel_ = {};  // the point is the file's
+  std::optional<ReferenceBound> reference_bound_;
   bool feasible_ = false;
 };
 

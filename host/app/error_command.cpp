@@ -34,12 +34,12 @@ constexpr const char* kStandardOutput = "-";
 
 void check_outputs(const ErrorOptions& options) {
   const std::string& json = options.common.json;
-  if (!json.empty() && json != kStandardOutput) check_output(json, kJsonEndings);
+  const bool json_file = !json.empty() && json != kStandardOutput;
+  if (json_file) check_output(json, kJsonEndings);
   if (!options.color.empty()) check_output(options.color, kColorEndings);
   if (!options.color_mesh.empty()) check_output(options.color_mesh, kColorEndings);
-  if (!options.color.empty() && options.color == options.color_mesh) {
-    throw Error(options.color + ": --color and --color-mesh name the same file; give two");
-  }
+  check_distinct({json_file ? json : "", options.color, options.color_mesh},
+                 {options.common.cloud, options.mesh, options.reference});
 }
 
 // What the mesh is measured against: a surface, or a cloud as triangles of no size.

@@ -84,7 +84,8 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
   optimize_command.add_option("--budget", optimize.budget, "evaluations (default: as configured)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
-  optimize_command.add_option("--time", optimize.seconds, "stop after this many seconds")
+  optimize_command
+      .add_option("--time", optimize.seconds, "stop the search after this many seconds")
       ->check(CLI::PositiveNumber);
   optimize_command
       .add_option("--jobs", optimize.jobs, "worker processes (default: one per processor)")
@@ -110,8 +111,8 @@ int run(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   optimize_command
       .add_option("--evaluation-memory", optimize.evaluation_memory,
-                  "give an evaluation up that needs more: bytes, or N MB, N GB (default: 7/8 of "
-                  "the memory, shared by the jobs)")
+                  "give an evaluation up that needs more: bytes, or N MB, N GB (default: 2 GB "
+                  "and 8 KB a point, at most 7/8 of the memory)")
       ->transform(CLI::AsSizeValue(false));
   optimize_command.add_option("--config", optimize.config,
                               "settings and domains; `emax config` prints the defaults");

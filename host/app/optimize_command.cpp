@@ -7,7 +7,6 @@
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/progress.h"
-#include "host/app/result_files.h"
 #include "host/app/run_identity.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
@@ -52,9 +51,8 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
   return settings;
 }
 
-EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t points,
-                                   unsigned jobs) {
-  EvaluationLimits limits = standard_limits(points, jobs);
+EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t points) {
+  EvaluationLimits limits = standard_limits(points);
   if (options.evaluation_seconds) {
     limits.time = std::chrono::ceil<std::chrono::milliseconds>(
         std::chrono::duration<double>(*options.evaluation_seconds));
@@ -93,12 +91,15 @@ class OptimizeCommand {
     }
     check_output(options.output, mesh_endings());
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
+    check_distinct({options.output, certificate_path(options.output),
+                    reference_path(options.output), options.common.json},
+                   {options.common.cloud, options.config});
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
     cloud_sha256_ = sha256_of_file(scan_.path);
     epsilon_ = tolerance.in_units(scan_.width);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
-    settings_.limits = evaluation_limits(options, scan_.cloud.points.size(), settings_.jobs);
+    settings_.limits = evaluation_limits(options, scan_.cloud.points.size());
     log_.emplace(options.resume.empty() ? options.output + ".run" : options.resume,
                  run_settings(options, settings_, cloud_sha256_, epsilon_));
     settings_.log = &*log_;
@@ -217,9 +218,9 @@ class OptimizeCommand {
     certificate.chain = best.chain;
     certificate.seed = settings_.seed;
     certificate.evaluations = state_.evaluations;
-    std::vector<ResultFile> files;
+    std::vector<OutputFile> files;
     if (settings_.epsilon_back) {
-      files.push_back({options_.output + ".reference.ply",
+      files.push_back({reference_path(options_.output),
                        mesh_bytes(settings_.bound.reference, MeshFormat::kPly)});
       certificate.reference = certified_reference(best, files.back());
     }
@@ -238,7 +239,7 @@ class OptimizeCommand {
     reference_ = certificate.reference;
   }
 
-  ReferenceBound certified_reference(const BestMesh& best, const ResultFile& file) const {
+  ReferenceBound certified_reference(const BestMesh& best, const OutputFile& file) const {
     const SurfaceDistance back = decided_distance(
         best.mesh.view(), ExactMesh(settings_.bound.reference.view()), *settings_.epsilon_back);
     if (!back.within(*settings_.epsilon_back)) {
@@ -291,8 +292,11 @@ class OptimizeCommand {
                : state_.stagnated      ? "; no better mesh for long"
                                        : "");
     if (state_.polished) {
-      fmt::print("polished       {} triangles before the best mesh was decimated deep\n",
-                 grouped(*state_.polished));
+      fmt::print(
+          "polished       {}\n",
+          shown.triangles < *state_.polished
+              ? grouped(*state_.polished) + " triangles before the best mesh was decimated deep"
+              : "the best mesh decimated deep has no fewer triangles");
     }
     print_shares(seconds);
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));

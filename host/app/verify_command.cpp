@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
@@ -38,6 +38,11 @@ std::vector<std::uint32_t> in_cloud(std::span<const std::uint32_t> in_file,
   return indices;
 }
 
+// Another build may round the last bit otherwise.
+bool agree(double claimed, double found) {
+  return std::abs(claimed - found) <= 1e-12 * std::abs(found);
+}
+
 class Verification {
  public:
   explicit Verification(const VerifyOptions& options)
@@ -72,15 +77,23 @@ class Verification {
                         mesh.triangles.size(), mesh.vertices.size(), certificate_.triangles,
                         certificate_.vertices));
     const auto excluded = in_cloud(certificate_.error.excluded, scan.cloud);
-    if (std::ranges::any_of(excluded,
-                            [&](std::uint32_t i) { return i >= scan.cloud.points.size(); })) {
-      require(false, "it excludes a point that the cloud does not have");
-      return report();
-    }
+    std::vector<std::uint32_t> sorted = excluded;
+    std::ranges::sort(sorted);
+    require(sorted.empty() || sorted.back() < scan.cloud.points.size(),
+            "it excludes a point that the cloud does not have");
+    require(std::ranges::adjacent_find(sorted) == sorted.end(), "it excludes a point twice");
+    require(sorted.size() < scan.cloud.points.size(), "it excludes every point");
+    if (!reasons_.empty()) return report();
     check_error(mesh, scan, excluded);
     check_kernel(mesh, scan, excluded);
     if (certificate_.reference) check_reference(mesh, scan, excluded);
-    require(check_mesh(mesh.view()) == certificate_.validity, "the mesh's validity differs");
+    const MeshValidity validity = check_mesh(mesh.view());
+    require(validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
+            "the mesh's validity differs");
+    const Normalization transform = normalization_of(scan.cloud.points);
+    require(transform.origin == certificate_.transform.origin &&
+                transform.scale == certificate_.transform.scale,
+            "its transform is not that of the cloud");
     return report();
   }
 
@@ -102,6 +115,16 @@ class Verification {
                         error.e_max_upper));
     require(claimed.points == error.points,
             fmt::format("it counts {} points, but {} are kept", claimed.points, error.points));
+    for (std::size_t i = 0; i < excluded.size(); ++i) {
+      require(agree(claimed.excluded_distances[i], error.excluded_distances[i]),
+              fmt::format("it claims {:.9g} for the distance of the excluded point {}, which is "
+                          "{:.9g}",
+                          claimed.excluded_distances[i], claimed.excluded[i],
+                          error.excluded_distances[i]));
+    }
+    require(agree(claimed.e_max_upper_all, error.e_max_upper_all),
+            fmt::format("it claims e_max {:.9g} over all points, but it is {:.9g}",
+                        claimed.e_max_upper_all, error.e_max_upper_all));
     e_max_ = error.e_max_upper;
   }
 
@@ -119,6 +142,9 @@ class Verification {
                        std::span<const std::uint32_t> excluded) {
     const ReferenceBound& claimed = *certificate_.reference;
     const TriangleMesh reference = read_mesh(reference_path_);
+    require(reference.triangles.size() == claimed.triangles,
+            fmt::format("the reference has {} triangles, not {}", reference.triangles.size(),
+                        claimed.triangles));
     const auto check = [&](const char* what, MeshView from, const TriangleMesh& to, double claim,
                            double limit) {
       require(claim >= 0 && claim <= limit,
@@ -145,10 +171,15 @@ class Verification {
 
   bool report() const {
     if (reasons_.empty()) {
+      const CertifiedError& error = certificate_.error;
       fmt::print("yes: every {}point of {} lies within {:.9g} of {} (e_max {:.9g}, {} triangles)\n",
-                 certificate_.error.excluded.empty() ? "" : "kept ", cloud_path_.string(),
-                 certificate_.epsilon, mesh_path_.string(), e_max_,
-                 grouped(certificate_.triangles));
+                 error.excluded.empty() ? "" : "kept ", cloud_path_.string(), certificate_.epsilon,
+                 mesh_path_.string(), e_max_, grouped(certificate_.triangles));
+      if (!error.excluded.empty()) {
+        fmt::print("     {} of its {} points are excluded, the farthest at {:.9g}\n",
+                   grouped(error.excluded.size()), grouped(error.points + error.excluded.size()),
+                   std::ranges::max(error.excluded_distances));
+      }
       if (certificate_.reference) {
         fmt::print("yes: all of it lies within {:.9g} of {} (at most {:.9g}){}\n",
                    certificate_.reference->epsilon_back, reference_path_.string(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "host/decimate/back_bound.h"
 #include "host/decimate/far_points.h"
@@ -86,8 +87,15 @@ class Attempts {
       reduction = std::max(kFirstReduction, kGrowth * reduction);
       if (reduction > 0.5) break;
     }
+    // An interrupted decimator has not said what it leaves out.
+    for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
+      if (exact_reference_.distance(cloud_[p]).upper > epsilon_) left_out_.push_back(p);
+    }
     if (!holds(reference_)) {
-      throw Error("the mesh cannot be kept as this format rounds it; write .ply, .obj or .off");
+      if (rounding > 0) {
+        throw Error("the mesh cannot be kept as this format rounds it; write .ply, .obj or .off");
+      }
+      throw std::logic_error("the reference is not within the bounds of itself");
     }
     return std::move(result_);
   }

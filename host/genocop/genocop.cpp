@@ -234,7 +234,8 @@ void Genocop::enter_search(Individual individual, RandomStream& random) {
   }
 }
 
-// A repaired point competes with the reference it was repaired towards, any other with the worst.
+// A repaired point competes with the reference it was repaired towards, any other with the worst;
+// so does one that loses, where feasible points are shared.
 void Genocop::enter_references(Individual individual, std::optional<std::uint64_t> replaced) {
   const auto better = [&](const Individual& member) {
     return individual.evaluation.objective < member.evaluation.objective;
@@ -246,7 +247,7 @@ void Genocop::enter_references(Individual individual, std::optional<std::uint64_
       member = std::move(individual);
       return;
     }
-    if (same_line) return;
+    if (same_line || !settings_.share_feasible) return;
   }
   if (references_.size() < settings_.reference_population) {
     references_.push_back(std::move(individual));

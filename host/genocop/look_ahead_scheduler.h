@@ -20,9 +20,6 @@ class LookAheadScheduler {
   std::optional<Candidate> next();
   // Throws std::logic_error for an index that is not out.
   void complete(std::uint64_t index, const Evaluation& evaluation);
-  // No further candidate is handed out; results still out are awaited (report a killed one as
-  // failed).
-  void stop() { budget_ = search_.asked(); }
 
   bool finished() const { return search_.asked() == budget_ && search_.told() == budget_; }
 

@@ -66,17 +66,19 @@ Candidate Genocop::ask() {
   }
   RandomStream random(seed_, index, RandomStream::Purpose::kAsk);
   Proposal proposal = propose(random);
-  const Genes key = cache_key(proposal.free);
-  const auto [entry, fresh] = first_.try_emplace(key, index);
   Candidate candidate{index, domain_.complete(proposal.free), proposal.origin, {}, {}};
-  if (!fresh) {
-    candidate.same_as = entry->second;
-  } else if (const auto before = known_.find(key); before != known_.end()) {
-    candidate.known = before->second;
+  if (settings_.cache) {
+    const Genes key = cache_key(proposal.free);
+    const auto [entry, fresh] = first_.try_emplace(key, index);
+    if (!fresh) {
+      candidate.same_as = entry->second;
+    } else if (const auto before = known_.find(key); before != known_.end()) {
+      candidate.known = before->second;
+    }
   }
   if (monotone_) monotone_->asked(proposal.free);
   if (proposal.role == Role::kFinish) finish_->asked(proposal.free);
-  records_.push_back({std::move(proposal.free), proposal.role, !fresh || candidate.known,
+  records_.push_back({std::move(proposal.free), proposal.role, candidate.same_as || candidate.known,
                       std::move(proposal.chain), proposal.bred, std::nullopt});
   return candidate;
 }
@@ -98,6 +100,7 @@ Genes Genocop::cache_key(const Genes& free) const {
 }
 
 bool Genocop::is_new(const Genes& free) const {
+  if (!settings_.cache) return true;
   const Genes key = cache_key(free);
   return !first_.contains(key) && !known_.contains(key);
 }

@@ -4,7 +4,7 @@ namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
   using S = Settings;
-  static const std::array<SettingInfo, 29> infos = {{
+  static const std::array<SettingInfo, 30> infos = {{
       {"budget", &S::budget, 1, 1e9, "evaluations, every trial charged"},
       {"look_ahead", &S::look_ahead, 1, 1e6,
        "candidate i knows the results up to i - look_ahead; at least the number of workers, less "
@@ -20,8 +20,8 @@ std::span<const SettingInfo> setting_infos() {
        "offspring take a search point's place only if they are better; without, always, but for "
        "the best"},
       {"share_feasible", &S::share_feasible, 0, 0,
-       "feasible offspring of search points become references; without, only while these are too "
-       "few"},
+       "feasible offspring of search points become references, and repaired points that do not "
+       "beat their own; without, the former only while references are too few"},
       {"repair", &S::repair, 0, 0,
        "trials between an infeasible point and a reference: \"random\", \"deterministic\" (1/2, "
        "1/4, ...) or \"value-aware\" (regula falsi on the violation)"},
@@ -58,6 +58,7 @@ std::span<const SettingInfo> setting_infos() {
        "share of the offspring that is divided among the operators whatever their success"},
       {"sobol_starts", &S::sobol_starts, 0, 0,
        "first points from Sobol's sequence; without, a Latin hypercube"},
+      {"cache", &S::cache, 0, 0, "points that were evaluated are not asked for again"},
       {"cache_resolution", &S::cache_resolution, 0, 0.5,
        "genes that differ by less than this share of their domain count as equal"},
   }};
@@ -80,7 +81,7 @@ Settings Settings::original() {
   }
   settings.monotone_step = settings.linear_model = settings.finish = false;
   settings.adaptive_frequencies = settings.sobol_starts = false;
-  settings.cache_resolution = 0;
+  settings.cache = false;
   return settings;
 }
 

@@ -19,8 +19,8 @@ enum class RepairMethod {
 
 // Everything the search depends on besides problem and seed. The strategies that are not in
 // Genocop III are monotone_step, linear_model, finish, adaptive_frequencies, sobol_starts,
-// first_phase, replace_worse_only with share_feasible, and the value-aware repair; each is switched
-// by its own setting.
+// first_phase, cache, replace_worse_only with share_feasible, and the value-aware repair; each is
+// switched by its own setting.
 struct Settings {
   std::size_t budget = 150;     // T of the operators whose steps shrink
   std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
@@ -30,7 +30,7 @@ struct Settings {
   double selection_pressure = 0.1;  // q of the ranking selection, in (0, 1)
   double reference_share = 0.5;     // of the offspring have reference points as parents
   bool replace_worse_only = true;   // offspring take a search point's place only if better
-  bool share_feasible = true;       // feasible offspring of search points become references
+  bool share_feasible = true;       // feasible points become references wherever they come from
 
   RepairMethod repair = RepairMethod::kValueAware;
   std::size_t max_repair_tries = 3;       // evaluations spent on one search point; 0: no repair
@@ -56,6 +56,7 @@ struct Settings {
   bool adaptive_frequencies = true;  // of the operators
   double frequency_floor = 0.3;      // share of the offspring that success does not move
   bool sobol_starts = true;          // else a Latin hypercube
+  bool cache = true;                 // points that were evaluated are not asked for again
   double cache_resolution = 1e-13;   // genes closer than this share of their domain are equal
 
   bool operator==(const Settings&) const = default;

@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <deque>
+#include <map>
 #include <utility>
 
 #include "host/geometry/input_file.h"
@@ -42,7 +44,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) close(descriptor_);
-  if (!committed_) unlink(temporary_.c_str());
+  if (!published_) unlink(temporary_.c_str());
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -54,12 +56,15 @@ void AtomicFile::write(std::string_view bytes) {
   }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::finish() {
   if (fsync(descriptor_) != 0) fail(errno);
   const int closing = std::exchange(descriptor_, -1);
   if (close(closing) != 0) fail(errno);
+}
+
+void AtomicFile::publish() {
   if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  committed_ = true;
+  published_ = true;
   // The new name is made durable too; file systems that cannot do so are not a failure.
   const int folder = open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {
@@ -82,7 +87,15 @@ void write_atomically(const fs::path& path, std::string_view bytes) {
 void write_atomically(const fs::path& path, const std::function<void(AtomicFile&)>& fill) {
   AtomicFile file(path);
   fill(file);
-  file.commit();
+  file.finish();
+  file.publish();
+}
+
+void write_together(std::span<const OutputFile> files) {
+  std::deque<AtomicFile> written;
+  for (const OutputFile& file : files) written.emplace_back(file.path).write(file.bytes);
+  for (AtomicFile& file : written) file.finish();
+  for (AtomicFile& file : written) file.publish();
 }
 
 void check_output(const fs::path& path, std::span<const std::string_view> endings) {
@@ -103,6 +116,20 @@ void check_output(const fs::path& path, std::span<const std::string_view> ending
     fail(fmt::format("the folder {} does not exist", folder_of(path).string()), "create it first");
   }
   AtomicFile probe(path);
+}
+
+void check_distinct(std::initializer_list<fs::path> outputs,
+                    std::initializer_list<fs::path> inputs) {
+  std::map<fs::path, std::string_view> taken;  // links followed, as writing does
+  for (const fs::path& path : inputs) {
+    if (!path.empty()) taken.emplace(fs::weakly_canonical(path), "read and replaced");
+  }
+  for (const fs::path& path : outputs) {
+    if (path.empty()) continue;
+    const auto [file, free] = taken.emplace(fs::weakly_canonical(path), "written twice");
+    if (free) continue;
+    throw Error(fmt::format("{}: would be {}; name another output", path.string(), file->second));
+  }
 }
 
 }  // namespace emax

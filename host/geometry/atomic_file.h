@@ -2,15 +2,17 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace emax {
 
 // A file that appears whole under its name or not at all. It is written under a temporary name in
-// the same folder; commit() makes it durable and renames it, and the destructor removes what was
-// not committed. A program that is to leave nothing behind when interrupted therefore unwinds, or
-// unlinks temporary() itself.
+// the same folder; finish() makes it durable, publish() renames it, and the destructor removes what
+// was not published. A program that is to leave nothing behind when interrupted therefore unwinds,
+// or unlinks temporary() itself.
 class AtomicFile {
  public:
   // Throws Error when nothing can be created beside `path`. A symbolic link is followed.
@@ -21,7 +23,8 @@ class AtomicFile {
 
   // Throw Error, e.g. when the disk is full.
   void write(std::string_view bytes);
-  void commit();
+  void finish();
+  void publish();  // what is finished
 
   const std::filesystem::path& temporary() const { return temporary_; }
 
@@ -32,7 +35,7 @@ class AtomicFile {
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   int descriptor_ = -1;
-  bool committed_ = false;
+  bool published_ = false;
 };
 
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
@@ -40,8 +43,20 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(AtomicFile&)>& fill);
 
+struct OutputFile {
+  std::filesystem::path path;
+  std::string bytes;
+};
+// All of them appear, in this order, or none: nothing is renamed before everything is on the disk.
+// A kill between two renames alone leaves the first without the rest. Throws Error.
+void write_together(std::span<const OutputFile> files);
+
 // To be asked before long work: throws Error unless `path` has one of `endings` (in lower case,
 // with the dot), is no folder or device, and its folder exists and lets a file be created.
 void check_output(const std::filesystem::path& path, std::span<const std::string_view> endings);
+// And that nothing written replaces what is read or what else is written: throws Error where an
+// output is the file of an input or of another output. Empty paths stand for none.
+void check_distinct(std::initializer_list<std::filesystem::path> outputs,
+                    std::initializer_list<std::filesystem::path> inputs);
 
 }  // namespace emax

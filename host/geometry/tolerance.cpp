@@ -10,12 +10,12 @@
 
 namespace emax {
 
-Tolerance parse_tolerance(std::string_view text) {
+Tolerance parse_tolerance(std::string_view text, std::string_view option) {
   const auto fail = [&](std::string_view what) {
     throw Error(
-        fmt::format("--max-error {}: {}; give a number above 0 in the file's units (0.5) or "
-                    "in percent of the width (0.3%)",
-                    printable(text), what));
+        fmt::format("{} {}: {}; give a number above 0 in the file's units (0.5) or in percent of "
+                    "the width (0.3%)",
+                    option, printable(text), what));
   };
   const bool percent = text.ends_with('%');
   const std::string_view digits = text.substr(0, text.size() - (percent ? 1 : 0));

@@ -10,13 +10,18 @@
 #include "sw_model/error_bound.h"
 
 namespace emax {
+
+std::size_t excludable_points(double share, std::size_t points) {
+  constexpr double kRoundings = 1 + 1e-12;
+  return static_cast<std::size_t>(share * static_cast<double>(points) * kRoundings);
+}
+
 ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
                                  double excluded_share, bool brute_force)
     : cloud_(cloud),
       engine_(cloud_),
       epsilon_(epsilon),
-      excludable_(
-          static_cast<std::size_t>(std::floor(excluded_share * static_cast<double>(cloud.size())))),
+      excludable_(excludable_points(excluded_share, cloud.size())),
       brute_force_(brute_force) {}
 
 double ErrorConstraint::in_file_units(std::uint32_t squared_bits) const {

@@ -21,6 +21,9 @@ struct MeasuredError {
   bool operator==(const MeasuredError&) const = default;
 };
 
+// How many of so many points a share of them is; 0.7% of 1,000 is 7, whatever the roundings.
+std::size_t excludable_points(double share, std::size_t points);
+
 // The nonlinear constraint e_max^2 <= epsilon^2 (paper, section 3) on the kernel, for one cloud.
 // Feasible means proven: the kernel's e_max^2 is at most the largest binary32 value that implies
 // e_max <= epsilon (docs/numerics.md). With a share to exclude, that many of the farthest points

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kLeastTime = std::chrono::minutes(10);
 constexpr std::chrono::milliseconds kTimePerPoint{2};
-constexpr std::uint64_t kLeastMemory = std::uint64_t{1} << 30;
+constexpr std::uint64_t kLeastMemory = std::uint64_t{2} << 30;
+constexpr std::uint64_t kMemoryPerPoint = 8192;
 
 }  // namespace
 
@@ -22,13 +23,13 @@ std::uint64_t usable_memory(const std::filesystem::path& group_limit) {
   return std::ifstream(group_limit) >> group ? std::min(machine, group) : machine;
 }
 
-EvaluationLimits standard_limits(std::size_t points, unsigned jobs) {
+EvaluationLimits standard_limits(std::size_t points) {
   const auto time = std::max(kLeastTime, static_cast<std::int64_t>(points) * kTimePerPoint);
 #if defined(__SANITIZE_ADDRESS__)
-  return {time, 0 * jobs};  // the sanitizer reserves terabytes that it never touches
+  return {time, 0};  // the sanitizer reserves terabytes that it never touches
 #else
   const std::uint64_t memory = usable_memory();
-  return {time, std::max(kLeastMemory, (memory - memory / 8) / jobs)};
+  return {time, std::min(kLeastMemory + points * kMemoryPerPoint, memory - memory / 8)};
 #endif
 }
 

@@ -13,10 +13,10 @@ struct EvaluationLimits {
   std::uint64_t memory;  // bytes of address space; 0 for none
 };
 
-// Time: ten minutes, and 2 ms a point where that is longer; several times what the slowest methods
-// take. Memory: the workers' equal shares of 7/8 of what there is, but not less than a worker needs
-// for its libraries.
-EvaluationLimits standard_limits(std::size_t points, unsigned jobs);
+// Time: ten minutes, and 2 ms a point where that is longer. Memory: 2 GiB and 8 KiB a point, but at
+// most 7/8 of what there is. Both are several times what the slowest methods take, and neither
+// depends on the number of workers, as results do not.
+EvaluationLimits standard_limits(std::size_t points);
 
 // Bytes of memory that this process and its workers may use: the machine's, or a control group's
 // limit where that is lower (`group_limit` is the file that holds it).

@@ -167,23 +167,23 @@ class Run {
     const std::size_t before = state_.best->triangles;
     const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
     // Of another best where the run then ended elsewhere.
+    std::optional<Result> result;
     if (known != nullptr && same_bits(known->genes, deep)) {
-      enter(Result{*known, {}, {}});
-      state_.polished = before;
-      return;
+      result = Result{*known, {}, {}};
+    } else {
+      state_.polishing = true;
+      start_workers(1, kPolishTimes);
+      pool_->submit(index, chain(deep));
+      in_work_ = {{index, std::move(deep)}};
+      for (look_for_the_end(); !cut_short() && !result; look_for_the_end()) {
+        observe_(state_);
+        result = receive();
+      }
+      pool_.reset();
     }
-    state_.polishing = true;
-    start_workers(1, kPolishTimes);
-    pool_->submit(index, chain(deep));
-    in_work_ = {{index, std::move(deep)}};
-    for (look_for_the_end(); !cut_short() && !state_.polished; look_for_the_end()) {
-      observe_(state_);
-      std::optional<Result> result = receive();
-      if (!result) continue;
-      enter(std::move(*result));
-      state_.polished = before;
-    }
-    pool_.reset();
+    if (!result) return;
+    if (!result->failed()) state_.polished = before;
+    enter(std::move(*result));
   }
 
   void judge(std::variant<ChainResult, Failure> outcome, Result& result) {
@@ -253,7 +253,9 @@ class Run {
         results_.try_emplace(e->first, Result{e->second, {}, {}});
       }
     }
-    state_.evaluations = next_ + results_.size();
+    const auto polished = results_.lower_bound(settings_.config.search.budget);
+    state_.evaluations =
+        next_ + static_cast<std::uint64_t>(std::distance(results_.begin(), polished));
     for (auto& [index, result] : results_) enter(std::move(result));
   }
 
@@ -317,17 +319,21 @@ class Run {
   }
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
-    start_workers(1);
+    start_workers(1, known.index == settings_.config.search.budget ? kPolishTimes : 1);
     pool_->submit(known.index, chain(known.genes));
-    Completed completed = pool_->wait();
+    std::optional<Completed> completed;
+    while (!completed) {
+      if (settings_.interrupted()) throw Interrupted{};
+      completed = pool_->wait_for(kHeartbeat);
+    }
     pool_.reset();
-    if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
+    if (const auto* failure = std::get_if<Failure>(&completed->outcome)) {
       throw Error(settings_.log->folder().string() +
                   ": the mesh of the best evaluation is lost: " + failure->message +
                   "; repeat the command, with more --evaluation-time or "
                   "--evaluation-memory if that is what it lacks");
     }
-    return as_stored(std::get<ChainResult>(completed.outcome).mesh, mesh_format(settings_.output));
+    return as_stored(std::get<ChainResult>(completed->outcome).mesh, mesh_format(settings_.output));
   }
 
   std::span<const Point> cloud_;
@@ -353,7 +359,7 @@ class Run {
 }  // namespace
 
 WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings) {
-  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points, settings.jobs));
+  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points));
   WorkerPoolOptions options;
   options.jobs = settings.jobs;
   options.time_limit = limits.time;

@@ -40,7 +40,7 @@ struct OptimizeSettings {
   std::optional<std::uint64_t> target_triangles;  // a feasible mesh of at most so many
   std::optional<std::uint64_t> stagnation;        // so many evaluations without a better mesh
   // The best mesh of the bounded decimator is decimated once more in the end, deep, unless the run
-  // was cut short or has reached its target.
+  // was cut short, is out of time or has reached its target.
   bool polish = true;
   std::filesystem::path output;  // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
@@ -71,7 +71,7 @@ struct OptimizeState {
   std::optional<BestMesh> least_error;  // the least violation of the meshes before that
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   bool polishing = false;               // has begun to
-  std::optional<std::size_t> polished;  // has; the triangles before that
+  std::optional<std::size_t> polished;  // has, without a failure; the triangles before that
   std::string device_failure;           // that ended the run
   // What evaluations that were made took: their stages in the workers, e_max here.
   StageSeconds stages;

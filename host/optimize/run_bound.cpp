@@ -27,8 +27,11 @@ TriangleMesh standard_surface(std::span<const Point> cloud, double epsilon,
     completed = pool.wait_for(kHeartbeat);
   }
   if (const auto* failure = std::get_if<Failure>(&completed->outcome)) {
+    const bool limited = failure->reason == FailureReason::kTimedOut ||
+                         failure->reason == FailureReason::kOutOfMemory;
     throw Error("no reference surface could be made of the cloud: " + failure->message +
-                "; take another --method, or --bound one-sided");
+                (limited ? "; allow more with --evaluation-time or --evaluation-memory"
+                         : "; take another --method, or --bound one-sided"));
   }
   return std::move(std::get<ChainResult>(completed->outcome).mesh);
 }

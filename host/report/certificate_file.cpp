@@ -66,6 +66,8 @@ Certificate parse(const Json& json) {
   json.at("e_max_all").get_to(c.error.e_max_upper_all);
   c.kernel.squared_bits = parse_bits(json.at("e_max_squared_bits").get<std::string>());
   c.validity = validity_from_json(json.at("validity"));
+  json.at("valid").get_to(c.claims_valid);
+  c.transform = normalization_from_json(json.at("transform"));
   return c;
 }
 
@@ -73,6 +75,10 @@ Certificate parse(const Json& json) {
 
 std::filesystem::path certificate_path(const std::filesystem::path& mesh) {
   return mesh.string() + ".certificate.json";
+}
+
+std::filesystem::path reference_path(const std::filesystem::path& mesh) {
+  return mesh.string() + ".reference.ply";
 }
 
 Json to_json(const ReferenceBound& r) {

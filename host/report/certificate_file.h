@@ -35,6 +35,7 @@ struct Certificate {
   EmaxResult kernel = {};         // over the kept points; the index is the file's
   std::size_t vertices = 0, triangles = 0;
   MeshValidity validity;
+  bool claims_valid = false;  // of a certificate that was read; what is written follows validity
   std::optional<ReferenceBound> reference;  // of a two-sided bound
   Normalization transform;
   // How it was found.
@@ -42,8 +43,9 @@ struct Certificate {
   std::uint64_t seed = 0, evaluations = 0;
 };
 
-// "<mesh>.certificate.json", beside the mesh.
+// "<mesh>.certificate.json" and "<mesh>.reference.ply", beside the mesh.
 std::filesystem::path certificate_path(const std::filesystem::path& mesh);
+std::filesystem::path reference_path(const std::filesystem::path& mesh);
 
 std::string to_json_text(const Certificate& certificate);
 

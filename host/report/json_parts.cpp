@@ -26,6 +26,15 @@ Json to_json(const Normalization& transform) {
   return {{"origin", {o.x(), o.y(), o.z()}}, {"scale", transform.scale}};
 }
 
+Normalization normalization_from_json(const Json& json) {
+  Normalization transform;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    json.at("origin").at(static_cast<std::size_t>(i)).get_to(transform.origin[i]);
+  }
+  json.at("scale").get_to(transform.scale);
+  return transform;
+}
+
 Json to_json(const MeshValidity& validity) {
   Json json;
   for (const auto& [key, member] : kValidityCounts) json[key] = validity.*member;

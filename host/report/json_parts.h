@@ -19,6 +19,7 @@ inline constexpr const char* kTwoSidedBound = "two-sided";  // also the mesh, of
 
 std::string bits_text(std::uint32_t bits);  // "0x%08x"
 Json to_json(const Normalization& transform);
+Normalization normalization_from_json(const Json& json);
 Json to_json(const MeshValidity& validity);
 MeshValidity validity_from_json(const Json& json);
 Json to_json(const DeviceCounters& counters);

@@ -24,8 +24,6 @@ static_assert(std::endian::native == std::endian::little, "records are little-en
 constexpr std::array<std::uint8_t, RecordFile::kHeaderBytes> kHeader = {'e', 'm', 'a', 'x',
                                                                         'r', 'u', 'n', '1'};
 
-constexpr std::chrono::seconds kFlushInterval{1};
-
 std::uint32_t number_at(std::span<const std::uint8_t> bytes) {
   std::uint32_t number = 0;
   std::memcpy(&number, bytes.data(), sizeof number);
@@ -100,10 +98,7 @@ RecordFile::RecordFile(const std::filesystem::path& path) : path_(path) {
   } while (!is_same_file(descriptor_, path));
 }
 
-RecordFile::~RecordFile() {
-  flush();
-  close(descriptor_);
-}
+RecordFile::~RecordFile() { close(descriptor_); }
 
 RecordFile::Loss RecordFile::read(const std::function<void(std::span<const std::uint8_t>)>& take) {
   std::vector<std::uint8_t> bytes;
@@ -154,22 +149,17 @@ void RecordFile::write_at_end(std::span<const std::uint8_t> bytes) {
       error = errno;
     }
   }
+  // A file system that cannot flush is no failure, one that lost what was written is.
+  if (error == 0 && fdatasync(descriptor_) != 0 &&
+      (errno == EIO || errno == ENOSPC || errno == EDQUOT)) {
+    error = errno;
+  }
   if (error != 0) {
     // What cannot be cut now is cut as a torn tail when the file is read.
     [[maybe_unused]] const int ignored = ftruncate(descriptor_, static_cast<off_t>(size_));
     fail(error);
   }
   size_ += bytes.size();
-  flushed_ = false;
-  if (std::chrono::steady_clock::now() - last_flush_ >= kFlushInterval) flush();
-}
-
-// Best effort: what a disk reports late concerns records that a kill leaves intact.
-void RecordFile::flush() {
-  if (flushed_) return;
-  fdatasync(descriptor_);
-  flushed_ = true;
-  last_flush_ = std::chrono::steady_clock::now();
 }
 
 void RecordFile::cut_to(std::size_t size) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -36,9 +35,9 @@ class RecordFile {
   // this is another kind of file.
   Loss read(const std::function<void(std::span<const std::uint8_t>)>& take);
 
-  // No kill can lose the record once this returns, and no power cut a second later. Throws Error
-  // when it cannot be written, a full disk for one; the file then ends as before. At most
-  // kMaximumContent bytes.
+  // Neither a kill nor a power cut can lose the record once this returns. Throws Error when it
+  // cannot be written, a full disk for one; the file then ends as before. At most kMaximumContent
+  // bytes.
   void append(std::span<const std::uint8_t> content);
 
   // All records go; the lock stays.
@@ -49,14 +48,11 @@ class RecordFile {
  private:
   [[noreturn]] void fail(int error) const;
   void write_at_end(std::span<const std::uint8_t> bytes);
-  void flush();
   void cut_to(std::size_t size);
 
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::size_t size_ = 0;
-  bool flushed_ = true;
-  std::chrono::steady_clock::time_point last_flush_;
 };
 
 // The whole records of a file's bytes after its header, and what is lost between and behind them.

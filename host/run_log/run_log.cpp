@@ -111,9 +111,13 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
 RunLog::RunLog(fs::path folder, const RunSettings& settings) : folder_(std::move(folder)) {
   create_folder();
   log_.emplace(folder_ / kLogName);
-  read_evaluations();
-  if (!evaluations_.empty()) {
-    compare(settings);
+  std::vector<std::vector<std::uint8_t>> records;
+  loss_ = log_->read([&records](std::span<const std::uint8_t> content) {
+    records.emplace_back(content.begin(), content.end());
+  });
+  if (!records.empty()) {
+    compare(settings);  // first: another version may have written other records
+    enter(records);
   } else {
     // Settings first: a log that holds anything always has them beside it.
     ordered_json json;
@@ -144,12 +148,17 @@ void RunLog::create_folder() {
   }
 }
 
-void RunLog::read_evaluations() {
-  loss_ = log_->read([this](std::span<const std::uint8_t> content) {
-    LoggedEvaluation evaluation = decode_evaluation(content);
-    const std::uint64_t index = evaluation.index;
-    evaluations_.insert_or_assign(index, std::move(evaluation));  // the last word counts
-  });
+void RunLog::enter(std::span<const std::vector<std::uint8_t>> records) {
+  for (const std::vector<std::uint8_t>& content : records) {
+    try {
+      LoggedEvaluation evaluation = decode_evaluation(content);
+      const std::uint64_t index = evaluation.index;
+      evaluations_.insert_or_assign(index, std::move(evaluation));  // the last word counts
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}: holds a record that is {}; name another folder",
+                              log_->path().string(), error.what()));
+    }
+  }
 }
 
 void RunLog::compare(const RunSettings& settings) const {

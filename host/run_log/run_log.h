@@ -74,7 +74,7 @@ class RunLog {
  private:
   std::filesystem::path mesh_path(std::uint64_t index) const;
   void create_folder();
-  void read_evaluations();
+  void enter(std::span<const std::vector<std::uint8_t>> records);
   void compare(const RunSettings& settings) const;
   [[noreturn]] void differs(const std::string& name, const std::string& then,
                             const std::string& now) const;

@@ -1,6 +1,7 @@
 #include "host/worker/message.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <type_traits>
@@ -108,10 +109,37 @@ Message mesh_from_json(const json& j) {
   m.result.reconstruction_triangles = j.at("reconstruction_triangles");
   m.result.unmeshed_points = j.at("unmeshed_points");
   m.result.back_distance = j.at("back_distance");
+  if (!(m.result.back_distance >= 0) || std::isinf(m.result.back_distance)) {
+    throw Error("a distance is negative or not finite");
+  }
   const json& seconds = j.at("seconds");
   m.result.seconds = {seconds.at(0), seconds.at(1), seconds.at(2), seconds.at(3)};
   return m;
 }
+
+// The parser calls itself for everything that is nested, so rubbish could exhaust the stack.
+class ShallowOnly : public nlohmann::json_sax<json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return ++depth_ <= kDeepest; }
+  bool key(string_t&) override { return true; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool start_array(std::size_t) override { return ++depth_ <= kDeepest; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;
+  }
+
+ private:
+  static constexpr int kDeepest = 2;  // the message itself and its parameters
+  int depth_ = 0;
+};
 
 Message from_json(const json& j) {
   const std::string kind = j.at("kind");
@@ -166,6 +194,10 @@ std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes
 }
 
 Message decode(std::span<const std::uint8_t> body) {
+  ShallowOnly shallow;
+  if (!json::sax_parse(body.begin(), body.end(), &shallow, json::input_format_t::cbor)) {
+    throw Error("not a message: broken, or nested too deeply");
+  }
   try {
     return from_json(json::from_cbor(body.begin(), body.end()));
   } catch (const json::exception& e) {

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "host/worker/message.h"
@@ -51,6 +53,25 @@ void run_test_method(const ChainSettings& settings, int channel) {
     write_raw(channel, encode(MeshMessage{~std::uint64_t{0}, {}}));
     hang();
   }
+  if (method == "test.trickle") {
+    write_raw(channel, {100, 0, 0, 0, 0, 0, 0, 0});
+    while (true) {
+      usleep(200'000);
+      write_raw(channel, {0});
+    }
+  }
+  if (method == "test.flood") {
+    while (true) write_raw(channel, Bytes(1 << 16, 0xee));
+  }
+  if (method == "test.nested") {
+    Bytes message(8 + 200'000, 0x81);
+    const std::uint64_t length = message.size() - 8;
+    std::memcpy(message.data(), &length, 8);
+    write_raw(channel, message);
+    hang();
+  }
+  static int runs = 0;
+  if (++runs > 1 && method == "test.full") throw std::bad_alloc();
   if (method == "test.print") {
     std::puts("a library prints this");
     std::fflush(stdout);

@@ -42,8 +42,7 @@ void limit(int resource, std::uint64_t bytes) {
   setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
-void send(const Message& message) {
-  const Bytes bytes = encode(message);
+void send(const Bytes& bytes) {
   for (std::size_t sent = 0; sent < bytes.size();) {
     const ssize_t n = write(kChannelFd, bytes.data() + sent, bytes.size() - sent);
     if (n < 0 && errno == EINTR) continue;
@@ -85,24 +84,29 @@ PointsMessage read_points() {
   return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes)));
 }
 
-Message evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
+// The answer's bytes, which take memory too.
+Bytes evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
   try {
     if (allow_test_methods) run_test_method(run.settings, kChannelFd);
-    return MeshMessage{run.ticket, chain.run(run.settings)};
+    return encode(MeshMessage{run.ticket, chain.run(run.settings)});
   } catch (const std::bad_alloc&) {
-    return FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}};
+    return encode(FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}});
   } catch (const std::exception& e) {
-    return FailureMessage{run.ticket, {FailureReason::kError, e.what()}};
+    return encode(FailureMessage{run.ticket, {FailureReason::kError, e.what()}});
   }
+}
+
+Chain make_chain() {
+  PointsMessage given = read_points();
+  return Chain(std::move(given.points), std::move(given.bound));
 }
 
 void serve(bool allow_test_methods) {
   verify_arithmetic();
-  PointsMessage given = read_points();
-  Chain chain(std::move(given.points), std::move(given.bound));
-  send(ReadyMessage{});
+  Chain chain = make_chain();
+  send(encode(ReadyMessage{}));
   for (bool first = true;; first = false) {
-    const Message answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
+    const Bytes answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
     // A library may have changed the rounding or flush mode when it was first used.
     if (first) verify_arithmetic();
     send(answer);
@@ -125,8 +129,10 @@ int run(std::span<char*> arguments) {
   leave_on_hangup();
   try {
     serve(arguments.size() > 2 && arguments[2] == std::string_view("--allow-test-methods"));
+  } catch (const std::bad_alloc&) {
+    send(encode(UnusableMessage{"the cloud alone needs more memory; raise the memory limit"}));
   } catch (const std::exception& e) {
-    send(UnusableMessage{e.what()});
+    send(encode(UnusableMessage{e.what()}));
   }
   leave(1);
 }

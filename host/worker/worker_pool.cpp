@@ -20,12 +20,14 @@ using Clock = std::chrono::steady_clock;
 
 // An answer that is arriving is let in although its time is over: the program may have been away
 // for long, and the worker waited for it to read.
-constexpr std::chrono::seconds kArrivalGrace{2};
+constexpr std::chrono::seconds kArrivalGrace{2};  // from the first bytes on
 
 struct Worker {
   std::unique_ptr<WorkerProcess> process;
   bool ready = false;
+  bool fresh = true;              // has answered nothing yet
   std::optional<RunMessage> run;  // what it works on
+  bool answering = false;         // bytes of the answer have arrived
   std::set<StageKey> made;        // reconstructions that it may have kept
   bool spent = false;             // it may reconstruct no more: the last one is all that it has
   Clock::time_point deadline;
@@ -48,7 +50,7 @@ class WorkerPool::Implementation {
   Implementation(std::span<const Point> points, const DecimationBound& bound,
                  const WorkerPoolOptions& options)
       : time_limit_(options.time_limit),
-        command_{options.program, options.memory_limit, options.log, options.allow_test_methods},
+        command_{options.program, options.memory_limit, options.allow_test_methods},
         points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}, bound}))),
         workers_(std::max(1u, options.jobs)) {
     if (command_.program.empty()) {
@@ -86,6 +88,7 @@ class WorkerPool::Implementation {
   void replace(Worker& worker) {
     worker.process.reset();  // first, so that never more than `jobs` run
     worker.ready = false;
+    worker.fresh = true;
     worker.run.reset();
     worker.made.clear();
     worker.spent = false;
@@ -98,16 +101,22 @@ class WorkerPool::Implementation {
       if (worker.run) continue;
       auto next = best_for(worker);
       if (worker.spent && !worker.made.contains(reconstruction_of(*next))) replace(worker);
-      const Bytes message = encode(*next);
-      if (!worker.process->send(message)) {
-        if (!worker.ready) throw not_ready(worker);
-        replace(worker);  // it died while it was idle; a fresh one takes a message always
-        if (!worker.process->send(message)) throw not_ready(worker);
-      }
-      worker.run = std::move(*next);
+      RunMessage run = std::move(*next);
       queue_.erase(next);
-      worker.deadline = Clock::now() + time_limit_;
+      give(worker, std::move(run));
     }
+  }
+
+  void give(Worker& worker, RunMessage run) {
+    const Bytes message = encode(run);
+    if (!worker.process->send(message)) {
+      if (!worker.ready) throw not_ready(worker);
+      replace(worker);  // it died while it was idle; a fresh one takes a message always
+      if (!worker.process->send(message)) throw not_ready(worker);
+    }
+    worker.run = std::move(run);
+    worker.answering = false;
+    worker.deadline = Clock::now() + time_limit_;
   }
 
   // What it has made the reconstruction for, else what no other has, else the first.
@@ -164,7 +173,10 @@ class WorkerPool::Implementation {
       give_up(worker, worker.process->end());
       return;
     }
-    if (worker.run) worker.deadline = std::max(worker.deadline, Clock::now() + kArrivalGrace);
+    if (worker.run && !worker.answering) {
+      worker.answering = true;
+      worker.deadline = std::max(worker.deadline, Clock::now() + kArrivalGrace);
+    }
     std::optional<Failure> garbled;
     try {
       while (auto message = worker.process->next_message()) {
@@ -185,10 +197,11 @@ class WorkerPool::Implementation {
   // False when the worker was replaced and has nothing more to say.
   bool take(Worker& worker, Message message) {
     if (const auto* unusable = std::get_if<UnusableMessage>(&message)) {
-      throw UnusableWorker("a worker cannot be trusted: " + unusable->message);
+      throw UnusableWorker("a worker cannot work: " + unusable->message);
     }
     if (std::holds_alternative<ReadyMessage>(message) && !worker.ready) {
       worker.ready = true;
+      worker.answering = false;
       if (worker.run) worker.deadline = Clock::now() + time_limit_;
       return true;
     }
@@ -199,6 +212,7 @@ class WorkerPool::Implementation {
         worker.made.clear();
       }
       worker.made.insert(reconstruction_of(*worker.run));
+      worker.fresh = false;
       completed_.push_back({mesh->ticket, std::move(mesh->result)});
       worker.run.reset();
       return true;
@@ -207,8 +221,12 @@ class WorkerPool::Implementation {
         failure && worker.run && failure->ticket == worker.run->ticket) {
       const bool sound = failure->failure.reason == FailureReason::kError &&
                          !single_use(worker.run->settings.method);
-      fail(worker, failure->failure);
-      if (!sound) replace(worker);
+      if (!sound) {
+        give_up(worker, failure->failure);
+      } else {
+        worker.fresh = false;
+        fail(worker, failure->failure);
+      }
       return sound;
     }
     throw Error("an answer that nothing asked for");
@@ -222,14 +240,19 @@ class WorkerPool::Implementation {
   }
 
   void give_up(Worker& worker, const Failure& failure) {
+    if (failure.reason == FailureReason::kOutOfMemory && !worker.fresh && worker.run) {
+      RunMessage again = std::move(*worker.run);
+      replace(worker);
+      give(worker, std::move(again));
+      return;
+    }
     fail(worker, failure);
     replace(worker);
   }
 
   Error not_ready(Worker& worker) const {
     const std::string why = worker.process->end().message;
-    std::string remedy = command_.memory_limit != 0 ? "; raise the memory limit" : "";
-    if (!command_.log.empty()) remedy += "; see " + command_.log.string();
+    const std::string remedy = command_.memory_limit != 0 ? "; raise the memory limit" : "";
     return UnusableWorker("the worker " + command_.program.string() +
                           " ended before it was ready: " + why + remedy);
   }

@@ -18,7 +18,6 @@ struct WorkerPoolOptions {
   std::filesystem::path program;  // empty: emax_worker beside the running program
   std::chrono::milliseconds time_limit = std::chrono::minutes(10);  // for one evaluation
   std::uint64_t memory_limit = 0;   // bytes of address space for a worker; 0 for none
-  std::filesystem::path log;        // what the libraries print; empty: discarded
   bool allow_test_methods = false;  // see test_methods.h
 };
 
@@ -29,8 +28,10 @@ struct Completed {
 
 // Evaluations in worker processes that hold one cloud. A worker that crashes, hangs, outgrows its
 // memory or answers rubbish costs its evaluation, which completes as a Failure with the reason, and
-// is replaced. What an evaluation yields does not depend on the number of workers; the order in
-// which evaluations complete does. Used by one thread at a time.
+// is replaced. One that outgrows its memory where the worker has others behind it, whose stages it
+// keeps, is tried once more in a fresh one: what an evaluation yields depends neither on the number
+// of workers nor on what they did before. The order in which evaluations complete does. Used by one
+// thread at a time.
 class WorkerPool {
  public:
   // Starts the workers. Throws Error when the program cannot be started.

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kEndGrace{1000};
 constexpr std::size_t kReceiveBlock = std::size_t{1} << 18;
+constexpr int kMostBlocks = 64;  // at once, so that a worker that never ends is looked at
 
 [[noreturn]] void fail(const std::string& what, int error) {
   throw Error(what + ": " + std::strerror(error));
@@ -93,7 +94,10 @@ FileDescriptor sealed_file(std::span<const std::uint8_t> bytes) {
   return moved_up(std::move(file));
 }
 
-WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& points) {
+// A message lay in the worker's memory.
+WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& points)
+    : longest_message_(command.memory_limit != 0 ? std::min(command.memory_limit, kMaximumLength)
+                                                 : kMaximumLength) {
   std::array<int, 2> ends;
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     fail("cannot open a channel to a worker", errno);
@@ -102,10 +106,8 @@ WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& point
   const FileDescriptor far_end = moved_up(FileDescriptor(ends[1]));
 
   SpawnFiles files;
-  const std::string output = command.log.empty() ? "/dev/null" : command.log.string();
-  posix_spawn_file_actions_addopen(&files.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files.actions, STDOUT_FILENO, output.c_str(),
-                                   O_WRONLY | O_CREAT | O_APPEND, 0644);
+  posix_spawn_file_actions_addopen(&files.actions, STDIN_FILENO, "/dev/null", O_RDWR, 0);
+  posix_spawn_file_actions_adddup2(&files.actions, STDIN_FILENO, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&files.actions, STDOUT_FILENO, STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&files.actions, far_end.get(), kChannelFd);
   posix_spawn_file_actions_adddup2(&files.actions, points.get(), kPointsFd);
@@ -153,7 +155,7 @@ bool WorkerProcess::send(const Bytes& message) const {
 
 WorkerProcess::Received WorkerProcess::receive() {
   bool some = false;
-  while (true) {
+  for (int blocks = 0; blocks < kMostBlocks; ++blocks) {
     const std::size_t before = arrived_.size();
     arrived_.resize(before + kReceiveBlock);
     const ssize_t n = recv(channel_.get(), arrived_.data() + before, kReceiveBlock, MSG_DONTWAIT);
@@ -169,13 +171,14 @@ WorkerProcess::Received WorkerProcess::receive() {
     }
     return some ? Received::kSome : Received::kEnd;  // an end is seen again at the next call
   }
+  return Received::kSome;
 }
 
 std::optional<Message> WorkerProcess::next_message() {
   if (arrived_.size() < kLengthBytes) return std::nullopt;
   const std::span<const std::uint8_t> bytes(arrived_);
   const std::uint64_t length = announced_length(bytes.first<kLengthBytes>());
-  if (length > kMaximumLength) {
+  if (length > longest_message_) {
     throw Error("a message announces " + std::to_string(length) + " bytes");
   }
   if (bytes.size() - kLengthBytes < length) return std::nullopt;

@@ -33,13 +33,13 @@ class FileDescriptor {
 FileDescriptor sealed_file(std::span<const std::uint8_t> bytes);
 
 // One worker process in a process group of its own, killed with its group and reaped when this
-// goes. It ends by itself when the program that spawned it ends, because its channel hangs up.
+// goes. What it prints is discarded. It ends by itself when the program that spawned it ends,
+// because its channel hangs up.
 class WorkerProcess {
  public:
   struct Command {
     std::filesystem::path program;
     std::uint64_t memory_limit = 0;  // bytes of address space; 0 for none
-    std::filesystem::path log;       // its stdout and stderr are appended here; empty: discarded
     bool allow_test_methods = false;
   };
 
@@ -56,7 +56,7 @@ class WorkerProcess {
   bool send(const Bytes& message) const;
 
   enum class Received { kNothing, kSome, kEnd };
-  // Takes what has arrived, without waiting.
+  // Takes of what has arrived at most 16 MiB, without waiting.
   Received receive();
   // The next whole message. Throws Error when what arrived is none.
   std::optional<Message> next_message();
@@ -69,6 +69,7 @@ class WorkerProcess {
 
   FileDescriptor channel_;
   pid_t pid_ = -1;
+  std::uint64_t longest_message_;
   Bytes arrived_;
 };
 

@@ -24,8 +24,8 @@ RANDOM = "random search"
 SEARCHES = ["emax", "emax, look-ahead 16"]
 LOOK_AHEAD_BUDGETS = [200, 1000, 5000]  # where every evaluation is dear
 ABLATIONS = ["without finish", "without linear model", "without both", "without monotone step",
-             "without adaptive frequencies", "without Sobol starts", "without first phase", "replacement as published",
-             "repair at random", "populations 70/70"]
+             "without adaptive frequencies", "without Sobol starts", "without first phase", "without cache",
+             "replacement as published", "repair at random", "populations 70/70"]
 ABLATION_BUDGETS = [200, 1000]
 ORIGINAL = "original"
 ORIGINAL_BUDGET = 350000

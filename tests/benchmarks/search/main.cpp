@@ -40,6 +40,7 @@ const std::vector<Way>& ways() {
       {"without adaptive frequencies", [](Settings& s) { s.adaptive_frequencies = false; }},
       {"without Sobol starts", [](Settings& s) { s.sobol_starts = false; }},
       {"without first phase", [](Settings& s) { s.first_phase = false; }},
+      {"without cache", [](Settings& s) { s.cache = false; }},
       {"replacement as published",
        [](Settings& s) { s.replace_worse_only = s.share_feasible = false; }},
       {"repair at random", [](Settings& s) { s.repair = RepairMethod::kRandom; }},

@@ -99,6 +99,30 @@ TEST_F(BadInput, Outputs) {
                  {"a.txt", ".json"});
 }
 
+TEST_F(BadInput, OutputsThatWouldReplaceWhatIsReadOrWritten) {
+  std::filesystem::create_symlink("scan.xyz", folder_ / "link.ply");
+  write("scan.ply", "ply");
+  write("scan.off.reference.ply", "ply");
+  const auto to = [this](const std::string& cloud, const std::string& output,
+                         const std::string& json) {
+    return optimize({cloud, "--max-error", "1%", "-o", output, "--json", json});
+  };
+  expect_refusal(to("scan.ply", "./scan.ply", "r.json"),
+                 {"./scan.ply: would be read and replaced"});
+  expect_refusal(to("scan.xyz", "link.ply", "r.json"), {"link.ply: would be read and replaced"});
+  expect_refusal(to("scan.off.reference.ply", "scan.off", "r.json"),
+                 {"scan.off.reference.ply: would be read and replaced"});
+  expect_refusal(to("scan.xyz", "a.ply", "a.ply.certificate.json"),
+                 {"a.ply.certificate.json: would be written twice"});
+  const auto color = [this](const std::string& cloud, const std::string& mesh) {
+    return test::run_emax(
+        {"error", "scan.ply", "surface.off", "--two-sided", "--color", cloud, "--color-mesh", mesh},
+        folder_.path());
+  };
+  expect_refusal(color("scan.ply", "m.ply"), {"scan.ply: would be read and replaced"});
+  expect_refusal(color("m.ply", "m.ply"), {"m.ply: would be written twice"});
+}
+
 TEST_F(BadInput, Options) {
   expect_refusal(optimize({"scan.xyz", "-o", "out.ply"}), {"--max-error"});
   const auto with = [this](const std::string& option, const std::string& value) {

@@ -74,7 +74,7 @@ TEST_F(DecimateCommand, BoundsBothSurfacesAndVerifyAgrees) {
     EXPECT_GT(bounded.get<double>(), epsilon / 4);
   }
   for (const char* key : {"e_max", "epsilon", "e_max_squared_bits", "worst_point", "triangles",
-                          "valid", "transform", "bound"}) {
+                          "valid", "transform", "bound", "reference"}) {
     EXPECT_EQ(result.at(key), c.at(key)) << key;
   }
   EXPECT_EQ(verify("out.ply"), 0);
@@ -162,6 +162,7 @@ TEST_F(DecimateCommand, VerifyCatchesEveryFalseClaim) {
     }
   }
   EXPECT_EQ(verdict([](json&, json& r) { r["points_to_reference"] = -1; }), 2);
+  EXPECT_EQ(verdict([](json&, json& r) { r["triangles"] = 4; }), 2);
   EXPECT_EQ(verdict([](json&, json& r) { r["sha256"] = "00"; }), 2);
   EXPECT_EQ(verdict([](json& c, json&) { c["e_max"] = 0; }), 2);
   EXPECT_EQ(verdict([](json&, json& r) { r.erase("epsilon_back"); }), 1);
@@ -209,6 +210,10 @@ TEST_F(DecimateCommand, PointsOutOfReachAreRefusedOrNamed) {
   EXPECT_EQ(refused.exit_code, 2) << refused.errors;
   EXPECT_NE(refused.output.find("point 1500"), std::string::npos) << refused.output;
   EXPECT_EQ(test::files_in(folder_.path()).size(), 2u);
+  // Also where the decimator had no time to say so.
+  const ProgramRun timed = run({"--time", "0.000001"});
+  EXPECT_EQ(timed.exit_code, 2) << timed.errors;
+  EXPECT_NE(timed.output.find("point 1500"), std::string::npos) << timed.output;
   ASSERT_EQ(run({"--exclude-outliers", "0.1%"}).exit_code, 0);
   const json c = certificate("out.ply");
   EXPECT_EQ(c.at("excluded").at(0).at("point"), 1500);
@@ -240,7 +245,10 @@ TEST_F(DecimateCommand, RefusesInOneLineAndWritesNothing) {
   refused(decimate("out.ply", {}, "surface.off", "500"), "the unit of the file");
   refused(decimate("out.ply", {}, "surface.off", "0"), "--max-error");
   refused(decimate("out.ply", {}, "surface.off", "1e-13"), "roundings");
-  refused(decimate("out.ply", {"--back-error", "x"}), "x");
+  refused(decimate("out.ply", {"--back-error", "x"}), "--back-error x");
+  refused(decimate("surface.off"), "surface.off: would be read and replaced");
+  refused(decimate("out.ply", {"--cloud", "scan.xyz", "--json", "out.ply.certificate.json"}),
+          "out.ply.certificate.json: would be written twice");
   refused(decimate("out.ply", {"--back-error", "1%", "--bound", "one-sided"}), "--back-error");
   refused(decimate("out.ply", {"--effort", "none"}), "quick");
   refused(decimate("out.ply", {"--bound", "both"}), "two-sided");

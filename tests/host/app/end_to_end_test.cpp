@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tests/host/app/program.h"
@@ -193,6 +194,10 @@ TEST_F(EndToEnd, VerifyCatchesEveryFalseClaim) {
   EXPECT_EQ(verdict(altered([](json& c) { c["worst_point"] = 1499; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["e_max_squared_bits"] = "0x00000000"; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["validity"]["components"] = 77; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["valid"] = !c["valid"].get<bool>(); })), 2);
+  EXPECT_EQ(verdict(altered([&](json& c) { c["e_max_all"] = e_max / 2; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["transform"]["scale"] = 3; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["transform"]["origin"][1] = 3; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["mesh"]["sha256"] = "00"; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["cloud"]["sha256"] = "00"; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) {
@@ -224,7 +229,23 @@ TEST_F(EndToEnd, OutliersAreNamed) {
   EXPECT_NE(std::ranges::find(points, 1501), points.end());
   EXPECT_GT(certificate.at("e_max_all").get<double>(), 2);
   EXPECT_EQ(certificate.at("points").get<std::size_t>() + excluded.size(), 1502u);
-  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+  const ProgramRun verified = emax({"verify", "mesh.ply.certificate.json"});
+  EXPECT_EQ(verified.exit_code, 0);
+  EXPECT_NE(verified.output.find(
+                fmt::format(" {} of its 1,502 points are excluded, the farthest", excluded.size())),
+            std::string::npos)
+      << verified.output;
+  for (const auto& change : std::vector<std::function<void(json&)>>{
+           [](json& c) { c["excluded"][0]["distance"] = 0; },
+           [](json& c) { c["excluded"].push_back(c["excluded"][0]); },
+           [](json& c) { c["e_max_all"] = c["e_max"]; }}) {
+    json claim = certificate;
+    change(claim);
+    std::ofstream(folder_.path() / "claim.json") << claim;
+    const ProgramRun run = emax({"verify", "claim.json"});
+    EXPECT_EQ(run.exit_code, 2) << run.errors;
+    EXPECT_TRUE(run.output.starts_with("no: ")) << run.output;
+  }
 }
 
 TEST_F(EndToEnd, SkippedPointsKeepTheFilesIndices) {

@@ -249,17 +249,59 @@ TEST(Genocop, StartsComeFirstInTheirOrder) {
 }
 
 // Genes that are not starts fall into as many slices as there are points, one in each.
-TEST(Genocop, FurtherStartsAreALatinHypercube) {
-  Settings settings;
-  settings.budget = settings.look_ahead = 16;
-  std::vector<std::set<int>> slices(2);
-  run(benchmark::g11(), settings, 65, [&](const Genocop&, const Candidate& c, const Evaluation&) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      slices[k].insert(static_cast<int>((c.genes[k] + 1) / 2 * 16));
-    }
-  });
-  EXPECT_EQ(slices[0].size(), 16u);
-  EXPECT_EQ(slices[1].size(), 16u);
+TEST(Genocop, FurtherStartsAreStratifiedInEveryGene) {
+  for (const bool sobol : {true, false}) {
+    Settings settings;
+    settings.budget = settings.look_ahead = 16;
+    settings.sobol_starts = sobol;
+    std::vector<std::set<int>> slices(2);
+    run(benchmark::g11(), settings, 65, [&](const Genocop&, const Candidate& c, const Evaluation&) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        slices[k].insert(static_cast<int>((c.genes[k] + 1) / 2 * 16));
+      }
+    });
+    EXPECT_EQ(slices[0].size(), 16u) << sobol;
+    EXPECT_EQ(slices[1].size(), 16u) << sobol;
+  }
+}
+
+// Every point between an infeasible one and its reference is worse than the reference.
+TEST(Genocop, ARepairedPointThatLosesIsSharedOnlyWhereFeasiblePointsAre) {
+  BenchmarkProblem bench;
+  bench.problem.genes = benchmark::continuous_genes(1, 0, 1);
+  bench.evaluate = [](const Genes& g) {
+    return Evaluation{true, g[0] > 0.5 ? -1 : g[0], g[0] - 0.5};
+  };
+  for (const bool share : {true, false}) {
+    Settings settings = Settings::original();
+    settings.budget = 400;
+    settings.search_population = settings.reference_population = 6;
+    settings.share_feasible = share;
+    std::set<std::uint64_t> repaired, entered;
+    run(bench, settings, 69, [&](const Genocop& search, const Candidate& c, const Evaluation& e) {
+      if (c.origin == "repair" && e.feasible()) repaired.insert(c.index);
+      for (const Individual& reference : search.reference_population()) {
+        if (repaired.contains(reference.id)) entered.insert(reference.id);
+      }
+    });
+    EXPECT_GT(repaired.size(), 20u);
+    EXPECT_EQ(entered.empty(), !share) << entered.size();
+  }
+}
+
+TEST(Genocop, TheCacheAnswersWhatWasEvaluated) {
+  BenchmarkProblem bench;
+  bench.problem.genes = {{"n", Gene::Kind::kInteger, 0, 3}};
+  bench.evaluate = [](const Genes& g) { return Evaluation{true, g[0], -1}; };
+  for (const bool cache : {true, false}) {
+    Settings settings;
+    settings.budget = 20;
+    settings.cache = cache;
+    std::size_t evaluated = 0;
+    run(bench, settings, 70,
+        [&](const Genocop&, const Candidate&, const Evaluation&) { ++evaluated; });
+    EXPECT_EQ(evaluated, cache ? 4u : 20u);
+  }
 }
 
 TEST(Genocop, AskAndTellInsistOnTheirOrder) {

@@ -57,6 +57,30 @@ TEST(AtomicFile, LeavesNothingWhenTheDiskIsFull) {
   EXPECT_EQ(folder.entries(), 0);
 }
 
+TEST(AtomicFile, AppearsWhenItIsPublished) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "out.json");
+  file.write("all");
+  file.finish();
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
+  file.publish();
+  EXPECT_EQ(bytes_of(folder / "out.json"), "all");
+}
+
+TEST(WriteTogether, WritesAllOrNone) {
+  const TemporaryFolder folder;
+  folder.write("a.ply", "old");
+  const std::vector<OutputFile> files = {{folder / "a.ply", "a"}, {folder / "no/b.json", "b"}};
+  expect_clear(message_of([&] { write_together(files); }), (folder / "no/b.json").string(),
+               "cannot be written", "folder");
+  EXPECT_EQ(bytes_of(folder / "a.ply"), "old");
+  EXPECT_EQ(folder.entries(), 1);
+  std::filesystem::create_directory(folder / "no");
+  write_together(files);
+  EXPECT_EQ(bytes_of(folder / "a.ply"), "a");
+  EXPECT_EQ(bytes_of(folder / "no/b.json"), "b");
+}
+
 TEST(AtomicFile, FollowsASymbolicLink) {
   const TemporaryFolder folder;
   folder.write("real.txt", "old");

@@ -34,6 +34,9 @@ TEST(Tolerance, NothingElse) {
         "inf",   "-inf",  "inf%", "1e999", "5mm", "5 mm",  "0.5 ", " 0.5",
         "0.5 %", "0.5%%", "%0.5", "0,5",   "0x1", "half",  "1e",   "--1"}) {
     SCOPED_TRACE(text);
+    EXPECT_TRUE(message_of([&] {
+                  parse_tolerance(text, "--back-error");
+                }).starts_with("--back-error " + text + ": "));
     expect_clear(message_of([&] { parse_tolerance(text); }), "--max-error " + text + ": ", "is",
                  "give a number above 0");
   }

@@ -85,5 +85,13 @@ TEST(ErrorConstraint, OfEqualPointsTheLowestIndexIsTheWorst) {
   EXPECT_EQ(measure(s, 0.5, 0.1).excluded.size(), 400u);
 }
 
+TEST(ErrorConstraint, SharesArePointsAsOneCountsThem) {
+  for (const std::size_t permille : {7, 14, 28, 29, 41}) {
+    EXPECT_EQ(excludable_points(static_cast<double>(permille) / 10 / 100, 1000), permille);
+  }
+  EXPECT_EQ(excludable_points(0.0069999, 1000), 6u);
+  EXPECT_EQ(excludable_points(0, 1000), 0u);
+}
+
 }  // namespace
 }  // namespace emax

@@ -115,6 +115,21 @@ TEST_F(RunLogTest, NamesTheFirstSettingThatDiffers) {
   expect_clear(refusal(kSettings), (path_ / "settings.json").string(), "read", "another folder");
 }
 
+// Of another version, which the settings name.
+TEST_F(RunLogTest, ComparesSettingsBeforeItReadsRecords) {
+  { RunLog(path_, kSettings).append(measured(0)); }
+  {
+    RecordFile file(path_ / "evaluations.log");
+    file.read([](auto) {});
+    file.append(std::vector<std::uint8_t>{0xa0});  // an empty map
+  }
+  RunSettings later = kSettings;
+  later[0].second = "2";
+  expect_clear(refusal(later), path_.string(), "emax 1", "name another folder");
+  expect_clear(refusal(kSettings), (path_ / "evaluations.log").string(), "not an evaluation",
+               "name another folder");
+}
+
 TEST_F(RunLogTest, SettlesWhatIsFoundOutLater) {
   RunSettings open = kSettings;
   open.emplace_back("reference", "");

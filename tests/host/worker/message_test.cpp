@@ -115,6 +115,20 @@ TEST(Message, SurvivesEveryChangedByte) {
   EXPECT_GT(refused, bytes.size() / 2);
 }
 
+TEST(Message, RefusesWhatIsNestedTooDeeply) {
+  EXPECT_THROW(decode(Bytes(1'000'000, 0x81)), Error);  // a list of one list of one list ...
+  EXPECT_THROW(decode(Bytes(1'000'000, 0xbf)), Error);  // and maps
+}
+
+TEST(Message, RefusesDistancesThatAreNone) {
+  for (const double distance :
+       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    MeshMessage message = tetrahedron();
+    message.result.back_distance = distance;
+    EXPECT_THROW(decode(body(encode(message))), Error) << distance;
+  }
+}
+
 TEST(Message, RefusesIndicesWithoutVertexAndPointsThatAreNotFinite) {
   MeshMessage message = tetrahedron();
   message.result.mesh.triangles[2][1] = 4;

@@ -132,8 +132,15 @@ TEST(WorkerPool, EndsAHangByItsTimeLimit) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, 3s);
 }
 
+TEST(WorkerPool, EndsAnAnswerThatNeverEnds) {
+  WorkerPoolOptions impatient = options(1);
+  impatient.time_limit = 1s;
+  EXPECT_EQ(failure_of("test.trickle", impatient).reason, FailureReason::kTimedOut);
+}
+
 TEST(WorkerPool, RefusesRubbish) {
-  for (const std::string method : {"test.garbage", "test.huge", "test.strange"}) {
+  for (const std::string method :
+       {"test.garbage", "test.huge", "test.strange", "test.nested", "test.flood"}) {
     const Failure failure = failure_of(method, options(1));
     EXPECT_EQ(failure.reason, FailureReason::kGarbled) << method << ": " << failure.message;
   }
@@ -153,13 +160,36 @@ TEST(WorkerPool, HoldsAWorkerToItsMemoryLimit) {
 }
 
 TEST(WorkerPool, NamesAMemoryLimitTooSmallToStart) {
-  WorkerPoolOptions tiny = options(1);
-  tiny.memory_limit = std::uint64_t{1} << 20;
-  WorkerPool pool(torus_cloud(30, 12), tiny);
-  pool.submit(1, settings("gp3"));
-  EXPECT_THROW(pool.wait(), Error);
+  const std::vector<Point> small = torus_cloud(30, 12), large(10'000'000, Point(1, 2, 3));
+  // For the libraries, and for the cloud beside them.
+  for (const auto& [cloud, megabytes] : {std::pair(small, 1), std::pair(large, 800)}) {
+    WorkerPoolOptions tiny = options(1);
+    tiny.memory_limit = static_cast<std::uint64_t>(megabytes) << 20;
+    WorkerPool pool(cloud, tiny);
+    pool.submit(1, settings("gp3"));
+    std::string message;
+    try {
+      pool.wait();
+    } catch (const Error& error) {
+      message = error.what();
+    }
+    EXPECT_NE(message.find("raise the memory limit"), std::string::npos) << message;
+    EXPECT_EQ(message.find("before it was ready") == std::string::npos, megabytes > 1) << message;
+  }
 }
 #endif
+
+// Its worker's own past must not count.
+TEST(WorkerPool, TriesAgainInAFreshWorkerWhatLacksMemory) {
+  WorkerPool pool(torus_cloud(30, 12), options(1));
+  pool.submit(1, settings("gp3"));
+  pool.submit(2, failing("test.full"));
+  EXPECT_TRUE(std::holds_alternative<ChainResult>(pool.wait().outcome));
+  const Completed tried = pool.wait();
+  const Failure& failure = std::get<Failure>(tried.outcome);
+  EXPECT_EQ(failure.reason, FailureReason::kError) << failure.message;
+  EXPECT_NE(failure.message.find("no reconstruction method"), std::string::npos);
+}
 
 // A sound evaluation goes on beside a hanging one, and wait_for comes back from it.
 TEST(WorkerPool, WaitsNoLongerThanAsked) {
