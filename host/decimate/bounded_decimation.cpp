@@ -158,8 +158,8 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     return edits;
   };
   const auto relax = [&] {
-    tell("turns", passes.flip(4));
-    tell("moves", passes.relocate(4));
+    tell("flips", passes.flip(4));
+    tell("relocations", passes.relocate(4));
     return tell("collapses", passes.collapse());
   };
   if (hoppe) {
@@ -170,7 +170,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   }
   if (!single && settings.effort != Effort::kCollapse && !passes.stopped()) {
     state.reassign();
-    tell("moves", passes.relocate(4));
+    tell("relocations", passes.relocate(4));
     relax();
     const bool deep = settings.effort == Effort::kDeep;
     // Once, or until nothing is gained; whether anything was.
@@ -191,9 +191,9 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     const std::size_t tries = deep ? kOtherPowers.size() : 1;
     for (std::size_t vain = 0; vain < tries && !passes.stopped();) {
       const int power = kOtherPowers[vain++];
-      tell("turns", passes.flip(power));
-      tell("moves", passes.relocate(power));
-      tell("moves", passes.relocate(4));
+      tell("flips", passes.flip(power));
+      tell("relocations", passes.relocate(power));
+      tell("relocations", passes.relocate(4));
       if (mend() && deep) vain = 0;
     }
   }

@@ -36,7 +36,7 @@ struct DecimationSettings {
   enum class Effort {
     kSweep,     // edge collapses far below the bounds, which leave a few times the fewest triangles
     kCollapse,  // and the others
-    kRelax,     // and vertices moved, edges turned, collapses that these make possible
+    kRelax,     // and vertices relocated, edges flipped, collapses that these make possible
     kDeep,      // the same until nothing is gained, from several local minima of the energy
   } effort = Effort::kRelax;
 
@@ -85,8 +85,9 @@ struct DecimatedMesh {
 // where the sum over the points around it of (distance / epsilon)^4 is least, by reweighted least
 // squares from the optimum of the planes' quadrics, and is made, least increase first, if all of
 // these points stay within epsilon of the new triangles, those within epsilon_back of the reference
-// (BackBound), and nothing intersects. Vertices are then moved and edges turned to lower the sum,
-// and collapses that break the bound are tried and undone unless moves and turns around mend it.
+// (BackBound), and nothing intersects. Vertices are then relocated and edges flipped to lower the
+// sum, and collapses that break the bound are tried and undone unless relocations and flips around
+// mend it.
 //
 // While errors are far below epsilon, collapses are made in sweeps along a space-filling curve,
 // each of edges that do not touch.

@@ -42,7 +42,8 @@ const std::vector<ParameterSpec>& bounded() {
        0,
        kDeepEffort,
        2,
-       "0: edge collapses far below the bound; 1: and the others; 2: and moves, turns and mended "
+       "0: edge collapses far below the bound; 1: and the others; 2: and relocations, edge flips "
+       "and mended "
        "collapses; 3: these until nothing is gained",
        {},
        std::nullopt,

@@ -322,21 +322,21 @@ bool DecimationPasses::mend(std::uint32_t vertex) {
     const std::size_t before = undo_.size();
     mesh.neighbours(vertex, around_);
     std::vector<std::uint32_t> ring = around_;
-    std::vector<std::array<std::uint32_t, 2>> turns;
+    std::vector<std::array<std::uint32_t, 2>> flips;
     for (const std::uint32_t v : ring) {
-      turns.push_back({vertex, v});
+      flips.push_back({vertex, v});
       mesh.for_each_slot_at(v, [&](std::uint32_t slot) {
         const Triangle& t = mesh.triangle(slot);
         for (std::size_t i = 0; i < 3; ++i) {
           const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-          turns.push_back({low, high});
+          flips.push_back({low, high});
         }
       });
     }
-    std::sort(turns.begin(), turns.end());
-    turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
+    std::sort(flips.begin(), flips.end());
+    flips.erase(std::unique(flips.begin(), flips.end()), flips.end());
     ring.insert(ring.begin(), vertex);
-    for (const auto& [a, b] : turns) {
+    for (const auto& [a, b] : flips) {
       if (mesh.used(a) && mesh.used(b) && try_flip(a, b, 8, false)) apply(true);
     }
     if (all_within(unsettled_)) return true;

@@ -19,7 +19,7 @@ class DecimationPasses {
   // the edit at hand.
   using Poll = std::function<bool(double)>;
   struct Options {
-    FeatureEdges features;     // which collapses and turns keep
+    FeatureEdges features;     // which collapses and flips keep
     double length_weight = 0;  // of (an edge's length / epsilon)^2 in the order of the collapses
     // Hoppe's objective: what an edge's squared length costs, and what a vertex less is worth in
     // units of epsilon^2. A collapse is then made only where it lowers the energy.
@@ -33,7 +33,7 @@ class DecimationPasses {
   // Edge collapses, the one that adds least to the energy first, until none is left that the limit
   // and the guards permit. Returns how many.
   std::size_t collapse();
-  // The same for Hoppe's energy, of power 2: collapses, turns and moves until none lowers it.
+  // The same for Hoppe's energy, of power 2: collapses, flips and relocations until none lowers it.
   std::size_t descend();
   // Moves each vertex where the energy of its points is least. Returns how many moved.
   std::size_t relocate(int power);

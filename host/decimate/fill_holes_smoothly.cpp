@@ -5,11 +5,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "host/decimate/decimate.h"
+#include "host/geometry/disjoint_sets.h"
 #include "host/reconstruct/mesh_orientation.h"
 #include "host/reconstruct/moving_least_squares.h"
 
@@ -56,7 +56,7 @@ class Patch {
   const std::set<std::uint32_t>& rim() const { return rim_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  // Halves long edges inside the patch, and turns edges towards Delaunay's after each pass.
+  // Halves long edges inside the patch, and flips edges towards Delaunay's after each pass.
   void refine() {
     for (int pass = 0; pass < kPasses && triangles_.size() < kMost; ++pass) {
       const bool halved = halve_long_edges();
@@ -117,11 +117,11 @@ class Patch {
     return !longest.empty();
   }
 
-  // Edges whose opposite angles add up to more than two right ones. False when few were turned.
+  // Edges whose opposite angles add up to more than two right ones. False when few were flipped.
   bool turn_edges() {
     find_edges();
     changed_.assign(triangles_.size(), false);
-    std::size_t turned = 0;
+    std::size_t flipped = 0;
     for (const auto& [edge, sides] : edges_) {
       if (!is_free(sides)) continue;
       const std::uint32_t c = opposite(sides[0], edge), d = opposite(sides[1], edge);
@@ -136,10 +136,10 @@ class Patch {
       std::ranges::replace(two, edge.second, c);
       added_.insert(edge_of(c, d));
       changed_[sides[0]] = changed_[sides[1]] = true;
-      ++turned;
+      ++flipped;
     }
     added_.clear();
-    return 20 * turned > triangles_.size();
+    return 20 * flipped > triangles_.size();
   }
 
   std::uint32_t opposite(std::size_t t, const Edge& edge) const {
@@ -167,23 +167,16 @@ class Patch {
 
 // Triangles that share edges, in the order of their first.
 std::vector<std::vector<Triangle>> connected(const std::vector<Triangle>& triangles) {
-  std::vector<std::size_t> parent(triangles.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  DisjointSets sets(triangles.size());
   std::map<Edge, std::size_t> first;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Edge edge = edge_of(triangles[t][k], triangles[t][(k + 1) % 3]);
-      const std::size_t other = root(first.try_emplace(edge, t).first->second);
-      const std::size_t own = root(t);
-      parent[std::max(own, other)] = std::min(own, other);
+      sets.join(first.try_emplace(edge, t).first->second, t);
     }
   }
   std::map<std::size_t, std::vector<Triangle>> parts;
-  for (std::size_t t = 0; t < triangles.size(); ++t) parts[root(t)].push_back(triangles[t]);
+  for (std::size_t t = 0; t < triangles.size(); ++t) parts[sets.root(t)].push_back(triangles[t]);
   std::vector<std::vector<Triangle>> result;
   for (auto& [at, part] : parts) result.push_back(std::move(part));
   return result;

@@ -69,7 +69,7 @@ class LocalSearch {
   const DecimationState& state_;
   const double spring_;
   double lengths_before_ = 0;        // squared, of the edges that change
-  std::vector<std::uint32_t> ring_;  // the vertices joined to the moving one, or a turned edge's
+  std::vector<std::uint32_t> ring_;  // the vertices joined to the moving one, or a flipped edge's
   std::vector<std::uint32_t> other_ring_;
   std::uint32_t vertex_ = kNoIndex;
   std::uint32_t other_ = kNoIndex;  // the vertex drawn in

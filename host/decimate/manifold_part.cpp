@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "host/geometry/box_pairs.h"
+#include "host/geometry/disjoint_sets.h"
 #include "host/geometry/exact_predicates.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/geometry/triangle_pair.h"
@@ -138,12 +138,8 @@ std::size_t drop_at_edges(TriangleMesh& mesh) {
 }
 
 std::size_t drop_at_vertices(TriangleMesh& mesh) {
-  std::vector<std::uint32_t> fan(3 * mesh.triangles.size());  // of corners, as disjoint sets
-  std::iota(fan.begin(), fan.end(), 0u);
-  const auto root = [&](std::uint32_t corner) {
-    while (fan[corner] != corner) corner = fan[corner] = fan[fan[corner]];
-    return corner;
-  };
+  const auto corners = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+  DisjointSets fans(corners);
   const auto corner_at = [&](std::uint32_t t, std::uint32_t vertex) {
     const Triangle& triangle = mesh.triangles[t];
     return 3 * t + (triangle[0] == vertex ? 0u : triangle[1] == vertex ? 1u : 2u);
@@ -151,23 +147,21 @@ std::size_t drop_at_vertices(TriangleMesh& mesh) {
   for_each_edge(sides_by_edge(mesh), [&](std::span<const Side> sides) {
     for (const Side& s : sides.subspan(1)) {
       for (const std::uint32_t vertex : {s.low, s.high}) {
-        const std::uint32_t a = root(corner_at(sides[0].triangle, vertex));
-        const std::uint32_t b = root(corner_at(s.triangle, vertex));
-        fan[std::max(a, b)] = std::min(a, b);
+        fans.join(corner_at(sides[0].triangle, vertex), corner_at(s.triangle, vertex));
       }
     }
   });
-  std::vector<double> area(fan.size(), 0);  // of each root
-  for (std::uint32_t c = 0; c < fan.size(); ++c) area[root(c)] += normal_of(mesh, c / 3).norm();
+  std::vector<double> area(corners, 0);  // of each root
+  for (std::uint32_t c = 0; c < corners; ++c) area[fans.root(c)] += normal_of(mesh, c / 3).norm();
   std::vector<std::uint32_t> best(mesh.vertices.size(), ~0u);
-  for (std::uint32_t c = 0; c < fan.size(); ++c) {
-    if (root(c) != c) continue;
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    if (fans.root(c) != c) continue;
     std::uint32_t& winner = best[mesh.triangles[c / 3][c % 3]];
     if (winner == ~0u || area[c] > area[winner]) winner = c;
   }
   Flags flags(mesh.triangles.size(), 0);
-  for (std::uint32_t c = 0; c < fan.size(); ++c) {
-    if (best[mesh.triangles[c / 3][c % 3]] != root(c)) flags[c / 3] = 1;
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    if (best[mesh.triangles[c / 3][c % 3]] != fans.root(c)) flags[c / 3] = 1;
   }
   return drop(mesh, flags);
 }

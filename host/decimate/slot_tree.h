@@ -10,10 +10,6 @@
 
 namespace emax {
 
-inline Bounds joined(const Bounds& a, const Bounds& b) {
-  return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
-}
-
 // A tree of boxes over the triangles of a mesh that is edited, four to a node. Its shape is that of
 // the last rebuild; a slot that changes keeps its leaf, and the boxes above it are refitted. A
 // collapse leaves its triangles where they were, so the boxes stay tight until many are gone. The

@@ -27,4 +27,9 @@ inline Bounds bounds_of(std::span<const Point> points) {
   return box;
 }
 
+// The box around both.
+inline Bounds joined(const Bounds& a, const Bounds& b) {
+  return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
+}
+
 }  // namespace emax

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <vector>
+
+#include "host/geometry/disjoint_sets.h"
 
 namespace emax {
 namespace {
@@ -13,26 +14,6 @@ struct Edge {
   float weight;
   std::uint32_t a, b;
   auto key() const { return std::tie(weight, a, b); }
-};
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  bool unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 // Where a part's orientation starts, and the sign that turns its normal outward.
@@ -81,13 +62,13 @@ void orient_normals(std::span<const Eigen::Vector3f> positions,
   DisjointSets parts(n);
   std::vector<std::vector<std::uint32_t>> tree(n);
   for (const Edge& edge : edges) {
-    if (!parts.unite(edge.a, edge.b)) continue;
+    if (!parts.join(edge.a, edge.b)) continue;
     tree[edge.a].push_back(edge.b);
     tree[edge.b].push_back(edge.a);
   }
 
   std::vector<std::vector<std::uint32_t>> members(n);
-  for (std::uint32_t i = 0; i < n; ++i) members[parts.find(i)].push_back(i);
+  for (std::uint32_t i = 0; i < n; ++i) members[parts.root(i)].push_back(i);
   std::vector<std::uint32_t> stack;
   std::vector<bool> seen(n, false);
   for (const auto& part : members) {
