@@ -160,9 +160,9 @@ TEST(WorkerPool, HoldsAWorkerToItsMemoryLimit) {
 }
 
 TEST(WorkerPool, NamesAMemoryLimitTooSmallToStart) {
-  const std::vector<Point> small = torus_cloud(30, 12), large(10'000'000, Point(1, 2, 3));
+  const std::vector<Point> small = torus_cloud(30, 12), large(3'000'000, Point(1, 2, 3));
   // For the libraries, and for the cloud beside them.
-  for (const auto& [cloud, megabytes] : {std::pair(small, 1), std::pair(large, 800)}) {
+  for (const auto& [cloud, megabytes] : {std::pair(small, 1), std::pair(large, 260)}) {
     WorkerPoolOptions tiny = options(1);
     tiny.memory_limit = static_cast<std::uint64_t>(megabytes) << 20;
     WorkerPool pool(cloud, tiny);
