@@ -41,7 +41,9 @@ TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   });
   if (part.triangles.empty()) throw Error("all of the surface strays from the reference");
   if (strayed > 0) part = manifold_part(part).mesh;
-  return insert_far_points(part, kept_, far, nullptr, &*back_).mesh;
+  FarPoints inserted = insert_far_points(part, kept_, far, nullptr, &*back_);
+  return cover_far_points(std::move(inserted.mesh), kept_, inserted.left_out, *back_,
+                          kInside * bound_.epsilon);
 }
 
 TriangleMesh BoundedStage::decimate(const TriangleMesh& start,

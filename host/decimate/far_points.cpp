@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/decimate/decimation_state.h"
+#include "sw_model/exact_distance.h"
 
 namespace emax {
 namespace {
@@ -125,6 +126,10 @@ class Insertion {
   MeshEdit edit_;
 };
 
+// Of a piece, from the point on the reference that is nearest to the one that it covers: less than
+// what the mesh is farther away than that.
+constexpr double kPieceRadius = 0.25;
+
 }  // namespace
 
 FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
@@ -155,6 +160,38 @@ FarPoints insert_far_points(DecimationState& state, double far,
   }
   result.mesh = state.mesh().compact();
   return result;
+}
+
+TriangleMesh cover_far_points(TriangleMesh mesh, std::span<const Point> cloud,
+                              std::span<const std::uint32_t> points, const BackBound& back,
+                              double far) {
+  if (points.empty()) return mesh;
+  const ExactMesh exact(mesh.view());
+  std::vector<std::array<Point, 3>> pieces;
+  for (const std::uint32_t point : points) {
+    const Point& p = cloud[point];
+    const std::uint32_t near = back.sight(p).triangle;
+    if (near == kNoIndex || exact.distance(p).upper <= far) continue;
+    if (std::ranges::any_of(
+            pieces, [&](const auto& piece) { return squared_distance(p, piece) <= far * far; })) {
+      continue;
+    }
+    const Point middle = p + back.toward(p, near);
+    const double room = far - (middle - p).norm();
+    if (!(room > 0)) continue;
+    std::array<Point, 3> piece = back.reference().corners(near);
+    double radius = 0;
+    for (const Point& corner : piece) radius = std::max(radius, (corner - middle).norm());
+    const double scale = std::min(1.0, kPieceRadius * room / radius);
+    for (Point& corner : piece) corner = middle + scale * (corner - middle);
+    pieces.push_back(piece);
+  }
+  for (const std::array<Point, 3>& piece : pieces) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), piece.begin(), piece.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
 }
 
 }  // namespace emax

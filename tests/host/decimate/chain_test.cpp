@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "host/decimate/far_points.h"
 #include "host/decimate/manifold_part.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/reconstruct/reconstruction_parameters.h"
@@ -121,6 +122,30 @@ TEST(BoundedStage, TellsHowFarAMeshStraysFromTheReference) {
     EXPECT_EQ(back <= 0.05, measured.upper <= 0.05) << shift;
     EXPECT_GE(back, 0.9 * measured.lower) << shift;
     EXPECT_LE(back, std::max(measured.upper, 0.05)) << shift;
+  }
+}
+
+// A core within a shell, which the surface misses: any triangle to it would pass through the shell.
+TEST(BoundedStage, CoversWhatNothingCanBeJoinedTo) {
+  TriangleMesh shell = cube(2), core = cube(2);
+  for (Point& p : shell.vertices) p *= 0.1;
+  for (Point& p : core.vertices) p *= 0.01;
+  const TriangleMesh surface = joined(cube(8), shell, Point::Zero());
+  DecimationBound bound;
+  bound.epsilon = bound.epsilon_back = 0.01;
+  bound.reference = joined(surface, core, Point::Zero());
+  const std::vector<Point>& cloud = bound.reference.vertices;
+  const BackBound back(bound.reference, bound.epsilon_back);
+  ASSERT_FALSE(insert_far_points(surface, cloud, 0.005, nullptr, &back).left_out.empty());
+
+  const BoundedStage stage(cloud, bound);
+  const TriangleMesh start = stage.start(surface);
+  const TriangleMesh mesh =
+      stage.decimate(start, standard_values(decimation_parameters("bounded")));
+  for (const TriangleMesh& made : {start, mesh}) {
+    EXPECT_LE(certify(cloud, made.view()).e_max_upper, bound.epsilon);
+    EXPECT_LE(stage.back_distance(made), bound.epsilon_back);
+    EXPECT_TRUE(check_mesh(made.view()).valid());
   }
 }
 
