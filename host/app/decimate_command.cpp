@@ -34,8 +34,7 @@ class DecimateCommand {
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
     check_output(options.output, mesh_endings());
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
-    check_distinct({options.output, certificate_path(options.output),
-                    reference_path(options.output), options.json},
+    check_distinct({options.output, certificate_path(options.output), options.json},
                    {options.mesh, options.cloud});
     given_ = read_mesh(options.mesh);
     scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
@@ -66,6 +65,9 @@ class DecimateCommand {
     }
     reference_ = reference_surface(given_, kept, epsilon_ / 2, was_interrupted);
     if (was_interrupted()) throw Interrupted{};
+    if (options_.two_sided && !given_is_reference()) {
+      check_distinct({reference_file(), options_.json}, {options_.mesh, options_.cloud});
+    }
     settings_.decimation.interrupted = [&] { return progress.out_of_time() || was_interrupted(); };
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
       progress.show(share, triangles);
@@ -250,6 +252,7 @@ class DecimateCommand {
     report.transform = normalization_of(scan_.cloud.points);
     report.reconstruction_triangles = given_.triangles.size();
     report.device = "cpu";
+    report.two_sided = options_.two_sided;
     report.reference = reference_bound_;
     write_atomically(options_.json, to_json_text(report));
   }

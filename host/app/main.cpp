@@ -88,7 +88,8 @@ int run(int argc, char** argv) {
       .add_option("--time", optimize.seconds, "stop the search after this many seconds")
       ->check(CLI::PositiveNumber);
   optimize_command
-      .add_option("--jobs", optimize.jobs, "worker processes (default: one per processor)")
+      .add_option("--jobs", optimize.jobs,
+                  "worker processes (default: one per processor, as far as the memory allows)")
       ->check(CLI::Range(1u, 256u));
   optimize_command
       .add_option("--target-triangles", optimize.target_triangles,

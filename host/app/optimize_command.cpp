@@ -92,7 +92,7 @@ class OptimizeCommand {
     check_output(options.output, mesh_endings());
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
     check_distinct({options.output, certificate_path(options.output),
-                    reference_path(options.output), options.common.json},
+                    two_sided ? reference_path(options.output) : "", options.common.json},
                    {options.common.cloud, options.config});
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
     cloud_sha256_ = sha256_of_file(scan_.path);
@@ -100,6 +100,9 @@ class OptimizeCommand {
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
     settings_.limits = evaluation_limits(options, scan_.cloud.points.size());
+    if (options.jobs == 0) {
+      settings_.jobs = std::min(settings_.jobs, jobs_in_memory(*settings_.limits));
+    }
     log_.emplace(options.resume.empty() ? options.output + ".run" : options.resume,
                  run_settings(options, settings_, cloud_sha256_, epsilon_));
     settings_.log = &*log_;
@@ -335,6 +338,7 @@ class OptimizeCommand {
     report.device = options_.common.device;
     report.counters = counters_;
     report.board = address_.board;
+    report.two_sided = settings_.epsilon_back.has_value();
     report.reference = reference_;
     if (cpu_) report.cpu_seconds = cpu_->seconds();
     write_atomically(options_.common.json, to_json_text(report));

@@ -26,7 +26,8 @@ class BoundedStage {
   TriangleMesh without_needless(TriangleMesh surface) const;
 
   // What decimation starts from: the surface as a manifold, under a two-sided bound without the
-  // triangles that stray from the reference, and with the points inserted that are far from it.
+  // triangles that stray from the reference, and with the points inserted that are far from it, or
+  // covered by pieces of the reference where that cannot be.
   // Throws what reference_surface() throws, and Error where all of it strays and where the run
   // fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;

@@ -1,7 +1,9 @@
 #include "host/decimate/far_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "host/decimate/decimation_state.h"
 #include "sw_model/exact_distance.h"
@@ -126,9 +128,45 @@ class Insertion {
   MeshEdit edit_;
 };
 
-// Of a piece, from the point on the reference that is nearest to the one that it covers: less than
-// what the mesh is farther away than that.
+// Of a piece, about the point on the reference that is nearest to the one that it covers, as a
+// share of what the mesh is farther away than that.
 constexpr double kPieceRadius = 0.25;
+constexpr double kLeastRoom = 0.1;  // of `far`, or storing could make the piece degenerate
+
+// Pieces by the point that each was made for, to which it lies nearer than `far`.
+class Pieces {
+ public:
+  explicit Pieces(double far) : far_(far) {}
+
+  void add(const Point& p, const std::array<Point, 3>& piece) {
+    cells_[cell_of(p)].push_back(pieces_.size());
+    pieces_.push_back(piece);
+  }
+  bool cover(const Point& p) const {
+    const Cell at = cell_of(p);
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const auto found = cells_.find(
+          {at[0] + neighbour % 3 - 1, at[1] + neighbour / 3 % 3 - 1, at[2] + neighbour / 9 - 1});
+      if (found == cells_.end()) continue;
+      for (const std::size_t i : found->second) {
+        if (squared_distance(p, pieces_[i]) <= far_ * far_) return true;
+      }
+    }
+    return false;
+  }
+  const std::vector<std::array<Point, 3>>& all() const { return pieces_; }
+
+ private:
+  using Cell = std::array<double, 3>;  // whole numbers
+  Cell cell_of(const Point& p) const {
+    const auto along = [&](Eigen::Index axis) { return std::floor(p[axis] / (2 * far_)); };
+    return {along(0), along(1), along(2)};
+  }
+
+  double far_;
+  std::vector<std::array<Point, 3>> pieces_;
+  std::map<Cell, std::vector<std::size_t>> cells_;
+};
 
 }  // namespace
 
@@ -167,26 +205,23 @@ TriangleMesh cover_far_points(TriangleMesh mesh, std::span<const Point> cloud,
                               double far) {
   if (points.empty()) return mesh;
   const ExactMesh exact(mesh.view());
-  std::vector<std::array<Point, 3>> pieces;
+  Pieces pieces(far);
   for (const std::uint32_t point : points) {
     const Point& p = cloud[point];
     const std::uint32_t near = back.sight(p).triangle;
     if (near == kNoIndex || exact.distance(p).upper <= far) continue;
-    if (std::ranges::any_of(
-            pieces, [&](const auto& piece) { return squared_distance(p, piece) <= far * far; })) {
-      continue;
-    }
+    if (pieces.cover(p)) continue;
     const Point middle = p + back.toward(p, near);
     const double room = far - (middle - p).norm();
-    if (!(room > 0)) continue;
+    if (room < kLeastRoom * far) continue;
     std::array<Point, 3> piece = back.reference().corners(near);
     double radius = 0;
     for (const Point& corner : piece) radius = std::max(radius, (corner - middle).norm());
     const double scale = std::min(1.0, kPieceRadius * room / radius);
     for (Point& corner : piece) corner = middle + scale * (corner - middle);
-    pieces.push_back(piece);
+    pieces.add(p, piece);
   }
-  for (const std::array<Point, 3>& piece : pieces) {
+  for (const std::array<Point, 3>& piece : pieces.all()) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), piece.begin(), piece.end());
     mesh.triangles.push_back({first, first + 1, first + 2});

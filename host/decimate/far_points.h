@@ -33,7 +33,8 @@ FarPoints insert_far_points(DecimationState& state, double far,
 
 // The mesh with pieces of the reference beside those of `points` that are farther than `far` from
 // it, but not from the reference: components of one triangle each, which touch nothing. For points
-// that insert_far_points() leaves out, where the surface folds or ends.
+// that insert_far_points() leaves out, where the surface folds or ends. Points that are nearly
+// `far` from the reference too are left out. O(log n) a point.
 TriangleMesh cover_far_points(TriangleMesh mesh, std::span<const Point> cloud,
                               std::span<const std::uint32_t> points, const BackBound& back,
                               double far);

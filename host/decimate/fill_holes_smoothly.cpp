@@ -60,7 +60,7 @@ class Patch {
   void refine() {
     for (int pass = 0; pass < kPasses && triangles_.size() < kMost; ++pass) {
       const bool halved = halve_long_edges();
-      for (int turn = 0; turn < kPasses && turn_edges(); ++turn) {
+      for (int round = 0; round < kPasses && flip_edges(); ++round) {
       }
       if (!halved) return;
     }
@@ -118,7 +118,7 @@ class Patch {
   }
 
   // Edges whose opposite angles add up to more than two right ones. False when few were flipped.
-  bool turn_edges() {
+  bool flip_edges() {
     find_edges();
     changed_.assign(triangles_.size(), false);
     std::size_t flipped = 0;

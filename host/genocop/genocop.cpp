@@ -247,8 +247,9 @@ void Genocop::enter_references(Individual individual, std::optional<std::uint64_
       member = std::move(individual);
       return;
     }
-    if (same_line || !settings_.share_feasible) return;
+    if (same_line) return;
   }
+  if (replaced && !settings_.share_feasible) return;
   if (references_.size() < settings_.reference_population) {
     references_.push_back(std::move(individual));
   } else if (better(references_.back())) {

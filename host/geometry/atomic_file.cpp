@@ -120,13 +120,19 @@ void check_output(const fs::path& path, std::span<const std::string_view> ending
 
 void check_distinct(std::initializer_list<fs::path> outputs,
                     std::initializer_list<fs::path> inputs) {
-  std::map<fs::path, std::string_view> taken;  // links followed, as writing does
+  // Links followed, as writing does; what cannot be looked at fails when it is opened.
+  const auto place_of = [](const fs::path& path) {
+    std::error_code failure;
+    fs::path place = fs::weakly_canonical(fs::absolute(path, failure), failure);
+    return failure ? path : place;
+  };
+  std::map<fs::path, std::string_view> taken;
   for (const fs::path& path : inputs) {
-    if (!path.empty()) taken.emplace(fs::weakly_canonical(path), "read and replaced");
+    if (!path.empty()) taken.emplace(place_of(path), "read and replaced");
   }
   for (const fs::path& path : outputs) {
     if (path.empty()) continue;
-    const auto [file, free] = taken.emplace(fs::weakly_canonical(path), "written twice");
+    const auto [file, free] = taken.emplace(place_of(path), "written twice");
     if (free) continue;
     throw Error(fmt::format("{}: would be {}; name another output", path.string(), file->second));
   }

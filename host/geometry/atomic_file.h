@@ -48,7 +48,7 @@ struct OutputFile {
   std::string bytes;
 };
 // All of them appear, in this order, or none: nothing is renamed before everything is on the disk.
-// A kill between two renames alone leaves the first without the rest. Throws Error.
+// Only a kill or a refusal between two renames leaves the first without the rest. Throws Error.
 void write_together(std::span<const OutputFile> files);
 
 // To be asked before long work: throws Error unless `path` has one of `endings` (in lower case,

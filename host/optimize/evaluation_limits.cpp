@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 namespace emax {
 namespace {
@@ -12,6 +13,11 @@ constexpr std::chrono::milliseconds kLeastTime = std::chrono::minutes(10);
 constexpr std::chrono::milliseconds kTimePerPoint{2};
 constexpr std::uint64_t kLeastMemory = std::uint64_t{2} << 30;
 constexpr std::uint64_t kMemoryPerPoint = 8192;
+
+std::uint64_t memory_for_workers() {
+  const std::uint64_t memory = usable_memory();
+  return memory - memory / 8;
+}
 
 }  // namespace
 
@@ -28,9 +34,14 @@ EvaluationLimits standard_limits(std::size_t points) {
 #if defined(__SANITIZE_ADDRESS__)
   return {time, 0};  // the sanitizer reserves terabytes that it never touches
 #else
-  const std::uint64_t memory = usable_memory();
-  return {time, std::min(kLeastMemory + points * kMemoryPerPoint, memory - memory / 8)};
+  return {time, std::min(kLeastMemory + points * kMemoryPerPoint, memory_for_workers())};
 #endif
+}
+
+unsigned jobs_in_memory(const EvaluationLimits& limits) {
+  if (limits.memory == 0) return std::numeric_limits<unsigned>::max();
+  const std::uint64_t jobs = 4 * memory_for_workers() / limits.memory;
+  return static_cast<unsigned>(std::clamp<std::uint64_t>(jobs, 1, 1u << 16));
 }
 
 }  // namespace emax

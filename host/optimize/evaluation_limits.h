@@ -18,6 +18,9 @@ struct EvaluationLimits {
 // depends on the number of workers, as results do not.
 EvaluationLimits standard_limits(std::size_t points);
 
+// How many workers the memory holds, each with a quarter of its limit.
+unsigned jobs_in_memory(const EvaluationLimits& limits);
+
 // Bytes of memory that this process and its workers may use: the machine's, or a control group's
 // limit where that is lower (`group_limit` is the file that holds it).
 std::uint64_t usable_memory(const std::filesystem::path& group_limit = "/sys/fs/cgroup/memory.max");

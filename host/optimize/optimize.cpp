@@ -166,8 +166,8 @@ class Run {
     value = kDeepEffort;
     const std::size_t before = state_.best->triangles;
     const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
-    // Of another best where the run then ended elsewhere.
     std::optional<Result> result;
+    // What is known may be of another best, where the run then ended elsewhere.
     if (known != nullptr && same_bits(known->genes, deep)) {
       result = Result{*known, {}, {}};
     } else {

@@ -16,7 +16,7 @@ Json or_null(const std::optional<T>& value) {
 std::string to_json_text(const ResultReport& r) {
   Json json = {{"schema", "emax-result-1"},
                {"kernel_version", kKernelVersion},
-               {"bound", r.reference || (r.errors && r.errors->surface) ? kTwoSidedBound : kBound},
+               {"bound", r.two_sided || (r.errors && r.errors->surface) ? kTwoSidedBound : kBound},
                {"feasible", or_null(r.feasible)},
                {"valid", r.validity ? Json(r.validity->valid()) : Json()},
                {"triangles", or_null(r.triangles)},

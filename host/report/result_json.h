@@ -32,10 +32,11 @@ struct ResultReport {
   std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
   std::string device;
   std::optional<DeviceCounters> counters;
-  std::optional<BoardModel> board;          // whose time is to be predicted
-  std::optional<double> cpu_seconds;        // that the same work took on this CPU
-  std::optional<ErrorReport> errors;        // with a surface, the bound is two-sided
-  std::optional<ReferenceBound> reference;  // with one, too
+  std::optional<BoardModel> board;    // whose time is to be predicted
+  std::optional<double> cpu_seconds;  // that the same work took on this CPU
+  std::optional<ErrorReport> errors;  // with a surface, the bound is two-sided
+  bool two_sided = false;
+  std::optional<ReferenceBound> reference;  // of a two-sided bound that is kept
 };
 
 std::string to_json_text(const ResultReport& report);

@@ -117,29 +117,35 @@ Message mesh_from_json(const json& j) {
   return m;
 }
 
-// The parser calls itself for everything that is nested, so rubbish could exhaust the stack.
-class ShallowOnly : public nlohmann::json_sax<json> {
- public:
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_object(std::size_t) override { return ++depth_ <= kDeepest; }
-  bool key(string_t&) override { return true; }
-  bool end_object() override { return --depth_ >= 0; }
-  bool start_array(std::size_t) override { return ++depth_ <= kDeepest; }
-  bool end_array() override { return --depth_ >= 0; }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
-    return false;
+// Whether these are items of CBOR as encode() writes them: of known lengths, without tags, nothing
+// in more than the message's map and a map or list in that. The parser calls itself for everything
+// else, so rubbish could exhaust the stack.
+bool is_shallow(std::span<const std::uint8_t> body) {
+  constexpr std::size_t kDeepest = 2;
+  constexpr unsigned kBytes = 2, kText = 3, kList = 4, kMap = 5, kTag = 6;
+  std::vector<std::uint64_t> left = {1};  // items, of what encloses
+  for (std::size_t at = 0; !left.empty();) {
+    if (at == body.size()) return false;
+    const unsigned kind = body[at] >> 5, size = body[at] & 31;
+    ++at;
+    if (size > 27 || kind == kTag) return false;
+    const std::size_t bytes = size < 24 ? 0 : std::size_t{1} << (size - 24);
+    if (bytes > body.size() - at) return false;
+    std::uint64_t value = size;
+    if (bytes > 0) value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | body[at++];
+    --left.back();
+    if (kind == kBytes || kind == kText) {
+      if (value > body.size() - at) return false;
+      at += value;
+    } else if (kind == kList || kind == kMap) {
+      if (left.size() > kDeepest || value > body.size()) return false;
+      left.push_back(kind == kMap ? 2 * value : value);
+    }
+    while (!left.empty() && left.back() == 0) left.pop_back();
   }
-
- private:
-  static constexpr int kDeepest = 2;  // the message itself and its parameters
-  int depth_ = 0;
-};
+  return true;
+}
 
 Message from_json(const json& j) {
   const std::string kind = j.at("kind");
@@ -194,10 +200,7 @@ std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes
 }
 
 Message decode(std::span<const std::uint8_t> body) {
-  ShallowOnly shallow;
-  if (!json::sax_parse(body.begin(), body.end(), &shallow, json::input_format_t::cbor)) {
-    throw Error("not a message: broken, or nested too deeply");
-  }
+  if (!is_shallow(body)) throw Error("not a message: broken, or nested too deeply");
   try {
     return from_json(json::from_cbor(body.begin(), body.end()));
   } catch (const json::exception& e) {

@@ -22,7 +22,7 @@
 //    "reconstruction_triangles": n, "unmeshed_points": n,
 //    "back_distance": number, "seconds": [number, 4 of them]}         the answer to "run", or:
 //   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
-//   {"kind": "unusable", "message": s}                               this machine cannot be trusted
+//   {"kind": "unusable", "message": s}                               no evaluation can be made here
 // P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
 // indices a triangle. I: byte string of such indices. A worker answers one "run" before it reads
 // the next.

@@ -19,17 +19,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // An answer that is arriving is let in although its time is over: the program may have been away
-// for long, and the worker waited for it to read.
-constexpr std::chrono::seconds kArrivalGrace{2};  // from the first bytes on
+// for long, and the worker waited for it to read. So after each of its bytes, but in all no longer
+// than an evaluation may take.
+constexpr std::chrono::seconds kArrivalGrace{2};
 
 struct Worker {
   std::unique_ptr<WorkerProcess> process;
   bool ready = false;
-  bool fresh = true;              // has answered nothing yet
-  std::optional<RunMessage> run;  // what it works on
-  bool answering = false;         // bytes of the answer have arrived
-  std::set<StageKey> made;        // reconstructions that it may have kept
-  bool spent = false;             // it may reconstruct no more: the last one is all that it has
+  bool fresh = true;                           // has answered nothing yet
+  std::optional<RunMessage> run;               // what it works on
+  std::optional<Clock::time_point> answering;  // since the first bytes of the answer
+  std::set<StageKey> made;                     // reconstructions that it may have kept
+  bool spent = false;  // it may reconstruct no more: the last one is all that it has
   Clock::time_point deadline;
 };
 
@@ -115,7 +116,7 @@ class WorkerPool::Implementation {
       if (!worker.process->send(message)) throw not_ready(worker);
     }
     worker.run = std::move(run);
-    worker.answering = false;
+    worker.answering.reset();
     worker.deadline = Clock::now() + time_limit_;
   }
 
@@ -173,35 +174,37 @@ class WorkerPool::Implementation {
       give_up(worker, worker.process->end());
       return;
     }
-    if (worker.run && !worker.answering) {
-      worker.answering = true;
-      worker.deadline = std::max(worker.deadline, Clock::now() + kArrivalGrace);
+    if (worker.run) {
+      const Clock::time_point now = Clock::now();
+      if (!worker.answering) worker.answering = now;
+      const Clock::time_point last = *worker.answering + time_limit_ + kArrivalGrace;
+      worker.deadline = std::max(worker.deadline, std::min(now + kArrivalGrace, last));
     }
-    std::optional<Failure> garbled;
-    try {
-      while (auto message = worker.process->next_message()) {
-        if (!take(worker, std::move(*message))) return;
-      }
-    } catch (const UnusableWorker&) {
-      throw;
-    } catch (const Error& e) {
-      garbled = {FailureReason::kGarbled, e.what()};
+    while (std::optional<Message> message = next_message(worker)) {
+      if (!take(worker, std::move(*message))) return;
     }
-    if (garbled) give_up(worker, *garbled);
   }
 
-  struct UnusableWorker : Error {
-    using Error::Error;
-  };
+  // Nothing also where what has arrived is no message: the worker is replaced then.
+  std::optional<Message> next_message(Worker& worker) {
+    Failure garbled{FailureReason::kGarbled, {}};
+    try {
+      return worker.process->next_message();
+    } catch (const Error& e) {
+      garbled.message = e.what();
+    }
+    give_up(worker, garbled);
+    return std::nullopt;
+  }
 
   // False when the worker was replaced and has nothing more to say.
   bool take(Worker& worker, Message message) {
     if (const auto* unusable = std::get_if<UnusableMessage>(&message)) {
-      throw UnusableWorker("a worker cannot work: " + unusable->message);
+      throw Error("a worker cannot work: " + unusable->message);
     }
     if (std::holds_alternative<ReadyMessage>(message) && !worker.ready) {
       worker.ready = true;
-      worker.answering = false;
+      worker.answering.reset();
       if (worker.run) worker.deadline = Clock::now() + time_limit_;
       return true;
     }
@@ -229,7 +232,8 @@ class WorkerPool::Implementation {
       }
       return sound;
     }
-    throw Error("an answer that nothing asked for");
+    give_up(worker, {FailureReason::kGarbled, "an answer that nothing asked for"});
+    return false;
   }
 
   void fail(Worker& worker, const Failure& failure) {
@@ -253,8 +257,8 @@ class WorkerPool::Implementation {
   Error not_ready(Worker& worker) const {
     const std::string why = worker.process->end().message;
     const std::string remedy = command_.memory_limit != 0 ? "; raise the memory limit" : "";
-    return UnusableWorker("the worker " + command_.program.string() +
-                          " ended before it was ready: " + why + remedy);
+    return Error("the worker " + command_.program.string() + " ended before it was ready: " + why +
+                 remedy);
   }
 
   std::chrono::milliseconds time_limit_;

@@ -112,6 +112,10 @@ TEST_F(BadInput, OutputsThatWouldReplaceWhatIsReadOrWritten) {
   expect_refusal(to("scan.xyz", "link.ply", "r.json"), {"link.ply: would be read and replaced"});
   expect_refusal(to("scan.off.reference.ply", "scan.off", "r.json"),
                  {"scan.off.reference.ply: would be read and replaced"});
+  expect_refusal(to("scan.xyz", "./a.ply", "a.ply.certificate.json"),
+                 {"a.ply.certificate.json: would be written twice"});
+  expect_refusal(to("scan.xyz", "a.ply", (folder_ / "a.ply.certificate.json").string()),
+                 {"a.ply.certificate.json: would be written twice"});
   expect_refusal(to("scan.xyz", "a.ply", "a.ply.certificate.json"),
                  {"a.ply.certificate.json: would be written twice"});
   const auto color = [this](const std::string& cloud, const std::string& mesh) {

@@ -348,10 +348,13 @@ TEST(EvaluationLimits, GrowWithTheCloud) {
   EXPECT_EQ(usable_memory(folder.write("limit", "123456789\n")), 123456789u);
   EXPECT_EQ(usable_memory(folder.write("limit", "18446744073709551615\n")), machine);
 #ifndef __SANITIZE_ADDRESS__
-  const std::uint64_t most = machine - machine / 8;
+  const std::uint64_t usable = usable_memory(), most = usable - usable / 8;
   EXPECT_EQ(standard_limits(0).memory, std::min(most, std::uint64_t{2} << 30));
   EXPECT_EQ(standard_limits(1'000'000'000).memory,
             std::min(most, std::uint64_t{8'194'147'483'648}));
+  EXPECT_EQ(jobs_in_memory({10min, most}), 4u);
+  EXPECT_EQ(jobs_in_memory({10min, 100 * most}), 1u);
+  EXPECT_GT(jobs_in_memory({10min, 0}), 1000u);
 #endif
 }
 

@@ -116,8 +116,14 @@ TEST(Message, SurvivesEveryChangedByte) {
 }
 
 TEST(Message, RefusesWhatIsNestedTooDeeply) {
-  EXPECT_THROW(decode(Bytes(1'000'000, 0x81)), Error);  // a list of one list of one list ...
-  EXPECT_THROW(decode(Bytes(1'000'000, 0xbf)), Error);  // and maps
+  // Lists of one list, maps of one map, strings in strings of unknown length, tags.
+  Bytes maps;
+  for (int i = 0; i < 500'000; ++i) maps.insert(maps.end(), {0xa1, 0x60});
+  for (const Bytes& nested :
+       {Bytes(1'000'000, 0x81), Bytes(1'000'000, 0x9f), maps, Bytes(1'000'000, 0x5f),
+        Bytes(1'000'000, 0x7f), Bytes(1'000'000, 0xc0)}) {
+    EXPECT_THROW(decode(nested), Error);
+  }
 }
 
 TEST(Message, RefusesDistancesThatAreNone) {
