@@ -9,6 +9,11 @@
 
 namespace emax {
 
+// Of the distance's pipeline (hls/rtl/generated): cycles from a pair to its distance, and until it
+// has read its record for the last time.
+inline constexpr std::uint64_t kDistanceLatency = 142;
+inline constexpr std::uint64_t kDistanceLastRead = 98;
+
 // A board as the model sees it. All figures here are estimates until a board has been measured.
 struct BoardModel {
   std::string_view name;

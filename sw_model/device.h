@@ -16,6 +16,7 @@ struct DeviceCounters {
   std::uint64_t words_in = 0;   // to the device
   std::uint64_t words_out = 0;  // from the device
   std::optional<std::uint64_t> cycles, busy, stalled, idle, resends;
+  bool began_again = false;  // it lost its work once, and with it what it had counted
 };
 
 // A thing that takes command words and gives answer words (hls/kernel/command_words.h).

@@ -59,7 +59,16 @@ BlockAnswer DeviceEvaluator::collect() {
 
 DeviceCounters DeviceEvaluator::counters() const {
   DeviceCounters counters = device_->counters();
-  if (in_flight_.empty() && !failed_) ask_cycles(*device_, counters);
+  if (in_flight_.empty() && !failed_) {
+    try {
+      ask_cycles(*device_, counters);
+    } catch (const Error&) {
+      // It has answered everything and died since: only what it counted is lost.
+    }
+  }
+  if (device_->counters().began_again) {
+    counters.cycles = counters.busy = counters.stalled = counters.idle = std::nullopt;
+  }
   counters.blocks = counters_.blocks;
   counters.pairs = counters_.pairs;
   counters.words_in = counters_.words_in;

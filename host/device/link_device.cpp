@@ -80,6 +80,7 @@ void LinkDevice::receive(std::span<Word> words) {
 DeviceCounters LinkDevice::counters() const {
   DeviceCounters counters;
   counters.resends = counters_.resends;
+  counters.began_again = counters_.recoveries > 0;
   return counters;
 }
 

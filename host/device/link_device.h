@@ -59,7 +59,7 @@ class LinkDevice : public Device {
   std::string name() const override { return channel_->name(); }
   void send(std::span<const Word> words) override;
   void receive(std::span<Word> words) override;
-  DeviceCounters counters() const override;  // resends alone
+  DeviceCounters counters() const override;  // resends, and whether it began again
   LinkCounters link_counters() const;
 
  private:

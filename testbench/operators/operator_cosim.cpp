@@ -64,12 +64,6 @@ bool compare(std::span<const OperandPair> pairs, std::span<const OperatorResults
 
 const char* operator_name(Operator op) { return kNames[static_cast<std::size_t>(op)]; }
 
-std::optional<Operator> operator_of_name(const std::string& name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<Operator>(found - kNames.begin());
-}
-
 OperatorRun run_operator_cosim(OperatorUnit& unit, std::uint64_t pairs, std::uint64_t seed,
                                bool stop_at_mismatch, const OperatorWatch& watch) {
   OperatorRun run(kOperators);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@ namespace emax {
 
 // "add", "subtract", "multiply", "square", "less" (a < b).
 const char* operator_name(Operator op);
-std::optional<Operator> operator_of_name(const std::string& name);
 
 struct OperatorResult {
   std::uint64_t pairs = 0;

@@ -11,6 +11,7 @@ import json
 import math
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import sections
@@ -73,13 +74,16 @@ class Store:
                 file.write(line)
                 file.flush()
                 self.take(line)
-            return process.wait() == 0
+            if process.wait() != 0:
+                sys.exit(f"{' '.join(map(str, command))} ended with exit code {process.returncode}; the runs before are kept")
 
     def has(self, way, problem, budget, seeds):
         return len(self.gaps.get((way, problem, budget), {})) >= seeds
 
     def of(self, way, problem, budget):
-        return list(self.gaps.get((way, problem, budget), {}).values())
+        """The runs of a scan; those of a function where all are there."""
+        gaps = list(self.gaps.get((way, problem, budget), {}).values())
+        return gaps if len(gaps) >= (SEEDS if problem in PROBLEMS else 1) else []
 
 
 def by_percent(percent):
@@ -171,8 +175,11 @@ def triangles(gaps):
     found = sorted(gap for gap in gaps if math.isfinite(gap))
     if not found:
         return "none"
+    if len(gaps) == 1:
+        return f"{median(gaps):.0f} (1 run)"
     share = "" if len(found) == len(gaps) else f", {len(found)}/{len(gaps)} feasible"
-    return f"{median(gaps):.0f} (1 run)" if len(gaps) == 1 else f"{median(gaps):.0f} ({found[0]:.0f}–{found[-1]:.0f}{share})"
+    runs = "" if len(gaps) == SCAN_SEEDS else f", {len(gaps)} runs"
+    return f"{median(gaps):.0f} ({found[0]:.0f}–{found[-1]:.0f}{share}{runs})"
 
 
 def scan_table(store, ways, scans):
@@ -280,6 +287,9 @@ def main(words, python):
             measure_functions(store, options)
         if options.only != "functions":
             measure_scans(store, options)
+    if not any(store.of("emax", problem, budget) for problem in PROBLEMS for budget in BUDGETS):
+        sys.exit(f"{folder} holds no whole set of runs on the functions, so nothing is written; "
+                 "./dev bench --search --only functions measures them")
     plots = curve(store)
     sections.put("search", section(store, plots))
     sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))

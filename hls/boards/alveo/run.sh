@@ -120,7 +120,7 @@ step_core() {
     return
   fi
   needs vivado
-  [ -f "$folder/core_sources.sv" ] || step_sources
+  step_sources
   (cd "$folder" && vivado -mode batch -nojournal -source "$here/package_core.tcl" -tclargs \
     "$part" "$folder/emax_core_kernel.xo" "$folder/core_sources.sv" "$folder/emax_core_kernel.v")
 }

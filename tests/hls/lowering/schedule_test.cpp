@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "hls/lowering/designs.h"
+#include "sw_model/cycle_model.h"
 #include "tests/hls/lowering/random_graph.h"
 
 namespace emax {
@@ -147,6 +148,12 @@ TEST(Schedule, HasTheFewestDelayBits) {
     ASSERT_EQ(schedule.delay_bits, best);
   }
   EXPECT_GT(tried, 100);
+}
+
+TEST(Schedule, IsTheOneThatTheCycleModelCounts) {
+  const LoweredDesign& design = emax_distance_design();
+  EXPECT_EQ(static_cast<std::uint64_t>(design.schedule.latency), kDistanceLatency);
+  EXPECT_EQ(static_cast<std::uint64_t>(design.last_read()), kDistanceLastRead);
 }
 
 TEST(Schedule, CheckSeesAConsumerOneCycleEarly) {

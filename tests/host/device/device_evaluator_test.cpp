@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <memory>
 
 #include "evaluator_of.h"
+#include "hls/kernel/command_words.h"
 #include "host/device/device_address.h"
 #include "host/emax_search/emax_search.h"
 #include "host/emax_search/error_engine.h"
@@ -91,6 +94,51 @@ TEST(DeviceEvaluator, CountsWhatItSends) {
   EXPECT_EQ(counters.words_out, 9u);
   EXPECT_GT(counters.cycles.value(), 0u);
   EXPECT_EQ(counters.resends, std::nullopt);
+}
+
+// Counts three cycles, until it is gone; or it lost them when it began again.
+class Counting : public Device {
+ public:
+  std::string name() const override { return "counting"; }
+  void send(std::span<const Word> words) override {
+    if (words[0] != command_header(kCounters, 0)) return device_->send(words);
+    if (gone) throw Error("unplugged");
+    answer_ = {command_header(kCounters, kAnswerCounters), 3, 0, 0, 0, 0, 0};
+  }
+  void receive(std::span<Word> words) override {
+    if (answer_.empty()) return device_->receive(words);
+    std::copy_n(answer_.begin(), words.size(), words.begin());
+    answer_.erase(answer_.begin(), answer_.begin() + static_cast<std::ptrdiff_t>(words.size()));
+  }
+  DeviceCounters counters() const override {
+    DeviceCounters counters;
+    counters.began_again = began_again;
+    return counters;
+  }
+
+  bool gone = false, began_again = false;
+
+ private:
+  std::unique_ptr<Device> device_ = std::make_unique<CppDevice>();
+  std::vector<Word> answer_;
+};
+
+TEST(DeviceEvaluator, GivesWhatItKnowsOfADeviceThatIsGoneOrBeganAgain) {
+  const test::Stimulus s = test::bumpy_sphere(12, 16, 100, 77);
+  const PreparedCloud cloud(s.cloud);
+  const TriangleTree mesh(s.mesh(), cloud.normalization());
+  auto made = std::make_unique<Counting>();
+  Counting& device = *made;
+  DeviceEvaluator evaluator(std::move(made));
+  brute_force_emax(cloud, mesh, evaluator);
+  EXPECT_EQ(evaluator.counters().cycles, 3u);
+  device.began_again = true;
+  EXPECT_EQ(evaluator.counters().cycles, std::nullopt);
+  EXPECT_EQ(evaluator.counters().busy, std::nullopt);
+  device.began_again = false;
+  device.gone = true;
+  EXPECT_EQ(evaluator.counters().cycles, std::nullopt);
+  EXPECT_EQ(evaluator.counters().blocks, 1u);
 }
 
 TEST(DeviceEvaluator, StartsAfreshAfterAnInterruptedSearch) {

@@ -183,8 +183,10 @@ TEST_P(Link, SurvivesABoardThatResetsInMidBlock) {
   connect();
   channel_->after_bytes(half_way(), board_.power_cycle);
   channel_->after_bytes(half_way() + 5000, board_.power_cycle);
+  EXPECT_FALSE(device_->counters().began_again);
   expect_exact_answers();
   EXPECT_EQ(device_->link_counters().recoveries, 2u);
+  EXPECT_TRUE(device_->counters().began_again);
 }
 
 TEST_P(Link, GivesUpABoardThatResetsAgainAndAgain) {
