@@ -144,12 +144,11 @@ class Pieces {
   }
   bool cover(const Point& p) const {
     const Cell at = cell_of(p);
-    for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const auto found = cells_.find(
-          {at[0] + neighbour % 3 - 1, at[1] + neighbour / 3 % 3 - 1, at[2] + neighbour / 9 - 1});
-      if (found == cells_.end()) continue;
-      for (const std::size_t i : found->second) {
-        if (squared_distance(p, pieces_[i]) <= far_ * far_) return true;
+    for (const double x : {-1.0, 0.0, 1.0}) {
+      for (const double y : {-1.0, 0.0, 1.0}) {
+        for (const double z : {-1.0, 0.0, 1.0}) {
+          if (cell_covers({at[0] + x, at[1] + y, at[2] + z}, p)) return true;
+        }
       }
     }
     return false;
@@ -158,6 +157,12 @@ class Pieces {
 
  private:
   using Cell = std::array<double, 3>;  // whole numbers
+  bool cell_covers(const Cell& cell, const Point& p) const {
+    const auto found = cells_.find(cell);
+    return found != cells_.end() && std::ranges::any_of(found->second, [&](std::size_t i) {
+             return squared_distance(p, pieces_[i]) <= far_ * far_;
+           });
+  }
   Cell cell_of(const Point& p) const {
     const auto along = [&](Eigen::Index axis) { return std::floor(p[axis] / (2 * far_)); };
     return {along(0), along(1), along(2)};
