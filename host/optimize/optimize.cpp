@@ -321,19 +321,15 @@ class Run {
   TriangleMesh make_again(const LoggedEvaluation& known) {
     start_workers(1, known.index == settings_.config.search.budget ? kPolishTimes : 1);
     pool_->submit(known.index, chain(known.genes));
-    std::optional<Completed> completed;
-    while (!completed) {
-      if (settings_.interrupted()) throw Interrupted{};
-      completed = pool_->wait_for(kHeartbeat);
-    }
+    Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();
-    if (const auto* failure = std::get_if<Failure>(&completed->outcome)) {
+    if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
       throw Error(settings_.log->folder().string() +
                   ": the mesh of the best evaluation is lost: " + failure->message +
                   "; repeat the command, with more --evaluation-time or "
                   "--evaluation-memory if that is what it lacks");
     }
-    return as_stored(std::get<ChainResult>(completed->outcome).mesh, mesh_format(settings_.output));
+    return as_stored(std::get<ChainResult>(completed.outcome).mesh, mesh_format(settings_.output));
   }
 
   std::span<const Point> cloud_;
@@ -366,6 +362,13 @@ WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings
   options.memory_limit = limits.memory;
   options.allow_test_methods = settings.allow_test_methods;
   return options;
+}
+
+Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings) {
+  while (true) {
+    if (settings.interrupted()) throw Interrupted{};
+    if (auto completed = pool.wait_for(kHeartbeat)) return std::move(*completed);
+  }
 }
 
 Problem search_problem(const OptimizeSettings& settings) {

@@ -86,6 +86,9 @@ inline constexpr std::chrono::milliseconds kHeartbeat{100};
 
 WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings);
 
+// The next evaluation to complete. Throws Interrupted.
+Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings);
+
 // What is searched.
 Problem search_problem(const OptimizeSettings& settings);
 

@@ -1,7 +1,5 @@
 #include "host/optimize/run_bound.h"
 
-#include <chrono>
-
 #include "host/decimate/bounded_decimation.h"
 #include "host/decimate/manifold_part.h"
 #include "host/reconstruct/reconstruction_parameters.h"
@@ -21,19 +19,15 @@ TriangleMesh standard_surface(std::span<const Point> cloud, double epsilon,
                                  ? std::string(reconstruction_methods().front())
                                  : settings.method;
   pool.submit(0, {method, kNoDecimator, standard_values(chain_parameters(method, kNoDecimator))});
-  std::optional<Completed> completed;
-  while (!completed) {
-    if (settings.interrupted()) throw Interrupted{};
-    completed = pool.wait_for(kHeartbeat);
-  }
-  if (const auto* failure = std::get_if<Failure>(&completed->outcome)) {
+  Completed completed = wait_for_next(pool, settings);
+  if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
     const bool limited = failure->reason == FailureReason::kTimedOut ||
                          failure->reason == FailureReason::kOutOfMemory;
     throw Error("no reference surface could be made of the cloud: " + failure->message +
                 (limited ? "; allow more with --evaluation-time or --evaluation-memory"
                          : "; take another --method, or --bound one-sided"));
   }
-  return std::move(std::get<ChainResult>(completed->outcome).mesh);
+  return std::move(std::get<ChainResult>(completed.outcome).mesh);
 }
 
 }  // namespace

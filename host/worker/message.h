@@ -75,7 +75,7 @@ Bytes encode(const Message& message);
 std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes);
 
 // A message without its length. Throws Error when it is not one of the above, when a coordinate is
-// not finite or an index has no vertex.
+// not finite, a distance none, or an index has no vertex.
 Message decode(std::span<const std::uint8_t> body);
 
 }  // namespace emax

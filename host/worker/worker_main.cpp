@@ -96,14 +96,10 @@ Bytes evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
   }
 }
 
-Chain make_chain() {
-  PointsMessage given = read_points();
-  return Chain(std::move(given.points), std::move(given.bound));
-}
-
 void serve(bool allow_test_methods) {
   verify_arithmetic();
-  Chain chain = make_chain();
+  PointsMessage given = read_points();
+  Chain chain(std::move(given.points), std::move(given.bound));
   send(encode(ReadyMessage{}));
   for (bool first = true;; first = false) {
     const Bytes answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
