@@ -1,9 +1,11 @@
 """`./dev bench --search`: Genocop III beside pagmo and NLopt on g01 to g11, a staircase and scans;
-writes the section "Search" of docs/benchmarks.md, its plot and docs/benchmarks_search.md.
+writes the sections "Search" and "Search on scans" of docs/benchmarks.md, their plot and
+docs/benchmarks_search.md.
 
 Every run is kept in build/bench/search/, so that a measurement can be interrupted and continued;
---fresh begins anew, --only functions or --only scans measures one part, --only-write writes from
-what is there. The functions take about three hours of one core, the scans five.
+--fresh begins anew, --only functions or --only scans measures one part, --only-write
+writes from what is there; a part without runs keeps what stands there. The functions take about
+three hours of one core, the scans five.
 """
 
 import argparse
@@ -225,10 +227,10 @@ median, each strategy left out, and the published setting.
 """
 
 SCANS_EXPLAINED = f"""\
-On scans: the paper's chain (greedy projection, holes filled, Schroeder's decimation, bounded on the points), {SCAN_BUDGET}
-evaluations one after the other, {SCAN_SEEDS} runs unless said; median of the least triangles within the bound, in brackets
-the least and the greatest. The name says scan and ε in percent of the width; of the building 0.5 % of the points may be
-excluded. All begin with the standard values.
+Written by `./dev bench --search`: the paper's chain (greedy projection, holes filled, Schroeder's decimation, bounded
+on the points), {SCAN_BUDGET} evaluations one after the other, {SCAN_SEEDS} runs unless said; median of the least triangles
+within the bound, in brackets the least and the greatest. The name says scan and ε in percent of the width; of the
+building 0.5 % of the points may be excluded. All begin with the standard values.
 """
 
 FUNCTIONS_EXPLAINED = f"""\
@@ -240,10 +242,15 @@ restarts from random points. Every optimizer knows every earlier result, but for
 """
 
 
-def section(store, plots):
-    parts = ["## Search\n", EXPLAINED, standing(store)]
-    if any(store.of("emax", scan, SCAN_BUDGET) for scan in SCANS):
-        parts += [SCANS_EXPLAINED, scan_table(store, ["emax"] + SCAN_PEERS, SCANS)]
+def functions_section(store):
+    return "\n".join(["## Search\n", EXPLAINED, standing(store)])
+
+
+def scans_section(store, plots):
+    parts = ["## Search on scans\n", SCANS_EXPLAINED, scan_table(store, ["emax"] + SCAN_PEERS, SCANS)]
+    if any(store.of(way, SCANS[0], SCAN_BUDGET) for way in SCAN_ABLATIONS):
+        parts += ["Each strategy left out, or replaced by the published one:\n",
+                  scan_table(store, ["emax"] + SCAN_ABLATIONS, SCANS[:1])]
     if plots:
         parts.append(f"The paper's chain on the bunny by its bound (the paper's Fig. 3; it gives {PAPER_TRIANGLES} triangles at "
                      f"{PAPER_PERCENT} %):\n\n![{plots[0]['title']}](plots/{plots[0]['name']}.svg)\n")
@@ -260,9 +267,6 @@ def details(store):
     parts += ["## Each strategy left out\n", "The last rows show what replaces one part by the published one.\n"]
     for budget in ABLATION_BUDGETS:
         parts += [f"{budget} evaluations:\n", table(store, ["emax"] + ABLATIONS, budget)]
-    if any(store.of(way, SCANS[0], SCAN_BUDGET) for way in SCAN_ABLATIONS):
-        parts += [f"On a scan, {SCAN_BUDGET} evaluations; triangles, median (least–greatest):\n",
-                  scan_table(store, ["emax"] + SCAN_ABLATIONS, SCANS[:1])]
     parts += ["## The published Genocop III\n",
               f"`Settings::original()`, {ORIGINAL_BUDGET} evaluations, a first feasible point found by the first phase.\n",
               published(store)]
@@ -287,14 +291,24 @@ def main(words, python):
             measure_functions(store, options)
         if options.only != "functions":
             measure_scans(store, options)
-    if not any(store.of("emax", problem, budget) for problem in PROBLEMS for budget in BUDGETS):
-        sys.exit(f"{folder} holds no whole set of runs on the functions, so nothing is written; "
-                 "./dev bench --search --only functions measures them")
+    write(store, python)
+
+
+def write(store, python):
+    """The parts that were measured; what stands of another one stays."""
+    functions = any(store.of("emax", problem, budget) for problem in PROBLEMS for budget in BUDGETS)
+    scans = any(store.of("emax", scan, SCAN_BUDGET) for scan in SCANS)
+    if not functions and not scans:
+        sys.exit(f"{store.folder} holds no whole set of runs, so nothing is written; ./dev bench --search measures them")
+    if functions:
+        sections.put("search", functions_section(store))
+        sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))
+    if not scans:
+        return
     plots = curve(store)
-    sections.put("search", section(store, plots))
-    sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))
+    sections.put("scans", scans_section(store, plots))
     if plots and python:
-        file = folder / "curves.json"
+        file = store.folder / "curves.json"
         file.write_text(json.dumps(plots))
         PLOTS.mkdir(exist_ok=True)
         subprocess.run([python, "-B", HERE / "peers/plot.py", file, PLOTS], check=True)

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 DOCUMENT = Path("docs/benchmarks.md")
-NAMES = ["error", "search", "decimation"]
+NAMES = ["error", "search", "scans", "decimation"]
 
 
 def marks(name):

@@ -1,0 +1,66 @@
+"""What `./dev bench --search` writes, from runs that are made up."""
+
+import json
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import search_bench as bench
+import sections
+
+
+def runs(way, problem, budget, gaps):
+    return "".join(json.dumps({"way": way, "problem": problem, "budget": budget, "seed": seed, "gap": gap}) + "\n"
+                   for seed, gap in enumerate(gaps))
+
+
+class SearchBenchTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+        Path("docs").mkdir()
+
+    def store(self, *texts):
+        folder = Path("build")
+        folder.mkdir(exist_ok=True)
+        (folder / "emax.jsonl").write_text("".join(texts))
+        return bench.Store(folder)
+
+    def test_each_part_keeps_the_other(self):
+        bench.write(self.store(*(runs(way, problem, 200, [1e-9] * bench.SEEDS) for problem in bench.PROBLEMS
+                                 for way in ["emax", *bench.PEERS])), None)
+        details = Path("docs", bench.DETAILS).read_text()
+        self.assertIn("| 200 | 11 | 11 | 1.00 |", sections.existing("search"))
+        self.assertEqual(sections.existing("scans"), "")
+        bench.write(self.store(runs("emax", bench.SCANS[0], bench.SCAN_BUDGET, [14324, 14152, 14168]),
+                               runs("without cache", bench.SCANS[0], bench.SCAN_BUDGET, [15000])), None)
+        self.assertIn("| emax | 14168 (14152–14324) |", sections.existing("scans"))
+        self.assertIn("| without cache | 15000 (1 run) |", sections.existing("scans"))
+        self.assertIn("| 200 | 11 | 11 | 1.00 |", sections.existing("search"))
+        self.assertEqual(Path("docs", bench.DETAILS).read_text(), details)
+
+    def test_nothing_is_written_from_parts_of_sets(self):
+        store = self.store(runs("emax", "g01", 200, [0.0] * (bench.SEEDS - 1)), runs("original", bench.SCANS[0], 200, [17908]))
+        self.assertRaises(SystemExit, bench.write, store, None)
+        self.assertFalse(sections.DOCUMENT.exists())
+
+    def test_infeasible_runs_are_told(self):
+        store = self.store(runs("emax", bench.SCANS[0], bench.SCAN_BUDGET, [None, 14152, 14168]),
+                           runs("emax", "g05", 200, [None] * 6 + [1.0] * 5), '{"way": "emax", "probl')
+        self.assertEqual(bench.triangles(store.of("emax", bench.SCANS[0], bench.SCAN_BUDGET)),
+                         "14168 (14152–14168, 2/3 feasible)")
+        self.assertEqual(bench.text_of(store.of("emax", "g05", 200)), "none (5/11)")
+
+    def test_curve_has_feasible_bounds_alone(self):
+        store = self.store(*(runs("emax", bench.by_percent(percent), bench.SCAN_BUDGET, gaps)
+                             for percent, gaps in ((0.193, [None]), (0.321, [14168]), (0.642, [6119]))))
+        self.assertEqual(bench.curve(store)[0]["lines"][0]["at"], [0.321, 0.642])
+
+
+if __name__ == "__main__":
+    unittest.main()
