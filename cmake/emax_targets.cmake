@@ -33,9 +33,15 @@ function(emax_export_room target scope room)
   target_include_directories(${target} ${scope} ${view})
 endfunction()
 
-# emax_library(<target> <room> SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# emax_library(<target> <room> SOURCES ... LINKS ... PRIVATE_LINKS ...): links only what stands before
+# it, so that the order of the CMakeLists.txt is that of dependence.
 function(emax_library target room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  foreach(link ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
+    if(link MATCHES "^emax_" AND NOT TARGET ${link})
+      message(FATAL_ERROR "${target} links ${link}, which no room before it defines")
+    endif()
+  endforeach()
   add_library(${target} STATIC ${ARG_SOURCES})
   emax_flags(${target})
   emax_export_room(${target} PUBLIC ${room})

@@ -19,6 +19,7 @@ struct OptimizeOptions {
   std::string decimator = "bounded";
   std::string bound;  // empty: two-sided where the decimator can hold it
   std::string config;
+  std::uint64_t seed = 1;
   std::optional<std::uint64_t> budget;  // of the configuration, if not given
   std::optional<double> seconds;
   unsigned jobs = 0;   // 0: one per processor

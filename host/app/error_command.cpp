@@ -212,7 +212,6 @@ std::string json_text(const Findings& f, const ErrorOptions& options, const Tria
   report.kernel = f.measured.kept;
   report.points = scan.cloud.points.size();
   report.transform = transform;
-  report.seed = options.common.seed;
   report.device = options.common.device;
   report.counters = f.counters;
   report.board = f.board;

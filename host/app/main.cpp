@@ -36,7 +36,6 @@ void add_common(CLI::App& command, CommonOptions& options) {
       ->required();
   command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
       ->capture_default_str();
-  command.add_option("--seed", options.seed, "seed of every random choice")->capture_default_str();
   add_points_and_json(command, options.excluded_share, options.skip_invalid, options.json);
   command.add_flag("--brute-force", options.brute_force, "evaluate all pairs instead of searching");
 }
@@ -82,6 +81,8 @@ int run(int argc, char** argv) {
           "also all of the mesh within it of a reference surface (default: two-sided, but "
           "one-sided with --decimator schroeder)")
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
+  optimize_command.add_option("--seed", optimize.seed, "seed of every random choice")
+      ->capture_default_str();
   optimize_command.add_option("--budget", optimize.budget, "evaluations (default: as configured)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   optimize_command

@@ -39,7 +39,7 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
   settings.config =
       options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
   if (options.budget) settings.config.search.budget = *options.budget;
-  settings.seed = options.common.seed;
+  settings.seed = options.seed;
   if (options.seconds) settings.time = std::chrono::duration<double>(*options.seconds);
   settings.jobs =
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());

@@ -24,7 +24,6 @@ struct CommonOptions {
   std::string device = "cpu";
   std::string json;
   std::string excluded_share = "0";
-  std::uint64_t seed = 1;
   bool skip_invalid = false;
   bool brute_force = false;
 };

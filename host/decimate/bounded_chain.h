@@ -28,8 +28,8 @@ class BoundedStage {
   // What decimation starts from: the surface as a manifold, under a two-sided bound without the
   // triangles that stray from the reference, and with the points inserted that are far from it, or
   // covered by pieces of the reference where that cannot be.
-  // Throws what reference_surface() throws, and Error where all of it strays and where the run
-  // fixed no bound.
+  // Throws what reference_surface() throws under a one-sided bound, what manifold_part() throws
+  // under a two-sided one, and Error where all of it strays and where the run fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;
 
   // `values` holds P_D. Without the components that no point needs any more.

@@ -22,7 +22,7 @@ struct CertifiedDecimationSettings {
 // A decimated mesh and what is proven of it. All of it is within the bounds.
 struct CertifiedDecimation {
   TriangleMesh mesh;      // as stored
-  CertifiedError points;  // excluded: those that were farther than epsilon from the reference
+  CertifiedError points;  // excluded: too far at the start and farther than epsilon in the end
   MeshValidity validity;
   std::optional<SurfaceDistance> mesh_to_reference;  // two-sided
   std::optional<SurfaceDistance> reference_to_mesh;  // and of the whole reference

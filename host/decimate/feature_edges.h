@@ -23,7 +23,8 @@ enum class VertexClass : std::uint8_t {
 class FeatureEdges {
  public:
   FeatureEdges() = default;  // none
-  // `angle` in degrees, over 0. Every used vertex is classified. O(n).
+  // `angle` in degrees, over 0. Every used vertex is classified.
+  // O(n log n) for vertices of few triangles.
   FeatureEdges(const TriangleMesh& mesh, double angle);
 
   bool empty() const { return edges_.empty(); }

@@ -34,7 +34,7 @@ class LinearDomain {
   bool contains(const Genes& free) const;
 
   // Where coordinate k may go while the others stay; never empty, holds free[k] up to rounding;
-  // whole ends for an integer. O(rows).
+  // whole ends for an integer. O(rows * coordinates).
   Interval range(const Genes& free, std::size_t k) const;
 
   // The point of the segment from anchor (inside) to child nearest to child that is inside, after

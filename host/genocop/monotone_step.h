@@ -24,13 +24,13 @@ class MonotoneStep {
 
   // The next trial on the most promising line: the predicted root of the violation, kept off the
   // ends of a bracket; the widest gap is halved while the root is in flight. None where no line
-  // promises gain() of the best objective, or monotone_in_flight trials are out. While
+  // with fewer than monotone_in_flight trials out promises gain() of the best objective. While
   // nothing is feasible, the line of the least violation is followed downwards, its lower end
   // first.
   std::optional<Genes> climb() const;
 
-  // The child moved along its line to where it is predicted to beat the incumbent by monotone_gain,
-  // its objective being to the incumbent's as its parent's was. The child itself where nothing can
+  // The child moved along its line to where it is predicted to beat the incumbent by gain(), its
+  // objective being to the incumbent's as its parent's was. The child itself where nothing can
   // be predicted.
   Genes aim(const Genes& child, const Genes& parent, const Evaluation& parent_evaluation) const;
 

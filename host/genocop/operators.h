@@ -17,7 +17,7 @@ struct OperatorInput {
   std::span<const Genes> parents;
   double remaining = 1;               // share of the budget not yet spent: 1 - t/T
   std::size_t non_uniform_power = 2;  // b of the non-uniform mutations
-  double gaussian_sigma = 0.1;        // in feasible ranges of the gene
+  double gaussian_sigma = 0.1;        // at the start, in feasible ranges of the gene
 };
 
 // A child inside domain and linear constraints (LinearDomain::pull_inside towards a parent).
@@ -30,7 +30,8 @@ Genes heuristic_crossover(const OperatorInput& input, RandomStream& random);
 
 // Mutations of one gene, or of all in random order ("whole"), each within its feasible range given
 // the others: anywhere in it; at one end; a step towards one end that shrinks with the budget left,
-// (end - x) u remaining^b; a normal step.
+// (end - x) u remaining^b; a normal step
+// of deviation gaussian_sigma * remaining ranges.
 Genes uniform_mutation(const OperatorInput& input, RandomStream& random);
 Genes whole_uniform_mutation(const OperatorInput& input, RandomStream& random);
 Genes boundary_mutation(const OperatorInput& input, RandomStream& random);

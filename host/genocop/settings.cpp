@@ -33,7 +33,7 @@ std::span<const SettingInfo> setting_infos() {
       {"non_uniform_power", &S::non_uniform_power, 0, 100,
        "b: how fast the steps of the non-uniform mutations shrink"},
       {"gaussian_sigma", &S::gaussian_sigma, 0, 1e3,
-       "standard deviation of the Gaussian mutation, in feasible ranges of the gene"},
+       "standard deviation of the Gaussian mutation at the start, in feasible ranges of the gene"},
       {"monotone_step", &S::monotone_step, 0, 0,
        "use a gene along which the objective falls and the violation rises, if there is one"},
       {"monotone_share", &S::monotone_share, 0, 1, "of the offspring aim just below the best"},

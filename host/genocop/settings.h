@@ -38,7 +38,7 @@ struct Settings {
   double replacement_probability = 0.25;  // p_r: the search point becomes its repaired point
 
   std::size_t non_uniform_power = 2;  // b of the non-uniform mutations
-  double gaussian_sigma = 0.1;        // standard deviation, in feasible ranges of the gene
+  double gaussian_sigma = 0.1;  // standard deviation at the start, in feasible ranges of the gene
   std::array<double, kOperators.size()> operator_frequencies = standard_frequencies();
 
   bool monotone_step = true;           // where the problem names a monotone gene
@@ -63,9 +63,10 @@ struct Settings {
 
   // Genocop III as published (Michalewicz & Nazhiyath 1995; Michalewicz 1996): populations of 70,
   // p_r = 0.15, its ten operators, offspring that replace whatever their value, populations that
-  // meet in repairs alone, repair at random until feasible, one result after the other. Of what its
-  // sources leave open or give differently, q = 0.02 and b = 6 reach its published results. The
-  // first phase stands in for the user, whom it asks for a first feasible point.
+  // meet in repairs alone, repair at random until feasible (100 trials at most), one result after
+  // the other. Of what its sources leave open or give differently, q = 0.02 and b = 6 reach its
+  // published results. The first phase stands in for the user, whom it asks for a first feasible
+  // point.
   static Settings original();
 
   static constexpr std::array<double, kOperators.size()> standard_frequencies() {

@@ -78,10 +78,10 @@ struct OptimizeState {
   double measuring = 0;
 };
 
-// Called after every evaluation and at least every tenth of a second.
+// Called after every evaluation and, while workers are waited for, every tenth of a second.
 using OptimizeObserver = std::function<void(const OptimizeState&)>;
 
-// How often an observer is called and an interrupt looked for, at least.
+// How often, while workers are waited for, an observer is called and an interrupt looked for.
 inline constexpr std::chrono::milliseconds kHeartbeat{100};
 
 WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings);

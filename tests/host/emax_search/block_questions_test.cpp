@@ -1,4 +1,4 @@
-#include "host/decimate/block_questions.h"
+#include "host/emax_search/block_questions.h"
 
 #include <gtest/gtest.h>
 
