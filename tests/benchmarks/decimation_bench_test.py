@@ -1,15 +1,14 @@
 """What `./dev bench --decimate` writes, from results that are made up."""
 
 import json
-import os
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import decimation_bench as bench
 import sections
+from documents_case import DocumentsCase
 
 
 def result(name, triangles, **more):
@@ -18,13 +17,9 @@ def result(name, triangles, **more):
             "search_seconds": 20, "search_calls": 14, "all_seconds": 30, **more}
 
 
-class DecimationBenchTest(unittest.TestCase):
+class DecimationBenchTest(DocumentsCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-        Path("docs").mkdir()
+        super().setUp()
         self.store = bench.Store(Path("build/results.jsonl"))
 
     def put(self, scan, percent, tool, told):

@@ -1,15 +1,14 @@
 """What `./dev bench --search` writes, from runs that are made up."""
 
 import json
-import os
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import search_bench as bench
 import sections
+from documents_case import DocumentsCase
 
 
 def runs(way, problem, budget, gaps):
@@ -17,14 +16,7 @@ def runs(way, problem, budget, gaps):
                    for seed, gap in enumerate(gaps))
 
 
-class SearchBenchTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-        Path("docs").mkdir()
-
+class SearchBenchTest(DocumentsCase):
     def store(self, *texts):
         folder = Path("build")
         folder.mkdir(exist_ok=True)
