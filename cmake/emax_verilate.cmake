@@ -47,15 +47,41 @@ function(emax_verilated target)
 
   add_library(${target} STATIC)
   verilate(${target} ${options} PREFIX V${target} TOP_MODULE ${ARG_TOP} SOURCES ${ARG_SOURCES}
-    VERILATOR_ARGS ${arguments} OPT_FAST ${fast} OPT_SLOW -O0 OPT_GLOBAL -O2)
+    VERILATOR_ARGS ${arguments} OPT_FAST ${fast} OPT_SLOW -O0)
   set_target_properties(${target} PROPERTIES SYSTEM ON)
-  # The headers ask for the same macros as the sources.
+  emax_share_runtime(${target})
+endfunction()
+
+# Verilator adds its runtime to every library; those that are alike in TRACE and COVERAGE share one.
+function(emax_share_runtime target)
+  set(library emax_verilator_runtime)
+  set(macros)
   foreach(macro COVERAGE TRACE TRACE_FST)
-    target_compile_definitions(${target} INTERFACE
-      VM_${macro}=$<BOOL:$<TARGET_PROPERTY:${target},VERILATOR_${macro}>>)
+    get_target_property(value ${target} VERILATOR_${macro})
+    list(APPEND macros VM_${macro}=$<BOOL:${value}>)
+    if(value)
+      string(TOLOWER ${library}_${macro} library)
+    endif()
   endforeach()
-  if(ARG_TRACE)
-    find_package(ZLIB REQUIRED)
-    target_link_libraries(${target} PUBLIC ZLIB::ZLIB)
+
+  get_target_property(sources ${target} SOURCES)
+  set(runtime ${sources})
+  list(FILTER runtime INCLUDE REGEX "/include/verilated[^/]*$")
+  list(REMOVE_ITEM sources ${runtime})
+  set_target_properties(${target} PROPERTIES SOURCES "${sources}")
+
+  if(NOT TARGET ${library})
+    add_library(${library} STATIC)
+    target_include_directories(${library} SYSTEM PUBLIC
+      ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
+    # The headers ask for the same macros as the sources.
+    target_compile_definitions(${library} PUBLIC ${macros} PRIVATE VM_SC=0)
+    target_compile_options(${library} PRIVATE -O2)
+    if(library MATCHES trace)
+      find_package(ZLIB REQUIRED)
+      target_link_libraries(${library} PUBLIC ZLIB::ZLIB)
+    endif()
   endif()
+  target_sources(${library} PRIVATE ${runtime})
+  target_link_libraries(${target} PUBLIC ${library})
 endfunction()

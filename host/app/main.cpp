@@ -47,8 +47,9 @@ void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
   command
       .add_option(
           "--decimator", decimator,
-          "decimation: under the bound itself, or the paper's, whose error is measured after")
-      ->check(CLI::IsMember({"bounded", "schroeder"}))
+          "decimation: under the bound itself, or the paper's, whose error is measured after; "
+          "auto: the search chooses, under a one-sided bound")
+      ->check(CLI::IsMember({"bounded", "schroeder", "auto"}))
       ->capture_default_str();
 }
 
@@ -79,7 +80,7 @@ int run(int argc, char** argv) {
           "--bound", optimize.bound,
           "one-sided: every point of the cloud within the tolerance of the mesh; two-sided: "
           "also all of the mesh within it of a reference surface (default: two-sided, but "
-          "one-sided with --decimator schroeder)")
+          "one-sided with --decimator schroeder or auto)")
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
   optimize_command.add_option("--seed", optimize.seed, "seed of every random choice")
       ->capture_default_str();
@@ -90,7 +91,8 @@ int run(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   optimize_command
       .add_option("--jobs", optimize.jobs,
-                  "worker processes (default: one per processor, as far as the memory allows)")
+                  "worker processes, at most search.look_ahead of the configuration (default: one "
+                  "per processor, as far as the memory allows)")
       ->check(CLI::Range(1u, 256u));
   optimize_command
       .add_option("--target-triangles", optimize.target_triangles,
@@ -102,7 +104,7 @@ int run(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   optimize_command.add_flag("--polish,!--no-polish", optimize.polish,
                             "decimate the best mesh once more in the end, deep (default; only "
-                            "with --decimator bounded)");
+                            "of the bounded decimator)");
   optimize_command.add_option("--resume", optimize.resume,
                               "folder that keeps the run: created when missing, continued when "
                               "there (default: MESH.run, removed when the run has ended)");
@@ -110,7 +112,7 @@ int run(int argc, char** argv) {
       .add_option("--evaluation-time", optimize.evaluation_seconds,
                   "give an evaluation up after this many seconds (default: 600, or 0.002 a point "
                   "where that is more), and --polish after ten times as many")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 1e7));
   optimize_command
       .add_option("--evaluation-memory", optimize.evaluation_memory,
                   "give an evaluation up that needs more: bytes, or N MB, N GB (default: 2 GB "

@@ -41,8 +41,11 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
   if (options.budget) settings.config.search.budget = *options.budget;
   settings.seed = options.seed;
   if (options.seconds) settings.time = std::chrono::duration<double>(*options.seconds);
-  settings.jobs =
+  const unsigned jobs =
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  // No more candidates than that are ever out.
+  settings.jobs =
+      static_cast<unsigned>(std::min<std::size_t>(jobs, settings.config.search.look_ahead));
   settings.target_triangles = options.target_triangles;
   settings.stagnation = options.stagnation;
   settings.polish = options.polish;
@@ -118,9 +121,13 @@ class OptimizeCommand {
   }
 
   int run() {
-    fix_bound();
     try {
+      fix_bound();
       return search();
+    } catch (const Interrupted&) {
+      if (!said_what_is_kept_ && log_->size() > 0)
+        say_what_is_kept("; the same command continues it");
+      throw;
     } catch (const Error& error) {
       if (said_what_is_kept_ || log_->size() == 0) throw;
       throw Error(fmt::format("{}; the evaluations are kept: the same command continues in {}",
@@ -172,7 +179,7 @@ class OptimizeCommand {
 
   void fix_bound() {
     settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, settings_);
-    if (settings_.decimator == "bounded") log_->settle(kBoundSetting, checksum(settings_.bound));
+    if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(
           "outliers       {} points farther than that from the reconstruction are left out\n",
@@ -192,9 +199,12 @@ class OptimizeCommand {
     if (options_.resume.empty() && !cut_short) {
       log_->remove();
     } else if (log_->size() > 0) {
-      fmt::print("run            kept in {}{}\n", log_->folder().string(),
-                 cut_short || state_.out_of_time ? "; the same command continues it" : "");
+      say_what_is_kept(cut_short || state_.out_of_time ? "; the same command continues it" : "");
     }
+  }
+
+  void say_what_is_kept(std::string_view what_next) const {
+    fmt::print("run            kept in {}{}\n", log_->folder().string(), what_next);
   }
 
   void keep(const BestMesh& best) {

@@ -44,7 +44,7 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"mesh.ending", lower_case_ending(settings.output)},
       {"seed", fmt::format("{}", settings.seed)},
   };
-  if (settings.decimator == "bounded") run.emplace_back(kBoundSetting, "");
+  if (settings.decimator != "schroeder") run.emplace_back(kBoundSetting, "");
   for (auto& value : named_values(settings.config)) run.push_back(std::move(value));
   run.emplace_back("emax", EMAX_VERSION);
   run.emplace_back("kernel", fmt::format("{}", kKernelVersion));
@@ -62,11 +62,11 @@ std::string checksum(const DecimationBound& bound) {
 
 std::string describe(const RunLog& log, std::uint64_t budget) {
   const std::string folder = log.folder().string();
-  if (log.size() == 0) return "starts in " + folder;
   const auto& logged = log.evaluations();
   const auto count = std::distance(logged.begin(), logged.lower_bound(budget));
-  std::string text =
-      fmt::format("continues in {}: {} of {} evaluations are there", folder, count, budget);
+  std::string text = logged.empty() ? "starts in " + folder
+                                    : fmt::format("continues in {}: {} of {} evaluations are there",
+                                                  folder, count, budget);
   const RecordFile::Loss loss = log.loss();
   if (loss.torn > 0) text += fmt::format("; {} bytes of a torn record were cut off", loss.torn);
   if (loss.damaged > 0) text += fmt::format("; {} damaged bytes were passed over", loss.damaged);

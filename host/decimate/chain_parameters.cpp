@@ -12,6 +12,7 @@ namespace {
 using enum ParameterSpec::Kind;
 
 constexpr const char* kMethod = "method";
+constexpr const char* kDecimator = "decimator";
 
 const ParameterSpec& fill_size() {
   static const ParameterSpec spec = {
@@ -73,16 +74,21 @@ std::span<const ParameterSpec> decimation_parameters(std::string_view decimator)
 
 namespace {
 
+ParameterSpec categories_of(const char* name, const char* meaning,
+                            std::span<const std::string_view> choices) {
+  return {name,
+          kCategorical,
+          0,
+          static_cast<double>(choices.size() - 1),
+          0,
+          meaning,
+          {choices.begin(), choices.end()}};
+}
+
 const std::vector<ParameterSpec>& automatic() {
   static const std::vector<ParameterSpec> specs = [] {
     const auto methods = reconstruction_methods();
-    std::vector<ParameterSpec> all = {{kMethod,
-                                       kCategorical,
-                                       0,
-                                       static_cast<double>(methods.size() - 1),
-                                       0,
-                                       "reconstruction",
-                                       {methods.begin(), methods.end()}}};
+    std::vector<ParameterSpec> all = {categories_of(kMethod, "reconstruction", methods)};
     const auto mls = mls_parameters();
     all.insert(all.end(), mls.begin(), mls.end());
     for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -111,17 +117,27 @@ const std::vector<ParameterSpec>& automatic() {
 }  // namespace
 
 std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string_view decimator) {
+  std::vector<ParameterSpec> chain;
   if (method == kAutoMethod) {
-    std::vector<ParameterSpec> chain = automatic();
+    chain = automatic();
+  } else {
+    const auto reconstruction = reconstruction_parameters(method);
+    chain.assign(reconstruction.begin(), reconstruction.end());
+    chain.push_back(fill_size());
+  }
+  if (decimator != kAutoDecimator) {
     const auto decimation = decimation_parameters(decimator);
     chain.insert(chain.end(), decimation.begin(), decimation.end());
     return chain;
   }
-  const auto reconstruction = reconstruction_parameters(method);
-  const auto decimation = decimation_parameters(decimator);
-  std::vector<ParameterSpec> chain(reconstruction.begin(), reconstruction.end());
-  chain.push_back(fill_size());
-  chain.insert(chain.end(), decimation.begin(), decimation.end());
+  const auto all = decimators();
+  chain.push_back(categories_of(kDecimator, "decimation", all));
+  for (std::size_t d = 0; d < all.size(); ++d) {
+    for (const ParameterSpec& spec : decimation_parameters(all[d])) {
+      chain.push_back(spec);
+      chain.back().only_with = {kDecimator, static_cast<double>(d)};
+    }
+  }
   return chain;
 }
 
@@ -155,15 +171,19 @@ StageKey surface_key(const ChainSettings& settings) {
 
 ChainSettings chain_settings(const std::string& method, const std::string& decimator,
                              const ParameterValues& values) {
-  if (method != kAutoMethod) return {method, decimator, values};
   ChainSettings settings{method, decimator, values};
+  if (method != kAutoMethod && decimator != kAutoDecimator) return settings;
   for (const ParameterSpec& spec : chain_parameters(method, decimator)) {
     if (!spec.only_with) continue;
     const auto& [other, category, unless] = *spec.only_with;
     if ((values.at(other) == category) == unless) settings.parameters.erase(spec.name);
   }
-  settings.method = reconstruction_methods()[static_cast<std::size_t>(values.at(kMethod))];
-  settings.parameters.erase(kMethod);
+  const auto choose = [&](const char* gene, std::span<const std::string_view> choices) {
+    settings.parameters.erase(gene);
+    return std::string(choices[static_cast<std::size_t>(values.at(gene))]);
+  };
+  if (method == kAutoMethod) settings.method = choose(kMethod, reconstruction_methods());
+  if (decimator == kAutoDecimator) settings.decimator = choose(kDecimator, decimators());
   return settings;
 }
 

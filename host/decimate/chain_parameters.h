@@ -17,7 +17,7 @@ namespace emax {
 // filled without new vertices.
 struct ChainSettings {
   std::string method;     // one of reconstruction_methods()
-  std::string decimator;  // one of decimators()
+  std::string decimator;  // one of decimators(), or kNoDecimator
   ParameterValues parameters;
 };
 
@@ -69,19 +69,21 @@ inline constexpr const char* kNoDecimator = "none";
 // In place of a method: every one of them, as a gene, with moving least squares and the ways to
 // fill holes.
 inline constexpr const char* kAutoMethod = "auto";
+// In place of a decimator: both, as a gene.
+inline constexpr const char* kAutoDecimator = "auto";
 
 inline constexpr const char* kFillMethod = "fill.method";
 // Its choices.
 enum class FillMethod { kNone, kFlat, kSmooth };
 
 // P_R of the method, hole filling, P_D of the decimator: the chromosome in the order of its genes
-// (paper, section 3). With kAutoMethod the methods' own parameters have a meaning only with theirs.
-// Throws Error when there is no such method or decimator. With
-// kNoDecimator there is no P_D.
+// (paper, section 3). With kAutoMethod and kAutoDecimator the own parameters of each have a meaning
+// only with theirs; with kNoDecimator there is no P_D. Throws Error when there is no such method or
+// decimator.
 std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string_view decimator);
 
-// The candidate that values of chain_parameters(method, decimator) are: its method, and the values
-// that have a meaning with it.
+// The candidate that values of chain_parameters(method, decimator) are: its method, its decimator
+// and the values that have a meaning with them.
 ChainSettings chain_settings(const std::string& method, const std::string& decimator,
                              const ParameterValues& values);
 

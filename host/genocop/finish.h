@@ -34,7 +34,6 @@ class Finish {
 
   // The best point of the search that runs or has ended; nullptr before the first and after stop().
   const Genes* centre() const { return points_.empty() ? nullptr : &points_[centre_].free; }
-  double radius() const { return radius_; }
 
  private:
   struct Trial {

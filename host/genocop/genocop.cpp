@@ -72,7 +72,7 @@ Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
                    settings_.adaptive_frequencies ? settings_.frequency_floor : 0) {
   if (problem_.monotone_gene && settings_.monotone_step) {
     const std::size_t k = domain_.coordinate(*problem_.monotone_gene);
-    monotone_.emplace(domain_, k, settings_);
+    if (k < domain_.size()) monotone_.emplace(domain_, k, settings_);  // else an equality holds it
   }
   if (auto ordered = coordinates(domain_, true); settings_.linear_model && !ordered.empty()) {
     linear_.emplace(domain_, problem_, std::move(ordered));

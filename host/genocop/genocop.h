@@ -60,10 +60,11 @@ class Genocop {
   Genocop(const Genocop&) = delete;  // the monotone step refers to its neighbours
   Genocop& operator=(const Genocop&) = delete;
 
-  // Throws std::logic_error unless told() == max(0, asked() - K + 1).
+  // Throws std::logic_error unless told() == max(0, asked() - K + 1). O(told() * genes), with the
+  // local models also O((genes + constraints)^3).
   Candidate ask();
-  // Results in the order of their index; throws std::logic_error otherwise. A feasible evaluation
-  // with a NaN or infinite number counts as failed.
+  // Results in the order of their index; throws std::logic_error otherwise. An evaluation whose
+  // objective is NaN or infinite, or whose violation is NaN, counts as failed.
   void tell(std::uint64_t index, Evaluation evaluation);
 
   std::optional<Best> best() const { return best_; }  // of what has been told

@@ -45,8 +45,22 @@ void check(const Problem& problem) {
           gene.name));
     }
   }
+  for (std::size_t s = 0; s < problem.starts.size(); ++s) {
+    if (problem.starts[s].size() == problem.genes.size()) continue;
+    throw Error(fmt::format("start point {}: {} genes, the problem has {}", s + 1,
+                            problem.starts[s].size(), problem.genes.size()));
+  }
+  if (problem.monotone_gene &&
+      (*problem.monotone_gene >= problem.genes.size() ||
+       problem.genes[*problem.monotone_gene].kind == Gene::Kind::kCategorical)) {
+    throw Error("the monotone gene must be a continuous or integer gene of the problem");
+  }
   for (const LinearConstraint& constraint : problem.linear) {
     for (const auto& [gene, coefficient] : constraint.terms) {
+      if (gene >= problem.genes.size()) {
+        throw Error(
+            fmt::format("a linear constraint names gene {} of {}", gene + 1, problem.genes.size()));
+      }
       if (problem.genes[gene].kind != Gene::Kind::kCategorical) continue;
       throw Error(
           fmt::format("gene {}: categories have no order, so no linear constraint can hold "

@@ -21,8 +21,9 @@ struct Interval {
 class LinearDomain {
  public:
   // Throws emax::Error when a domain is empty, a start lies outside, the equalities contradict each
-  // other or leave no continuous gene to solve for, a linear constraint names a categorical gene,
-  // Gene::only_with is not as its declaration says, or no point is found inside.
+  // other or leave no continuous gene to solve for, a linear constraint or the monotone gene is a
+  // categorical gene or none, Gene::only_with is not as its declaration says, or no point is found
+  // inside.
   explicit LinearDomain(const Problem& problem);
 
   std::size_t size() const { return free_.size(); }

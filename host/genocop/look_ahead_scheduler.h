@@ -10,7 +10,8 @@ namespace emax {
 
 // Stands between Genocop and workers that finish in any order: results are held back until the
 // candidate that may know them is due, so the candidates are the same for any number of workers.
-// At most K candidates are out at one time, so K should be at least the number of workers.
+// At most K candidates are out at one time, so K should be at least the number of workers. Beside
+// what ask() and tell() take, O(log evaluations) a call.
 class LookAheadScheduler {
  public:
   LookAheadScheduler(Genocop& search, std::uint64_t budget) : search_(search), budget_(budget) {}

@@ -25,10 +25,19 @@ MonotoneStep::MonotoneStep(const LinearDomain& domain, std::size_t coordinate,
     : domain_(domain),
       coordinate_(coordinate),
       most_in_flight_(settings.monotone_in_flight),
-      gain_(settings.monotone_gain) {}
+      gain_(settings.monotone_gain) {
+  for (std::size_t k = 0; k < domain.size(); ++k) {
+    const bool counted = std::ranges::any_of(
+        domain.rows(), [k](const LinearDomain::Row& row) { return row.weights[k] != 0; });
+    if (k != coordinate && !counted) loose_.push_back(k);
+  }
+}
 
 Genes MonotoneStep::line_of(Genes genes) const {
   genes[coordinate_] = 0;
+  for (const std::size_t k : loose_) {
+    if (!domain_.has_meaning(genes, k)) genes[k] = domain_.gene(k).lower;
+  }
   return genes;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "host/genocop/linear_domain.h"
 #include "host/genocop/settings.h"
@@ -10,7 +11,8 @@
 namespace emax {
 
 // The use of a gene along which, all others held, the objective falls and the violation rises. A
-// line is the set of points that differ in that gene alone; the best of a line lies where its
+// line is the set of points that differ in that gene alone, or also in genes without a meaning that
+// no linear constraint counts; the best of a line lies where its
 // violation passes zero. From the two slopes measured near the incumbent every evaluated point
 // predicts the objective its line ends in, so points at different values of the gene compare, and
 // only lines that promise to beat the incumbent are followed. Nothing is taken as proven: where the
@@ -57,6 +59,7 @@ class MonotoneStep {
 
   const LinearDomain& domain_;
   std::size_t coordinate_;
+  std::vector<std::size_t> loose_;  // coordinates of no linear constraint
   std::size_t most_in_flight_;
   double gain_;
   std::size_t asked_ = 0;

@@ -72,7 +72,7 @@ struct Problem {
   // values are better than one of their maximum.
   std::vector<NonlinearConstraint> nonlinear;
   std::vector<Genes> starts;  // evaluated first, in this order; each inside domains and `linear`
-  // Results known from before (a warm start): never asked for again and not charged.
+  // Results known from before (a warm start): not charged, and with the cache not asked for again.
   std::vector<std::pair<Genes, Evaluation>> known;
 
   // A gene along which, all others held, the objective falls and the violation rises (nearly).

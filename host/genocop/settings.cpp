@@ -10,7 +10,7 @@ std::span<const SettingInfo> setting_infos() {
        "candidate i knows the results up to i - look_ahead; at least the number of workers, less "
        "is better, results depend on it"},
       {"search_population", &S::search_population, 1, 1e6,
-       "points inside domains and linear constraints; 70 for thousands of evaluations"},
+       "points inside domains and linear constraints"},
       {"reference_population", &S::reference_population, 1, 1e6, "feasible points"},
       {"selection_pressure", &S::selection_pressure, 1e-6, 0.999,
        "q: share of the selections that goes to the best of a large population"},
@@ -60,7 +60,7 @@ std::span<const SettingInfo> setting_infos() {
        "first points from Sobol's sequence; without, a Latin hypercube"},
       {"cache", &S::cache, 0, 0, "points that were evaluated are not asked for again"},
       {"cache_resolution", &S::cache_resolution, 0, 0.5,
-       "genes that differ by less than this share of their domain count as equal"},
+       "genes that round to the same multiple of this share of their domain count as equal"},
   }};
   return infos;
 }

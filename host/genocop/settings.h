@@ -19,8 +19,9 @@ enum class RepairMethod {
 
 // Everything the search depends on besides problem and seed. The strategies that are not in
 // Genocop III are monotone_step, linear_model, finish, adaptive_frequencies, sobol_starts,
-// first_phase, cache, replace_worse_only with share_feasible, and the value-aware repair; each is
-// switched by its own setting.
+// first_phase, cache, replace_worse_only with share_feasible, repair_only_promising, the
+// value-aware repair and the uniform mutation, which is Genocop's; each is switched by its own
+// setting.
 struct Settings {
   std::size_t budget = 150;     // T of the operators whose steps shrink
   std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
@@ -57,7 +58,7 @@ struct Settings {
   double frequency_floor = 0.3;      // share of the offspring that success does not move
   bool sobol_starts = true;          // else a Latin hypercube
   bool cache = true;                 // points that were evaluated are not asked for again
-  double cache_resolution = 1e-13;   // genes closer than this share of their domain are equal
+  double cache_resolution = 1e-13;   // of the domains: genes are rounded to it and compared
 
   bool operator==(const Settings&) const = default;
 

@@ -164,6 +164,7 @@ class Run {
     double& value = deep[static_cast<std::size_t>(effort - problem_.genes.begin())];
     if (value >= kDeepEffort) return;
     value = kDeepEffort;
+    if (!chain(deep).parameters.contains(kBoundedEffort)) return;  // it has another decimator
     const std::size_t before = state_.best->triangles;
     const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
     std::optional<Result> result;
@@ -196,9 +197,9 @@ class Run {
     const ChainResult& made = std::get<ChainResult>(outcome);
     state_.stages += made.seconds;
     const MeshFormat format = mesh_format(settings_.output);
-    require_storable(made.mesh, format, constraint_.epsilon(), settings_.output);
     const auto start = Clock::now();
     try {
+      require_storable(made.mesh, format, constraint_.epsilon(), settings_.output);
       result.mesh = as_stored(made.mesh, format);
       result.error = device_ != nullptr
                          ? constraint_.measure(result.mesh.view(), *device_, search_)
@@ -392,6 +393,9 @@ double violation_of(const ChainResult& made, const MeasuredError& error,
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
                        const OptimizeSettings& settings, const OptimizeObserver& observe) {
+  // Before anything takes long; a candidate's own vertices are looked at as well.
+  require_storable({{cloud.begin(), cloud.end()}, {}}, mesh_format(settings.output),
+                   constraint.epsilon(), settings.output);
   return Run(cloud, constraint, device, settings, observe).run();
 }
 

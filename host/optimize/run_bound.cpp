@@ -35,7 +35,7 @@ TriangleMesh standard_surface(std::span<const Point> cloud, double epsilon,
 DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
                                  const OptimizeSettings& settings) {
   DecimationBound bound;
-  if (settings.decimator != "bounded") return bound;
+  if (settings.decimator == "schroeder") return bound;
   const bool two_sided = settings.epsilon_back.has_value();
   // Storing moves vertices, and with them both distances.
   const TriangleMesh box{{cloud.begin(), cloud.end()}, {}};

@@ -51,11 +51,13 @@ constexpr const char* kNotSaid = "not said";
 
 ordered_json settings_in(const fs::path& folder) {
   const fs::path path = folder / kSettingsName;
-  try {
-    return ordered_json::parse(text_of(path).value_or(""));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(path.string() + ": cannot be read; put it back or name another folder");
-  }
+  const ordered_json settings =
+      ordered_json::parse(text_of(path).value_or(""), nullptr, /*allow_exceptions=*/false);
+  const bool sound = settings.is_object() && std::ranges::all_of(settings, [](const auto& value) {
+                       return value.is_string();
+                     });
+  if (!sound) throw Error(path.string() + ": cannot be read; put it back or name another folder");
+  return settings;
 }
 
 void write_settings(const fs::path& folder, const ordered_json& settings) {

@@ -94,6 +94,11 @@ TriangleMesh mesh_from_binary(const json& vertices, const json& triangles) {
   return mesh;
 }
 
+std::uint64_t count_from(const json& j) {
+  if (!j.is_number_unsigned()) throw Error("a count is no whole number");
+  return j;
+}
+
 Message points_from_json(const json& j) {
   PointsMessage m{points_from_binary(j.at("points")), {}};
   j.at("epsilon").get_to(m.bound.epsilon);
@@ -104,10 +109,10 @@ Message points_from_json(const json& j) {
 }
 
 Message mesh_from_json(const json& j) {
-  MeshMessage m{j.at("ticket"), {}};
+  MeshMessage m{count_from(j.at("ticket")), {}};
   m.result.mesh = mesh_from_binary(j.at("vertices"), j.at("triangles"));
-  m.result.reconstruction_triangles = j.at("reconstruction_triangles");
-  m.result.unmeshed_points = j.at("unmeshed_points");
+  m.result.reconstruction_triangles = count_from(j.at("reconstruction_triangles"));
+  m.result.unmeshed_points = count_from(j.at("unmeshed_points"));
   m.result.back_distance = j.at("back_distance");
   if (!(m.result.back_distance >= 0) || std::isinf(m.result.back_distance)) {
     throw Error("a distance is negative or not finite");
@@ -152,16 +157,17 @@ Message from_json(const json& j) {
   if (kind == "points") return points_from_json(j);
   if (kind == "run") {
     return RunMessage{
-        j.at("ticket"),
+        count_from(j.at("ticket")),
         {j.at("method"), j.at("decimator"), j.at("parameters").get<ParameterValues>()}};
   }
   if (kind == "ready") return ReadyMessage{};
   if (kind == "mesh") return mesh_from_json(j);
   if (kind == "failure") {
-    const auto reason = j.at("reason") == to_string(FailureReason::kOutOfMemory)
-                            ? FailureReason::kOutOfMemory
-                            : FailureReason::kError;
-    return FailureMessage{j.at("ticket"), {reason, j.at("message")}};
+    for (const FailureReason reason : {FailureReason::kError, FailureReason::kOutOfMemory}) {
+      if (j.at("reason") != to_string(reason)) continue;
+      return FailureMessage{count_from(j.at("ticket")), {reason, j.at("message")}};
+    }
+    throw Error("a failure without a known reason");
   }
   if (kind == "unusable") return UnusableMessage{j.at("message")};
   throw Error("unknown kind of message '" + kind + "'");

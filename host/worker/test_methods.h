@@ -14,6 +14,7 @@ namespace emax {
 //   test.trickle announces bytes, then writes one every 0.2 s
 //   test.nested  a message of arrays in arrays
 //   test.full    has no memory left unless it is the first that its worker runs
+//   test.null    aborts unless it is the first that its worker runs
 // A parameter "test.fault" of 1 to 4 makes a sound method crash, hang, allocate without end or
 // write garbage, so that a search meets faults among sound evaluations.
 void run_test_method(const ChainSettings& settings, int channel);

@@ -96,17 +96,26 @@ Bytes evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
   }
 }
 
-void serve(bool allow_test_methods) {
+// What lacks memory between evaluations costs one of them, as a crash does.
+[[noreturn]] void answer_requests(Chain& chain, bool allow_test_methods) {
+  try {
+    for (bool first = true;; first = false) {
+      const Bytes answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
+      // A library may have changed the rounding or flush mode when it was first used.
+      if (first) verify_arithmetic();
+      send(answer);
+    }
+  } catch (const std::bad_alloc&) {
+    leave(1);
+  }
+}
+
+[[noreturn]] void serve(bool allow_test_methods) {
   verify_arithmetic();
   PointsMessage given = read_points();
   Chain chain(std::move(given.points), std::move(given.bound));
   send(encode(ReadyMessage{}));
-  for (bool first = true;; first = false) {
-    const Bytes answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
-    // A library may have changed the rounding or flush mode when it was first used.
-    if (first) verify_arithmetic();
-    send(answer);
-  }
+  answer_requests(chain, allow_test_methods);
 }
 
 int run(std::span<char*> arguments) {

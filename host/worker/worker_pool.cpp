@@ -243,8 +243,11 @@ class WorkerPool::Implementation {
     worker.run.reset();
   }
 
+  // Libraries that get no memory may also crash, so a crash too may be for want of it.
   void give_up(Worker& worker, const Failure& failure) {
-    if (failure.reason == FailureReason::kOutOfMemory && !worker.fresh && worker.run) {
+    const bool may_lack_memory =
+        failure.reason == FailureReason::kOutOfMemory || failure.reason == FailureReason::kCrashed;
+    if (may_lack_memory && !worker.fresh && worker.run) {
       RunMessage again = std::move(*worker.run);
       replace(worker);
       give(worker, std::move(again));

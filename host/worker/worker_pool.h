@@ -28,10 +28,10 @@ struct Completed {
 
 // Evaluations in worker processes that hold one cloud. A worker that crashes, hangs, outgrows its
 // memory or answers rubbish costs its evaluation, which completes as a Failure with the reason, and
-// is replaced. One that outgrows its memory where the worker has others behind it, whose stages it
-// keeps, is tried once more in a fresh one: what an evaluation yields depends neither on the number
-// of workers nor on what they did before. The order in which evaluations complete does. Used by one
-// thread at a time.
+// is replaced. One that outgrows its memory or crashes where the worker has others behind it, whose
+// stages it keeps, is tried once more in a fresh one: what an evaluation yields depends neither on
+// the number of workers nor on what they did before. The order in which evaluations complete does.
+// Used by one thread at a time.
 class WorkerPool {
  public:
   // Starts the workers. Throws Error when the program cannot be started.

@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "benchmark_problems.h"
-#include "host/genocop/genocop.h"
-#include "host/genocop/look_ahead_scheduler.h"
 #include "peer_form.h"
 #include "real_problem.h"
+#include "run_search.h"
 #include "staircase.h"
 
 // Runs the search on its test functions and on scans; one line of JSON for each run, as
@@ -52,12 +51,7 @@ const std::vector<Way>& ways() {
 std::optional<double> gap(const BenchmarkProblem& bench, Settings settings, std::uint64_t budget,
                           std::uint64_t seed) {
   settings.budget = budget;
-  Genocop search(bench.problem, settings, seed);
-  LookAheadScheduler scheduler(search, budget);
-  while (const auto candidate = scheduler.next()) {
-    scheduler.complete(candidate->index, bench.evaluate(candidate->genes));
-  }
-  const auto best = search.best();
+  const auto best = testing_help::run_search(bench, settings, seed);
   if (!best || !best->evaluation.feasible()) return std::nullopt;
   return best->evaluation.objective - bench.optimum;
 }

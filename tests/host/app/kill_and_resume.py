@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Kills `emax optimize` at random moments and continues it: the result has the same bytes each time.
 
-    kill_and_resume.py EMAX [--kills N] [--seed N] [--points N] [--budget N] [--method M]
+    kill_and_resume.py EMAX [--kills N] [--seed N] [--points N] [--budget N] [--method M] [--fault]
 
 Half of the moments are drawn over the time that an undisturbed run takes, half over its evaluations.
 After each kill a copy of the folder is run to its end with one job or two, and compared; the killed
@@ -48,6 +48,7 @@ def main():
     parser.add_argument("--points", type=int, default=500)
     parser.add_argument("--budget", type=int, default=16)
     parser.add_argument("--method", default="gp3")
+    parser.add_argument("--fault", action="store_true", help="expect another byte, which must show")
     options = parser.parse_args()
     emax = options.emax.resolve()
     generator = random.Random(options.seed)
@@ -75,6 +76,8 @@ def main():
         began = time.monotonic()
         expected, _ = result("mesh.ply", "whole", 2)
         took = time.monotonic() - began
+        if options.fault:
+            expected[0] = expected[0][:-1] + bytes([expected[0][-1] ^ 1])
 
         continued = 0
         for kill in range(options.kills):

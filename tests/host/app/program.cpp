@@ -52,6 +52,13 @@ EmaxProcess::~EmaxProcess() {
   std::filesystem::remove_all(streams_);
 }
 
+void EmaxProcess::await_output(const std::string& text) const {
+  for (int i = 0; i < 60'000; ++i) {
+    if (file_text(streams_ / "out").find(text) != std::string::npos) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 void EmaxProcess::signal(int number) const { kill(pid_, number); }
 
 ProgramRun EmaxProcess::wait() {

@@ -21,6 +21,7 @@ class EmaxProcess {
   EmaxProcess(const EmaxProcess&) = delete;
   EmaxProcess& operator=(const EmaxProcess&) = delete;
 
+  void await_output(const std::string& text) const;  // until standard output holds it, or a minute
   void signal(int number) const;
   ProgramRun wait();
 

@@ -127,6 +127,53 @@ TEST_F(Resume, AnInterruptedRunIsContinuedByTheSameCommand) {
   EXPECT_FALSE(exists("mesh.ply.run"));
 }
 
+// A signal ends a search with the best mesh so far, written and true; a second one, before anything
+// new was evaluated, writes nothing and says where the evaluations are.
+TEST_F(Resume, ASignalWritesTheBestSoFar) {
+  const auto endless = command({"--resume", "night"}, "mesh.ply", "100000");
+  for (const int number : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(folder_ / "night");
+    std::filesystem::remove(folder_ / "mesh.ply");
+    test::EmaxProcess process(endless, folder_.path());
+    await("night/evaluations.log", 1000);
+    process.signal(number);
+    const ProgramRun cut = process.wait();
+    EXPECT_EQ(cut.exit_code, 130) << cut.errors;
+    EXPECT_NE(cut.output.find("night; the same command continues it"), std::string::npos)
+        << cut.output;
+    EXPECT_TRUE(exists("mesh.ply"));
+    EXPECT_EQ(test::run_emax({"verify", "mesh.ply.certificate.json"}, folder_.path()).exit_code, 0);
+  }
+  test::EmaxProcess process(endless, folder_.path());
+  process.await_output("continues in night");
+  process.signal(SIGINT);
+  const ProgramRun cut = process.wait();
+  EXPECT_EQ(cut.exit_code, 130) << cut.errors;
+  EXPECT_NE(cut.output.find("night; the same command continues it"), std::string::npos)
+      << cut.output;
+}
+
+TEST_F(Resume, ATornFirstRecordIsSaid) {
+  const auto endless = command({"--resume", "night"}, "mesh.ply", "100000");
+  test::EmaxProcess process(endless, folder_.path());
+  await("night/evaluations.log", 1000);
+  process.signal(SIGKILL);
+  process.wait();
+  std::filesystem::resize_file(folder_ / "night/evaluations.log", 20);
+  const ProgramRun again = optimize({"--resume", "night", "--target-triangles", "100000"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(first_line(again),
+            "run            starts in night; 12 bytes of a torn record were cut off");
+}
+
+TEST_F(Resume, MoreJobsThanCandidatesThatMayBeOutDoNotStart) {
+  folder_.write("narrow.toml", "[search]\nlook_ahead = 2\n");
+  const ProgramRun run =
+      optimize({"--config", "narrow.toml", "--jobs", "9", "--target-triangles", "100000"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_NE(run.output.find(", 2 jobs, "), std::string::npos) << run.output;
+}
+
 // As with a disk that is full at the end: the place of the mesh is gone when it is to be written.
 TEST_F(Resume, AMeshThatCannotBeWrittenIsNotLost) {
   std::filesystem::create_directory(folder_ / "out");

@@ -215,6 +215,24 @@ TEST(ChainParameters, AutoHoldsEveryMethod) {
   EXPECT_EQ(chain_settings("gp3", "bounded", standards).parameters, standards);
 }
 
+// Beside a method or beside all of them.
+TEST(ChainParameters, AutoHoldsBothDecimators) {
+  for (const std::string method : {"gp3", "auto"}) {
+    const auto all = chain_parameters(method, "auto");
+    ParameterValues values = standard_values(all);
+    EXPECT_EQ(values.size(), all.size());
+    for (std::size_t d = 0; d < decimators().size(); ++d) {
+      const std::string decimator(decimators()[d]);
+      values["decimator"] = static_cast<double>(d);
+      const ChainSettings candidate = chain_settings(method, "auto", values);
+      EXPECT_EQ(candidate.method, "gp3");
+      EXPECT_EQ(candidate.decimator, decimator);
+      const ParameterValues plain = standard_values(chain_parameters(method, decimator));
+      EXPECT_EQ(candidate.parameters, chain_settings(method, decimator, plain).parameters);
+    }
+  }
+}
+
 TEST(RunChain, AutoRunsTheMethodsThemselves) {
   const std::vector<Point> cloud = torus_cloud(40, 16);
   ParameterValues values = standard_values(chain_parameters("auto", "schroeder"));

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "domain_check.h"
-#include "host/genocop/genocop.h"
-#include "host/genocop/look_ahead_scheduler.h"
+#include "run_search.h"
 
 namespace emax::benchmark {
 namespace {
@@ -69,12 +68,7 @@ TEST_P(BenchmarkRun, MedianGapStaysWithinWhatWasMeasured) {
     Settings settings;
     settings.budget = 1000;
     settings.look_ahead = 1;
-    Genocop search(bench.problem, settings, seed);
-    LookAheadScheduler scheduler(search, settings.budget);
-    while (const auto candidate = scheduler.next()) {
-      scheduler.complete(candidate->index, bench.evaluate(candidate->genes));
-    }
-    const auto best = search.best();
+    const auto best = testing_help::run_search(bench, settings, seed);
     ASSERT_TRUE(best && best->evaluation.feasible());
     EXPECT_EQ(testing_help::broken_rule(bench.problem, best->genes), "");
     EXPECT_LE(bench.evaluate(best->genes).violation, 0);

@@ -1,32 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <set>
 
-#include "benchmark_problems.h"
-#include "host/genocop/genocop.h"
-#include "host/genocop/look_ahead_scheduler.h"
+#include "run_search.h"
 #include "sw_model/error.h"
 
 namespace emax {
 namespace {
 
 using benchmark::BenchmarkProblem;
-using Observer = std::function<void(const Candidate&, const Evaluation&)>;
-
-std::optional<Best> run(const BenchmarkProblem& bench, const Settings& settings, std::uint64_t seed,
-                        const Observer& observe) {
-  Genocop search(bench.problem, settings, seed);
-  LookAheadScheduler scheduler(search, settings.budget);
-  while (const auto candidate = scheduler.next()) {
-    const Evaluation evaluation = bench.evaluate(candidate->genes);
-    scheduler.complete(candidate->index, evaluation);
-    observe(*candidate, evaluation);
-  }
-  EXPECT_TRUE(scheduler.finished());
-  return search.best();
-}
+using testing_help::run_search;
 
 // Results of an earlier run enter for nothing: they are best from the first moment, never asked for
 // again, and the search goes on from them.
@@ -35,16 +19,17 @@ TEST(KnownResults, AreAWarmStart) {
   Settings settings;
   settings.budget = 150;
   std::set<Genes> seen;
-  const auto first = run(bench, settings, 69, [&](const Candidate& c, const Evaluation& e) {
-    bench.problem.known.emplace_back(c.genes, e);
-    seen.insert(c.genes);
-  });
+  const auto first =
+      run_search(bench, settings, 69, [&](auto&&, const Candidate& c, const Evaluation& e) {
+        bench.problem.known.emplace_back(c.genes, e);
+        seen.insert(c.genes);
+      });
   const Genocop warm(bench.problem, settings, 70);
   EXPECT_EQ(warm.best()->index, kKnownBefore);
   EXPECT_EQ(warm.best()->genes, first->genes);
   EXPECT_EQ(warm.asked(), 0u);
   settings.budget = 60;
-  const auto best = run(bench, settings, 70, [&](const Candidate& c, auto&&) {
+  const auto best = run_search(bench, settings, 70, [&](auto&&, const Candidate& c, auto&&) {
     EXPECT_FALSE(seen.contains(c.genes)) << "candidate " << c.index;
   });
   EXPECT_LE(best->evaluation.objective, first->evaluation.objective);
@@ -78,7 +63,8 @@ TEST(KnownResults, AreNotAskedForWhenNothingNewIsFound) {
   Settings settings;
   settings.budget = 400;
   std::vector<Genes> asked;
-  run(bench, settings, 76, [&](const Candidate& c, auto&&) { asked.push_back(c.genes); });
+  run_search(bench, settings, 76,
+             [&](auto&&, const Candidate& c, auto&&) { asked.push_back(c.genes); });
   EXPECT_EQ(asked, std::vector<Genes>{unknown});
 }
 

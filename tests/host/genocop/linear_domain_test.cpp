@@ -138,6 +138,26 @@ TEST(LinearDomain, RefusesCategoriesInLinearConstraints) {
   EXPECT_THROW(LinearDomain{p}, Error);
 }
 
+TEST(LinearDomain, RefusesWhatNamesNoGene) {
+  Problem p = triangle();
+  p.linear.push_back({{{p.genes.size(), 1.0}}, Relation::kAtMost, 1.0});
+  EXPECT_THROW(LinearDomain{p}, Error);
+  for (const std::size_t length : {p.genes.size() - 1, p.genes.size() + 1}) {
+    p = triangle();
+    p.starts = {Genes(length, 0.1)};
+    EXPECT_THROW(LinearDomain{p}, Error);
+  }
+  p = triangle();
+  p.monotone_gene = p.genes.size();
+  EXPECT_THROW(LinearDomain{p}, Error);
+  p = triangle();
+  p.linear.clear();
+  p.genes[1] = {"method", Kind::kCategorical, 0, 3};
+  EXPECT_NO_THROW(LinearDomain{p});
+  p.monotone_gene = 1;
+  EXPECT_THROW(LinearDomain{p}, Error);
+}
+
 TEST(LinearDomain, AnEqualityThatFollowsFromOthersIsDropped) {
   Problem p = triangle();
   p.linear = {{{{0, 1.0}, {1, 1.0}}, Relation::kEqual, 1.0},

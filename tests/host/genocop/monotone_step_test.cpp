@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/genocop/genocop.h"
-#include "host/genocop/look_ahead_scheduler.h"
+#include "run_search.h"
 #include "staircase.h"
 
 namespace emax {
@@ -37,6 +36,19 @@ Genes climb_until_done(MonotoneStep& step, Evaluation (*evaluate)(const Genes&),
     step.told(*trial, e);
   }
   return best;
+}
+
+TEST(MonotoneStep, GenesWithoutAMeaningTellNoLinesApart) {
+  Problem p = two_genes();
+  p.genes.push_back({"method", Gene::Kind::kCategorical, 0, 1});
+  p.genes.push_back({"own", Gene::Kind::kContinuous, 2, 3, Gene::Condition{2, 1}});
+  p.genes.push_back({"held", Gene::Kind::kContinuous, 2, 3, Gene::Condition{2, 1}});
+  p.linear = {{{{0, 1}, {4, 1}}, LinearConstraint::Relation::kAtMost, 3.5}};
+  const LinearDomain domain(p);
+  const MonotoneStep step(domain, 1, {});
+  EXPECT_TRUE(step.same_line({0.1, 0.2, 0, 2, 2}, {0.1, 0.7, 0, 3, 2}));
+  EXPECT_FALSE(step.same_line({0.1, 0.2, 1, 2, 2}, {0.1, 0.7, 1, 3, 2}));
+  EXPECT_FALSE(step.same_line({0.1, 0.2, 0, 2, 2}, {0.1, 0.7, 0, 2, 3}));
 }
 
 TEST(MonotoneStep, ClimbsToTheConstraintInFewTrials) {
@@ -143,13 +155,9 @@ double median_gap(bool with_step) {
     settings.budget = 150;
     settings.monotone_step = with_step;
     settings.linear_model = settings.finish = false;
-    Genocop search(toy.problem, settings, seed);
-    LookAheadScheduler scheduler(search, settings.budget);
-    while (const auto candidate = scheduler.next()) {
-      scheduler.complete(candidate->index, toy.evaluate(candidate->genes));
-    }
-    EXPECT_TRUE(search.best()->evaluation.feasible()) << "seed " << seed;
-    gaps.push_back(search.best()->evaluation.objective - toy.optimum);
+    const auto best = testing_help::run_search(toy, settings, seed);
+    EXPECT_TRUE(best->evaluation.feasible()) << "seed " << seed;
+    gaps.push_back(best->evaluation.objective - toy.optimum);
   }
   std::nth_element(gaps.begin(), gaps.begin() + 10, gaps.end());
   return gaps[10];

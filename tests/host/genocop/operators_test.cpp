@@ -141,7 +141,7 @@ TEST(Operators, NonUniformAndGaussianStepsShrinkWithTheBudget) {
   EXPECT_NEAR(mean_step(gaussian_mutation, 0.5) / mean_step(gaussian_mutation, 1), 0.5, 0.05);
 }
 
-// Categories have no order: a child of several parents has one of theirs, a mutant any other.
+// Categories have no order: a child of several parents has one of theirs, a mutant any.
 TEST(Operators, CategoriesAreTakenOrChangedNeverMixed) {
   Problem p;
   p.genes = {{"method", Gene::Kind::kCategorical, 0, 9}, {"x", Gene::Kind::kContinuous, 0, 1}};

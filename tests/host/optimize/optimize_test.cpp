@@ -238,6 +238,60 @@ TEST_F(OptimizeTest, AMeshThatIsLostIsMadeAgain) {
   expect_same(run(&log), whole);
 }
 
+// As when the libraries have changed although the settings name the same.
+TEST_F(OptimizeTest, AMeshThatIsMadeAgainMustBeTheSame) {
+  std::uint64_t best = 0;
+  {
+    RunLog log(path_, kSettings);
+    best = run(&log).best->index;
+  }
+  RunLog log(path_, kSettings);
+  LoggedEvaluation other = *log.find(best);
+  other.squared_bits ^= 1;
+  log.append(other);
+  std::filesystem::remove(path_ / ("mesh-" + std::to_string(best) + ".ply"));
+  EXPECT_THROW(run(&log), Error);
+}
+
+// Before the first reconstruction; a candidate's own vertices cost that candidate.
+TEST_F(OptimizeTest, RefusesAFormatThatRoundsTooMuch) {
+  settings_.output = "mesh.stl";
+  EXPECT_TRUE(run().best);
+  std::vector<Point> far = cloud_;
+  for (Point& p : far) p.x() += 1e8;
+  ErrorConstraint constraint(far, 0.3, 0);
+  int observed = 0;
+  EXPECT_THROW(optimize(far, constraint, nullptr, settings_, [&](auto&&) { ++observed; }), Error);
+  EXPECT_EQ(observed, 0);
+}
+
+// Both decimators as categories: what is found is either's, and only the bounded one goes deep.
+TEST_F(OptimizeTest, TheDecimatorMayBeAGene) {
+  settings_.decimator = "auto";
+  settings_.config = default_config(chain_parameters("gp3", "auto"));
+  settings_.config.search.budget = kBudget;
+  settings_.bound.epsilon = 0.05;
+  std::set<std::string> decimators;
+  RunLog log(path_, kSettings);
+  const OptimizeState state = run(&log);
+  ASSERT_TRUE(state.best);
+  const Problem problem = search_problem(settings_);
+  for (const auto& [index, e] : log.evaluations()) {
+    decimators.insert(chain_of(settings_, problem, e.genes).decimator);
+  }
+  EXPECT_EQ(decimators.size(), 2u);
+  EXPECT_EQ(state.best->chain.decimator, "bounded");
+  EXPECT_EQ(state.best->chain.parameters.at(kBoundedEffort), kDeepEffort);
+
+  const auto gene = std::ranges::find(settings_.config.genes, "decimator",
+                                      [](const GeneConfig& g) { return g.gene.name; });
+  gene->fixed = 1;
+  const OptimizeState paper = run();
+  ASSERT_TRUE(paper.best);
+  EXPECT_EQ(paper.best->chain.decimator, "schroeder");
+  EXPECT_FALSE(paper.polished);
+}
+
 // The twin is a worker's chain, run here with the best's parameters.
 TEST_F(OptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   settings_.decimator = "bounded";

@@ -111,8 +111,10 @@ TEST_F(RunLogTest, NamesTheFirstSettingThatDiffers) {
   expect_clear(refusal(fewer), path_.string(), "seed 7, this one has not said", "--resume");
   EXPECT_EQ(bytes_of(path_ / "evaluations.log"), before);
   EXPECT_EQ(RunLog(path_, kSettings).size(), 1u);
-  folder_.write("mesh.ply.run/settings.json", "{");
-  expect_clear(refusal(kSettings), (path_ / "settings.json").string(), "read", "another folder");
+  for (const char* unreadable : {"{", "[]", "7", "{\"seed\": 7}", "{\"seed\": null}"}) {
+    folder_.write("mesh.ply.run/settings.json", unreadable);
+    expect_clear(refusal(kSettings), (path_ / "settings.json").string(), "read", "another folder");
+  }
 }
 
 // Of another version, which the settings name.

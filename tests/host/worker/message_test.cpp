@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <string>
 
 #include "sw_model/error.h"
 #include "tests/host/reconstruct/surface_clouds.h"
@@ -132,6 +134,27 @@ TEST(Message, RefusesDistancesThatAreNone) {
     MeshMessage message = tetrahedron();
     message.result.back_distance = distance;
     EXPECT_THROW(decode(body(encode(message))), Error) << distance;
+  }
+}
+
+// The value behind the first key of that name changed to another of one byte.
+TEST(Message, RefusesCountsAndReasonsThatAreNone) {
+  const auto with = [](Bytes bytes, const std::string& key, std::uint8_t value) {
+    const auto at = std::search(bytes.begin(), bytes.end(), key.begin(), key.end());
+    EXPECT_NE(at, bytes.end()) << key;
+    *(at + static_cast<std::ptrdiff_t>(key.size())) = value;
+    return bytes;
+  };
+  constexpr std::uint8_t kSeven = 0x07, kMinusEight = 0x27, kNull = 0xf6;
+  for (const char* key : {"ticket", "reconstruction_triangles", "unmeshed_points"}) {
+    const Bytes bytes = encode(tetrahedron());
+    EXPECT_NO_THROW(decode(body(with(bytes, key, kSeven)))) << key;
+    EXPECT_THROW(decode(body(with(bytes, key, kMinusEight))), Error) << key;
+    EXPECT_THROW(decode(body(with(bytes, key, kNull))), Error) << key;
+  }
+  for (const FailureReason reason :
+       {FailureReason::kTimedOut, FailureReason::kCrashed, FailureReason::kGarbled}) {
+    EXPECT_THROW(decode(body(encode(FailureMessage{7, {reason, "why"}}))), Error);
   }
 }
 

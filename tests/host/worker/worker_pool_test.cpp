@@ -191,6 +191,19 @@ TEST(WorkerPool, TriesAgainInAFreshWorkerWhatLacksMemory) {
   EXPECT_NE(failure.message.find("no reconstruction method"), std::string::npos);
 }
 
+// A library that gets no memory may crash; what crashes in a fresh worker too is given up.
+TEST(WorkerPool, TriesAgainInAFreshWorkerWhatCrashes) {
+  for (const auto& [fault, reason] : {std::pair("test.null", FailureReason::kError),
+                                      std::pair("test.crash", FailureReason::kCrashed)}) {
+    WorkerPool pool(torus_cloud(30, 12), options(1));
+    pool.submit(1, settings("gp3"));
+    pool.submit(2, failing(fault));
+    EXPECT_TRUE(std::holds_alternative<ChainResult>(pool.wait().outcome));
+    const Completed tried = pool.wait();
+    EXPECT_EQ(std::get<Failure>(tried.outcome).reason, reason) << fault;
+  }
+}
+
 // A sound evaluation goes on beside a hanging one, and wait_for comes back from it.
 TEST(WorkerPool, WaitsNoLongerThanAsked) {
   WorkerPool pool(torus_cloud(30, 12), options(2));
