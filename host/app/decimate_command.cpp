@@ -32,16 +32,19 @@ class DecimateCommand {
         tolerance_(parse_tolerance(options.max_error)) {
     std::optional<Tolerance> back;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
-    check_output(options.output, mesh_endings());
+    check_mesh_outputs(options.output, options.two_sided);
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
     check_distinct({options.output, certificate_path(options.output), options.json},
                    {options.mesh, options.cloud});
     given_ = read_mesh(options.mesh);
     scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
                        : read_scan(options.cloud, options.skip_invalid);
-    epsilon_ = checked(tolerance_, "--max-error");
+    // Of what was read: the files may change while the decimation runs.
+    mesh_sha256_ = sha256_of_file(options.mesh);
+    cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_file(scan_.path);
+    epsilon_ = below_width(tolerance_, "--max-error", scan_);
     settings_.decimation.epsilon = epsilon_;
-    settings_.decimation.epsilon_back = back ? checked(*back, "--back-error") : epsilon_;
+    settings_.decimation.epsilon_back = back ? below_width(*back, "--back-error", scan_) : epsilon_;
     settings_.decimation.two_sided = options.two_sided;
     settings_.decimation.effort = effort_named(options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
@@ -125,15 +128,6 @@ class DecimateCommand {
     return reference_path(options_.output);
   }
 
-  double checked(const Tolerance& tolerance, const char* option) const {
-    const double length = tolerance.in_units(scan_.width);
-    if (length < scan_.width) return length;
-    throw Error(
-        fmt::format("{} {:.6g} is no less than the width of {}, {:.6g}: give it in the "
-                    "unit of the file, or as N%",
-                    option, length, scan_.path.string(), scan_.width));
-  }
-
   void print_task() const {
     fmt::print("mesh           {}: {} triangles\n", options_.mesh,
                grouped(given_.triangles.size()));
@@ -154,7 +148,7 @@ class DecimateCommand {
     certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
     certificate.mesh_sha256 = sha256(bytes);
     certificate.cloud_file = scan_.path.filename().string();
-    certificate.cloud_sha256 = sha256_of_file(scan_.path);
+    certificate.cloud_sha256 = cloud_sha256_;
     certificate.skip_invalid = options_.skip_invalid;
     certificate.vertices_of_mesh = own_cloud_;
     certificate.epsilon = epsilon_;
@@ -172,7 +166,7 @@ class DecimateCommand {
     if (options_.two_sided) {
       std::string sum;
       if (given_is_reference()) {
-        sum = sha256_of_file(options_.mesh);
+        sum = mesh_sha256_;
       } else {
         files.push_back({reference_file(), mesh_bytes(reference_.mesh, MeshFormat::kPly)});
         sum = sha256(files.back().bytes);
@@ -263,6 +257,7 @@ class DecimateCommand {
   Tolerance tolerance_;
   TriangleMesh given_;
   Scan scan_;
+  std::string mesh_sha256_, cloud_sha256_;
   double epsilon_ = 0;
   CertifiedDecimationSettings settings_;
   ReferenceSurface reference_;

@@ -1,18 +1,17 @@
 #include "host/app/decimation_progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "host/app/scan.h"
+#include "host/app/standard_streams.h"
 
 namespace emax {
 
 DecimationProgress::DecimationProgress(std::optional<std::chrono::duration<double>> time)
-    : time_(time), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : time_(time), terminal_(standard_error_is_terminal()) {}
 
 double DecimationProgress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
@@ -34,14 +33,13 @@ void DecimationProgress::show(double share, std::size_t triangles) {
   const auto now = Clock::now();
   if (now - shown_ < std::chrono::milliseconds(terminal_ ? 100 : 10000)) return;
   shown_ = now;
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line(share, triangles),
-             terminal_ ? "" : "\n");
-  std::fflush(stderr);
+  const std::string text = line(share, triangles);
+  to_standard_error(terminal_ ? "\r\033[K" + fit_terminal(text) : text + "\n");
   open_line_ = terminal_;
 }
 
 void DecimationProgress::finish() {
-  if (open_line_) fmt::print(stderr, "\n");
+  if (open_line_) to_standard_error("\n");
   open_line_ = false;
 }
 

@@ -1,18 +1,24 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <functional>
 #include <new>
+#include <span>
+#include <string>
 #include <system_error>
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
+#include "host/app/option_checks.h"
+#include "host/app/standard_streams.h"
 #include "host/decimate/chain_parameters.h"
 #include "host/device/device_address.h"
 #include "host/emax_search/emax_search.h"
+#include "host/geometry/input_file.h"
 #include "host/optimize/config.h"
 #include "sw_model/error.h"
 #include "sw_model/self_test.h"
@@ -53,14 +59,34 @@ void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
       ->capture_default_str();
 }
 
+// What the parser would not name.
+void check_words(CLI::App& app, std::span<char*> words) {
+  for (const std::string word : words.subspan(std::min<std::size_t>(1, words.size()))) {
+    if (is_utf8(word)) continue;
+    throw Error(printable(word) + ": is not UTF-8, as certificates need; rename the file");
+  }
+  if (words.size() < 2 || words[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == words[1]) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw Error(
+      fmt::format("there is no command '{}', but {}; see emax --help", printable(words[1]), names));
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "emax: a triangle mesh with as few triangles as possible, certified to lie within a "
       "tolerance "
       "of every point of a scan.");
+  app.name("emax");
+  app.set_version_flag("--version", "emax " EMAX_VERSION);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("emax: {}; see emax --help\n", error.what());
+  app.failure_message([](const CLI::App* all, const CLI::Error& error) {
+    const auto chosen = all->get_subcommands();
+    return fmt::format("emax: {}; see emax {}--help\n", error.what(),
+                       chosen.empty() ? "" : chosen.front()->get_name() + " ");
   });
   std::function<int()> chosen;
 
@@ -83,12 +109,13 @@ int run(int argc, char** argv) {
           "one-sided with --decimator schroeder or auto)")
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
   optimize_command.add_option("--seed", optimize.seed, "seed of every random choice")
+      ->check(whole())
       ->capture_default_str();
   optimize_command.add_option("--budget", optimize.budget, "evaluations (default: as configured)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   optimize_command
       .add_option("--time", optimize.seconds, "stop the search after this many seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(positive("seconds"));
   optimize_command
       .add_option("--jobs", optimize.jobs,
                   "worker processes, at most search.look_ahead of the configuration (default: one "
@@ -97,11 +124,11 @@ int run(int argc, char** argv) {
   optimize_command
       .add_option("--target-triangles", optimize.target_triangles,
                   "stop at a mesh within the tolerance of at most so many triangles")
-      ->check(CLI::PositiveNumber);
+      ->check(positive("triangles"));
   optimize_command
       .add_option("--stagnation", optimize.stagnation,
                   "stop after so many evaluations without a better mesh")
-      ->check(CLI::PositiveNumber);
+      ->check(positive("evaluations"));
   optimize_command.add_flag("--polish,!--no-polish", optimize.polish,
                             "decimate the best mesh once more in the end, deep (default; only "
                             "of the bounded decimator)");
@@ -112,12 +139,13 @@ int run(int argc, char** argv) {
       .add_option("--evaluation-time", optimize.evaluation_seconds,
                   "give an evaluation up after this many seconds (default: 600, or 0.002 a point "
                   "where that is more), and --polish after ten times as many")
-      ->check(CLI::Range(0.001, 1e7));
+      ->check(within(0.001, 1e7));
   optimize_command
       .add_option("--evaluation-memory", optimize.evaluation_memory,
                   "give an evaluation up that needs more: bytes, or N MB, N GB (default: 2 GB "
                   "and 8 KB a point, at most 7/8 of the memory)")
-      ->transform(CLI::AsSizeValue(false));
+      ->transform(CLI::AsSizeValue(false))
+      ->transform(not_negative());  // before the other
   optimize_command.add_option("--config", optimize.config,
                               "settings and domains; `emax config` prints the defaults");
   optimize_command.callback([&] { chosen = [&optimize] { return run_optimize(optimize); }; });
@@ -155,13 +183,13 @@ int run(int argc, char** argv) {
       .add_option("--feature-angle", decimate.feature_angle,
                   "keep edges over which the surface turns by more than this many degrees, and "
                   "their corners, sharp; 40 suits machine parts, noise asks for none")
-      ->check(CLI::Range(1.0, 180.0));
+      ->check(within(1, 180));
   add_points_and_json(decimate_command, decimate.excluded_share, decimate.skip_invalid,
                       decimate.json);
   decimate_command
       .add_option("--time", decimate.seconds,
                   "stop after this many seconds, with the mesh reached by then")
-      ->check(CLI::PositiveNumber);
+      ->check(positive("seconds"));
   decimate_command.callback([&] {
     decimate.two_sided = decimate_bound == "two-sided";
     if (!decimate.two_sided && !decimate.back_error.empty()) {
@@ -193,7 +221,7 @@ int run(int argc, char** argv) {
                   "(default: 50 90 95 99 99.9)")
       ->expected(1)
       ->take_all()
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(within(0, 100));
   error_command.add_option("--worst", error.worst, "how many of the farthest points are printed")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
       ->capture_default_str();
@@ -228,8 +256,14 @@ int run(int argc, char** argv) {
     };
   });
 
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_type_name() == "TEXT") option->check(not_empty());
+    }
+  }
+  check_words(app, std::span(argv, static_cast<std::size_t>(argc)));
   if (argc == 1) {
-    fmt::print(stderr, "{}", app.help());
+    to_standard_error(app.help());
     return kExitError;
   }
   try {
@@ -238,7 +272,7 @@ int run(int argc, char** argv) {
     return app.exit(parse_error) == 0 ? kExitOk : kExitError;
   }
   verify_arithmetic();
-  note_interrupts();
+  if (!verify_command.parsed()) note_interrupts();  // which has nothing to end well
   return chosen();
 }
 
@@ -246,23 +280,27 @@ int run(int argc, char** argv) {
 }  // namespace emax
 
 int main(int argc, char** argv) {
+  emax::open_standard_streams();
+  const auto complain = [](const std::string& text) {
+    emax::to_standard_error("emax: " + text + "\n");
+  };
   int code = emax::kExitError;
   try {
     code = emax::run(argc, argv);
   } catch (const emax::Error& error) {
-    fmt::print(stderr, "emax: {}\n", error.what());
+    complain(error.what());
   } catch (const emax::Interrupted&) {
-    fmt::print(stderr, "emax: interrupted; nothing was written\n");
+    complain("interrupted; nothing was written");
     code = emax::kExitInterrupted;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "emax: out of memory; use a smaller cloud or fewer --jobs\n");
+    complain("out of memory; use a smaller cloud or fewer --jobs");
   } catch (const std::system_error& error) {
-    fmt::print(stderr, "emax: {}\n", error.what());
+    complain(error.what());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "emax: {} (a defect of the program; please report it)\n", error.what());
+    complain(std::string(error.what()) + " (a defect of the program; please report it)");
   }
   if (std::fflush(stdout) != 0) {
-    fmt::print(stderr, "emax: standard output cannot be written: {}\n", std::strerror(errno));
+    complain(std::string("standard output cannot be written: ") + std::strerror(errno));
     return emax::kExitError;
   }
   return code;

@@ -92,22 +92,23 @@ class OptimizeCommand {
       throw Error(
           "--bound two-sided needs --decimator bounded; the paper's chain bounds the points");
     }
-    check_output(options.output, mesh_endings());
+    check_mesh_outputs(options.output, two_sided);
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
     check_distinct({options.output, certificate_path(options.output),
                     two_sided ? reference_path(options.output) : "", options.common.json},
                    {options.common.cloud, options.config});
+    const std::string folder = options.resume.empty() ? options.output + ".run" : options.resume;
+    check_outside({options.output, certificate_path(options.output), options.common.json}, folder);
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
     cloud_sha256_ = sha256_of_file(scan_.path);
-    epsilon_ = tolerance.in_units(scan_.width);
+    epsilon_ = below_width(tolerance, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
     settings_.limits = evaluation_limits(options, scan_.cloud.points.size());
     if (options.jobs == 0) {
       settings_.jobs = std::min(settings_.jobs, jobs_in_memory(*settings_.limits));
     }
-    log_.emplace(options.resume.empty() ? options.output + ".run" : options.resume,
-                 run_settings(options, settings_, cloud_sha256_, epsilon_));
+    log_.emplace(folder, run_settings(options, settings_, cloud_sha256_, epsilon_));
     settings_.log = &*log_;
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
@@ -155,6 +156,9 @@ class OptimizeCommand {
       end_run();
       if (state_.interrupted) throw Interrupted{};
       if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
+      if (state_.out_of_time && state_.evaluations == 0) {
+        throw Error("--time ended before the first evaluation; allow for more");
+      }
       throw Error(fmt::format("{}: no mesh could be made of it in {} evaluations{}",
                               scan_.path.string(), state_.evaluations, describe_failures(state_)));
     }

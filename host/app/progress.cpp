@@ -1,13 +1,12 @@
 #include "host/app/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "host/app/scan.h"
+#include "host/app/standard_streams.h"
 
 namespace emax {
 namespace {
@@ -21,7 +20,7 @@ std::string minutes(std::chrono::duration<double> time) {
 
 Progress::Progress(const ErrorConstraint& constraint,
                    std::optional<std::chrono::duration<double>> time)
-    : constraint_(constraint), time_(time), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : constraint_(constraint), time_(time), terminal_(standard_error_is_terminal()) {}
 
 std::string Progress::time_left(const OptimizeState& state) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
@@ -63,8 +62,7 @@ void Progress::show(const OptimizeState& state) {
       state.best ? std::optional(state.best->triangles) : std::nullopt;
   if (terminal_) {
     if (now - shown_ < std::chrono::milliseconds(100)) return;
-    fmt::print(stderr, "\r\033[K{}", line(state));
-    std::fflush(stderr);
+    to_standard_error("\r\033[K" + fit_terminal(line(state)));
     open_line_ = true;
     shown_ = now;
     return;
@@ -73,11 +71,11 @@ void Progress::show(const OptimizeState& state) {
   if (triangles == best_triangles_ && tenth == tenth_ && !begins_polishing) return;
   best_triangles_ = triangles;
   tenth_ = tenth;
-  fmt::print(stderr, "{}\n", line(state));
+  to_standard_error(line(state) + "\n");
 }
 
 void Progress::finish() {
-  if (open_line_) fmt::print(stderr, "\n");
+  if (open_line_) to_standard_error("\n");
   open_line_ = false;
 }
 

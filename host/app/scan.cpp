@@ -6,8 +6,11 @@
 #include <charconv>
 #include <cstdio>
 
+#include "host/geometry/atomic_file.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/cloud_file.h"
+#include "host/geometry/mesh_file.h"
+#include "host/report/certificate_file.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -43,6 +46,21 @@ EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::ui
   EmaxResult worst = worst_of(bits);
   worst.worst_point = scan.cloud.index_in_file(worst.worst_point);
   return worst;
+}
+
+double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan) {
+  const double length = tolerance.in_units(scan.width);
+  if (length < scan.width) return length;
+  throw Error(
+      fmt::format("{} {:.6g} is no less than the width of {}, {:.6g}: give it in the unit of the "
+                  "file, or as N%",
+                  option, length, scan.path.string(), scan.width));
+}
+
+void check_mesh_outputs(const std::filesystem::path& mesh, bool with_reference) {
+  check_output(mesh, mesh_endings());
+  check_output(certificate_path(mesh), kJsonEndings);
+  if (with_reference) check_output(reference_path(mesh), mesh_endings());
 }
 
 double parse_share(std::string_view text) {

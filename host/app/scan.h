@@ -11,6 +11,7 @@
 #include "host/emax_search/error_engine.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
+#include "host/geometry/tolerance.h"
 #include "host/geometry/triangle_mesh.h"
 #include "sw_model/certificate.h"
 
@@ -42,6 +43,13 @@ Scan read_scan(const std::filesystem::path& path, bool skip_invalid);
 
 // What the kernel says of the points that are not excluded; its worst point is the file's.
 EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded);
+
+// The tolerance in the scan's unit. Throws Error naming the option where it is no less than the
+// scan's width, as when it is given in another unit.
+double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan);
+
+// Mesh and certificate, and the reference where there may be one: check_output for each.
+void check_mesh_outputs(const std::filesystem::path& mesh, bool with_reference);
 
 // "N" or "N%" of the points, 0 <= N < 1 (100%). Throws Error.
 double parse_share(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,14 +25,31 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+// The file that writing to `path` makes or replaces: links are followed, also where they lead to
+// nothing yet. Still a link where they lead in a circle.
+fs::path target_of(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code failure;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(path, failure); ++links) {
+    const fs::path next = fs::read_symlink(path, failure);
+    if (failure) break;
+    path = next.is_absolute() ? next : folder_of(path) / next;
+  }
+  return path;
+}
+
+// Links followed; what cannot be looked at fails when it is opened.
+fs::path place_of(const fs::path& path) {
+  std::error_code failure;
+  fs::path place = fs::weakly_canonical(fs::absolute(target_of(path), failure), failure);
+  return failure ? path : place;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
+AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(target_of(path)) {
   std::error_code ignored;
-  if (fs::is_symlink(path, ignored)) {
-    const fs::path resolved = fs::weakly_canonical(path, ignored);
-    if (!ignored) target_ = resolved;
-  }
+  if (fs::is_symlink(target_, ignored)) fail(ELOOP);
   static std::atomic<unsigned> serial{0};
   // A leftover of a killed process may hold the name: then the next number is tried.
   do {
@@ -40,6 +58,9 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) fail(errno);
+  // What is replaced keeps its permissions, where that may be.
+  struct stat old {};
+  if (stat(target_.c_str(), &old) == 0) (void)!fchmod(descriptor_, old.st_mode & 0777);
 }
 
 AtomicFile::~AtomicFile() {
@@ -112,20 +133,19 @@ void check_output(const fs::path& path, std::span<const std::string_view> ending
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
     fail("is not a regular file", "name another output");
   }
-  if (!fs::is_directory(folder_of(path), ignored)) {
-    fail(fmt::format("the folder {} does not exist", folder_of(path).string()), "create it first");
+  const fs::path target = target_of(path);
+  if (!fs::is_directory(folder_of(target), ignored)) {
+    fail(fmt::format("the folder {} does not exist", folder_of(target).string()),
+         "create it first");
+  }
+  if (fs::exists(target, ignored) && access(target.c_str(), W_OK) != 0) {
+    fail("is write-protected", "name another output, or allow it to be written");
   }
   AtomicFile probe(path);
 }
 
 void check_distinct(std::initializer_list<fs::path> outputs,
                     std::initializer_list<fs::path> inputs) {
-  // Links followed, as writing does; what cannot be looked at fails when it is opened.
-  const auto place_of = [](const fs::path& path) {
-    std::error_code failure;
-    fs::path place = fs::weakly_canonical(fs::absolute(path, failure), failure);
-    return failure ? path : place;
-  };
   std::map<fs::path, std::string_view> taken;
   for (const fs::path& path : inputs) {
     if (!path.empty()) taken.emplace(place_of(path), "read and replaced");
@@ -135,6 +155,14 @@ void check_distinct(std::initializer_list<fs::path> outputs,
     const auto [file, free] = taken.emplace(place_of(path), "written twice");
     if (free) continue;
     throw Error(fmt::format("{}: would be {}; name another output", path.string(), file->second));
+  }
+}
+
+void check_outside(std::initializer_list<fs::path> outputs, const fs::path& folder) {
+  for (const fs::path& path : outputs) {
+    if (path.empty() || place_of(path).parent_path() != place_of(folder)) continue;
+    throw Error(fmt::format("{}: lies in {}, which is for the run's own files; name another output",
+                            path.string(), folder.string()));
   }
 }
 

@@ -15,7 +15,8 @@ namespace emax {
 // or unlinks temporary() itself.
 class AtomicFile {
  public:
-  // Throws Error when nothing can be created beside `path`. A symbolic link is followed.
+  // Throws Error when nothing can be created beside `path`. A symbolic link is followed, also to a
+  // file that is not there yet; a file that is replaced passes its permissions on.
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -52,11 +53,15 @@ struct OutputFile {
 void write_together(std::span<const OutputFile> files);
 
 // To be asked before long work: throws Error unless `path` has one of `endings` (in lower case,
-// with the dot), is no folder or device, and its folder exists and lets a file be created.
+// with the dot), is no folder, device or write-protected file, and its folder exists and lets a
+// file be created.
 void check_output(const std::filesystem::path& path, std::span<const std::string_view> endings);
 // And that nothing written replaces what is read or what else is written: throws Error where an
 // output is the file of an input or of another output. Empty paths stand for none.
 void check_distinct(std::initializer_list<std::filesystem::path> outputs,
                     std::initializer_list<std::filesystem::path> inputs);
+// And that none of them lies in a folder whose files come and go: throws Error.
+void check_outside(std::initializer_list<std::filesystem::path> outputs,
+                   const std::filesystem::path& folder);
 
 }  // namespace emax

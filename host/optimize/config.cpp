@@ -333,6 +333,10 @@ std::string default_config_text(std::span<const ParameterSpec> parameters) {
 
 Config read_config(const std::filesystem::path& path, std::span<const ParameterSpec> parameters) {
   const std::string file = path.string();
+  std::error_code absent;
+  if (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent)) {
+    throw Error(file + ": is not a regular file; give a configuration file");
+  }
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
   if (!stream || !(content << stream.rdbuf())) {

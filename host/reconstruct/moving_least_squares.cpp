@@ -77,7 +77,9 @@ LeastSquaresPatch::LeastSquaresPatch(std::span<const Point> points, double radiu
 }
 
 Point LeastSquaresPatch::project(const Point& point) const {
-  constexpr int kOrder = 2;
+  // PCL fits no polynomial to fewer points than it has coefficients, but would look at it.
+  constexpr std::size_t kQuadratic = 6;
+  const int order = points_.size() < kQuadratic ? 1 : 2;
   Cloud cloud;
   for (const Point& p : points_) {
     cloud.push_back(
@@ -90,7 +92,7 @@ Point LeastSquaresPatch::project(const Point& point) const {
   std::iota(neighbours.begin(), neighbours.end(), 0);
   pcl::MLSResult surface;
   surface.computeMLSSurface(cloud, static_cast<pcl::index_t>(points_.size()), neighbours, radius_,
-                            kOrder);
+                            order);
   if (!surface.valid) return point;
   const Point projected = surface.projectQueryPoint(pcl::MLSResult::SIMPLE).point;
   return projected.allFinite() ? Point(projected / scale_ + origin_) : point;

@@ -21,7 +21,7 @@ std::vector<Point> on_least_squares_surface(std::span<const Point> points,
 
 // A moving least squares surface in the neighbourhood of a hole (paper, section 2.2 and [4], [5]):
 // for every point asked a polynomial of degree two over the plane that fits the points best, their
-// weights falling with the distance as exp(-(d / radius)^2).
+// weights falling with the distance as exp(-(d / radius)^2); with fewer than six points the plane.
 class LeastSquaresPatch {
  public:
   // At least three points.

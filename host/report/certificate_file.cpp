@@ -1,10 +1,9 @@
 #include "host/report/certificate_file.h"
 
 #include <charconv>
-#include <fstream>
-#include <sstream>
 
 #include "hls/kernel/command_words.h"
+#include "host/geometry/input_file.h"
 #include "host/report/json_parts.h"
 #include "sw_model/error.h"
 
@@ -27,7 +26,7 @@ ReferenceBound reference_from_json(const Json& json) {
   ReferenceBound r;
   json.at("file").get_to(r.file);
   json.at("sha256").get_to(r.sha256);
-  json.at("triangles").get_to(r.triangles);
+  get_count(json.at("triangles"), r.triangles);
   json.at("epsilon_back").get_to(r.epsilon_back);
   json.at("mesh_to_reference").get_to(r.mesh_to_reference);
   const Json& whole = json.at("reference_to_mesh");
@@ -49,18 +48,18 @@ Certificate parse(const Json& json) {
   const Json& cloud = json.at("cloud");
   mesh.at("file").get_to(c.mesh_file);
   mesh.at("sha256").get_to(c.mesh_sha256);
-  mesh.at("vertices").get_to(c.vertices);
+  get_count(mesh.at("vertices"), c.vertices);
   cloud.at("file").get_to(c.cloud_file);
   cloud.at("sha256").get_to(c.cloud_sha256);
   cloud.at("skip_invalid").get_to(c.skip_invalid);
   c.vertices_of_mesh = cloud.value("vertices_of_mesh", false);
-  json.at("triangles").get_to(c.triangles);
+  get_count(json.at("triangles"), c.triangles);
   json.at("epsilon").get_to(c.epsilon);
   json.at("e_max").get_to(c.error.e_max_upper);
-  json.at("worst_point").get_to(c.kernel.worst_point);
-  json.at("points").get_to(c.error.points);
-  for (const Json& point : json.at("excluded")) {
-    c.error.excluded.push_back(point.at("point").get<std::uint32_t>());
+  get_count(json.at("worst_point"), c.kernel.worst_point);
+  get_count(json.at("points"), c.error.points);
+  for (const Json& point : json.at("excluded").get_ref<const Json::array_t&>()) {
+    get_count(point.at("point"), c.error.excluded.emplace_back());
     c.error.excluded_distances.push_back(point.at("distance").get<double>());
   }
   json.at("e_max_all").get_to(c.error.e_max_upper_all);
@@ -123,13 +122,9 @@ std::string to_json_text(const Certificate& c) {
 }
 
 Certificate read_certificate(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (std::filesystem::is_directory(path) || !(text << file.rdbuf())) {
-    throw Error(path.string() + ": cannot be read; name a certificate made by emax");
-  }
+  const InputFile file = read_input(path);
   try {
-    return parse(Json::parse(text.str()));
+    return parse(Json::parse(file.bytes));
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what());
   } catch (const nlohmann::json::exception&) {

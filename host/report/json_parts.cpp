@@ -43,7 +43,7 @@ Json to_json(const MeshValidity& validity) {
 
 MeshValidity validity_from_json(const Json& json) {
   MeshValidity validity;
-  for (const auto& [key, member] : kValidityCounts) json.at(key).get_to(validity.*member);
+  for (const auto& [key, member] : kValidityCounts) get_count(json.at(key), validity.*member);
   return validity;
 }
 

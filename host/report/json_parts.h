@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/geometry/mesh_validity.h"
@@ -16,6 +17,15 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr const char* kBound = "one-sided";  // every cloud point within epsilon of the mesh
 inline constexpr const char* kTwoSidedBound = "two-sided";  // also the mesh, of the reference
+
+// A whole number that T holds; throws nlohmann's type_error otherwise, where get() would convert.
+template <typename T>
+void get_count(const Json& json, T& count) {
+  if (!json.is_number_unsigned() || json > std::numeric_limits<T>::max()) {
+    throw nlohmann::json::type_error::create(302, "a count is no whole number", &json);
+  }
+  json.get_to(count);
+}
 
 std::string bits_text(std::uint32_t bits);  // "0x%08x"
 Json to_json(const Normalization& transform);

@@ -112,6 +112,16 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
 
 RunLog::RunLog(fs::path folder, const RunSettings& settings) : folder_(std::move(folder)) {
   create_folder();
+  try {
+    open(settings);
+  } catch (...) {
+    // As the destructor would; without the lock another process may have begun there.
+    if (created_ && log_) remove();
+    throw;
+  }
+}
+
+void RunLog::open(const RunSettings& settings) {
   log_.emplace(folder_ / kLogName);
   std::vector<std::vector<std::uint8_t>> records;
   loss_ = log_->read([&records](std::span<const std::uint8_t> content) {

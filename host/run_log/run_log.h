@@ -74,6 +74,7 @@ class RunLog {
  private:
   std::filesystem::path mesh_path(std::uint64_t index) const;
   void create_folder();
+  void open(const RunSettings& settings);
   void enter(std::span<const std::vector<std::uint8_t>> records);
   void compare(const RunSettings& settings) const;
   [[noreturn]] void differs(const std::string& name, const std::string& then,

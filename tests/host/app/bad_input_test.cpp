@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include "tests/host/app/program.h"
@@ -84,6 +87,13 @@ TEST_F(BadInput, Tolerances) {
   for (const char* bad : {"0", "-1", "nan", "inf", "0%", "-2%", "5mm", "1 %", "", "%", "1e999"}) {
     SCOPED_TRACE(bad);
     expect_refusal(optimize({"scan.xyz", "--max-error", bad, "-o", "out.ply"}), {"--max-error"});
+    expect_refusal(
+        test::run_emax({"error", "scan.xyz", "surface.off", "--max-error", bad}, folder_.path()),
+        {"--max-error"});
+  }
+  for (const char* wrong_unit : {"500", "100%"}) {
+    expect_refusal(optimize({"scan.xyz", "--max-error", wrong_unit, "-o", "out.ply"}),
+                   {"--max-error", "width of scan.xyz", "unit"});
   }
 }
 
@@ -97,6 +107,24 @@ TEST_F(BadInput, Outputs) {
   expect_refusal(to("/proc/out.ply"), {"/proc"});
   expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", "--json", "a.txt"}),
                  {"a.txt", ".json"});
+  // What is written beside the mesh is tried before anything takes long.
+  for (const char* taken : {"out.ply.certificate.json", "out.ply.reference.ply"}) {
+    std::filesystem::create_directory(folder_ / taken);
+    before_ = test::files_in(folder_.path());
+    expect_refusal(to("out.ply"), {taken, "is a folder"});
+    expect_refusal(test::run_emax({"decimate", "surface.off", "--max-error", "1%", "-o", "out.ply"},
+                                  folder_.path()),
+                   {taken, "is a folder"});
+    std::filesystem::remove(folder_ / taken);
+  }
+  before_ = test::files_in(folder_.path());
+  expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "m\xfc.ply"}),
+                 {"m?.ply", "UTF-8"});
+  std::filesystem::create_directory(folder_ / "night");
+  before_ = test::files_in(folder_.path());
+  expect_refusal(
+      optimize({"scan.xyz", "--max-error", "1%", "-o", "night/mesh-5.ply", "--resume", "./night"}),
+      {"night/mesh-5.ply", "run's own files"});
 }
 
 TEST_F(BadInput, OutputsThatWouldReplaceWhatIsReadOrWritten) {
@@ -144,7 +172,21 @@ TEST_F(BadInput, Options) {
   expect_refusal(with("--budget", "0"), {"--budget"});
   expect_refusal(with("--jobs", "-1"), {"--jobs"});
   expect_refusal(with("--time", "soon"), {"--time"});
-  expect_refusal(with("--seed", "x"), {"--seed"});
+  for (const char* bad : {"0", "-1", "nan", "inf", ""}) {
+    expect_refusal(with("--time", bad), {"--time", "optimize --help"});
+    expect_refusal(with("--evaluation-time", bad), {"--evaluation-time"});
+    expect_refusal(with("--stagnation", bad), {"--stagnation"});
+  }
+  for (const char* bad : {"x", "-1", "1.5", "18446744073709551616"}) {
+    expect_refusal(with("--seed", bad), {"--seed"});
+  }
+  expect_refusal(with("--evaluation-memory", "-1"), {"--evaluation-memory", "negative"});
+  expect_refusal(with("--resume", ""), {"--resume", "empty"});
+  expect_refusal(
+      test::run_emax({"error", "scan.xyz", "surface.off", "--quantile", "nan"}, folder_.path()),
+      {"--quantile", "0 to 100"});
+  expect_refusal(test::run_emax({"optimise", "scan.xyz"}, folder_.path()),
+                 {"optimise", "optimize, decimate"});
   expect_refusal(with("--exclude-outliers", "1.5"), {"--exclude-outliers"});
   expect_refusal(with("--config", "none.toml"), {"none.toml"});
   write("bad.toml", "[search]\nbudgett = 3\n");
@@ -184,6 +226,32 @@ TEST_F(BadInput, NothingAtAll) {
   const ProgramRun run = test::run_emax({}, folder_.path());
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.errors.find("optimize"), std::string::npos);
+  EXPECT_TRUE(test::run_emax({"--version"}, folder_.path()).output.starts_with("emax "));
+}
+
+// Closed streams and full ones cost what would be shown there, and nothing else.
+TEST_F(BadInput, StandardStreamsThatCannotBeWritten) {
+  const auto shell = [this](const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && " EMAX_PROGRAM " " + arguments;
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  };
+  const std::string decimate = "decimate surface.off --max-error 5% -o out.ply ";
+  EXPECT_EQ(shell(decimate + ">&- 2>&-"), 0);
+  EXPECT_EQ(shell(decimate + ">/dev/null 2>/dev/full"), 0);
+  EXPECT_EQ(shell("verify out.ply.certificate.json >/dev/null 2>&-"), 0);
+  EXPECT_EQ(shell("error missing.xyz surface.off >/dev/null 2>/dev/full"), 1);
+  EXPECT_EQ(shell("error scan.xyz surface.off >/dev/full 2>/dev/null"), 1);
+  const std::string search =
+      "optimize scan.xyz --max-error 20% -o out.ply --budget 2 --no-polish --resume night ";
+  EXPECT_EQ(shell(search + ">&- 2>&-"), 0);
+  const ProgramRun again =
+      test::run_emax({"optimize", "scan.xyz", "--max-error", "20%", "-o", "out.ply", "--budget",
+                      "2", "--no-polish", "--resume", "night"},
+                     folder_.path());
+  EXPECT_NE(again.output.find("night: 2 of 2 evaluations are there\n"), std::string::npos)
+      << again.output;
 }
 
 }  // namespace

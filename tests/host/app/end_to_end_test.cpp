@@ -205,6 +205,13 @@ TEST_F(EndToEnd, VerifyCatchesEveryFalseClaim) {
             })),
             2);
   EXPECT_EQ(verdict(altered([](json& c) { c.erase("epsilon"); })), 1);
+  EXPECT_EQ(verdict(altered([](json& c) { c["excluded"] = nullptr; })), 1);
+  for (const json& none : {json(0.5), json(-1), json(1e308), json(nullptr), json("1")}) {
+    EXPECT_EQ(verdict(altered([&](json& c) { c["triangles"] = none; })), 1) << none;
+    EXPECT_EQ(verdict(altered([&](json& c) { c["validity"]["components"] = none; })), 1) << none;
+    EXPECT_EQ(verdict(altered([&](json& c) { c["worst_point"] = none; })), 1) << none;
+  }
+  EXPECT_EQ(verdict(altered([](json& c) { c["worst_point"] = std::uint64_t{1} << 32; })), 1);
 
   // The mesh itself: one bit of a coordinate.
   std::string bytes = text("mesh.ply");

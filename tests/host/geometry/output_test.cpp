@@ -88,6 +88,28 @@ TEST(AtomicFile, FollowsASymbolicLink) {
   write_atomically(folder / "link.txt", "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
   EXPECT_EQ(bytes_of(folder / "real.txt"), "new");
+
+  // Also to a file that is not there yet, over several links; not in a circle.
+  std::filesystem::create_directory(folder / "far");
+  std::filesystem::create_symlink("far/next.txt", folder / "early.txt");
+  std::filesystem::create_symlink("../made.txt", folder / "far/next.txt");
+  write_atomically(folder / "early.txt", "made");
+  EXPECT_EQ(bytes_of(folder / "made.txt"), "made");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "early.txt"));
+  std::filesystem::create_symlink("circle.txt", folder / "circle.txt");
+  expect_clear(message_of([&] { write_atomically(folder / "circle.txt", "new"); }),
+               (folder / "circle.txt").string(), "cannot be written", "folder");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "circle.txt"));
+}
+
+TEST(AtomicFile, KeepsThePermissionsOfWhatItReplaces) {
+  const TemporaryFolder folder;
+  folder.write("shared", "old");
+  const auto mode = std::filesystem::perms::owner_all | std::filesystem::perms::group_write;
+  std::filesystem::permissions(folder / "shared", mode);
+  write_atomically(folder / "shared", "new");
+  EXPECT_EQ(std::filesystem::status(folder / "shared").permissions(), mode);
+  EXPECT_EQ(bytes_of(folder / "shared"), "new");
 }
 
 TEST(AtomicFile, HasThePermissionsOfAnOrdinaryFile) {
@@ -123,6 +145,8 @@ TEST(CheckOutput, RefusesWhatCannot) {
   expect_refused(folder / "file" / "out.ply", "does not exist", "create it");
   std::filesystem::create_symlink("/dev/null", folder / "null.ply");
   expect_refused(folder / "null.ply", "not a regular file", "another output");
+  std::filesystem::create_symlink("no/such/out.ply", folder / "link.ply");
+  expect_refused(folder / "link.ply", "does not exist", "create it");
   // No file can be created here, not even by root.
   expect_refused("/proc/out.ply", "cannot be written", "permissions");
 }

@@ -96,5 +96,15 @@ TEST(LeastSquaresPatch, ReproducesAQuadraticSurface) {
   }
 }
 
+// Too few for a quadratic: a square's four corners, a little out of plane, and one more.
+TEST(LeastSquaresPatch, FitsAPlaneToFewPoints) {
+  std::vector<Point> points = {{1, 1, 0.01}, {-1, 1, -0.01}, {-1, -1, 0.01}};
+  for (const Point& next : {Point(1, -1, -0.01), Point(0, 0, 0), Point(0.5, 0, 0)}) {
+    const Point p = LeastSquaresPatch(points, 1).project({0.1, 0.2, 0.3});
+    EXPECT_NEAR(p.z(), 0, 0.05) << points.size();
+    points.push_back(next);
+  }
+}
+
 }  // namespace
 }  // namespace emax::test
