@@ -56,17 +56,25 @@ TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& val
 Chain::Chain(std::vector<Point> points, DecimationBound bound, std::size_t cache_bytes)
     : points_(std::move(points)),
       bounded_(points_, std::move(bound)),
+      clouds_(cache_bytes),
       reconstructions_(cache_bytes),
       surfaces_(cache_bytes) {}
+
+std::span<const Point> Chain::cloud(const ChainSettings& settings) {
+  const ParameterValues values = cloud_key(settings);
+  const auto method = values.find("mls.method");
+  if (method == values.end() || static_cast<MlsMethod>(method->second) == MlsMethod::kNone) {
+    return points_;
+  }
+  return clouds_.get(values, [&] { return MovedCloud{on_least_squares_surface(points_, values)}; })
+      .points;
+}
 
 const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSeconds& seconds) {
   return reconstructions_.get(reconstruction_key(settings), [&] {
     Stopwatch watch;
-    const ParameterValues& values = settings.parameters;
-    const ReconstructionMethod& method = reconstruction_method(settings.method);
-    Reconstructed made{values.contains("mls.method")
-                           ? method.reconstruct(on_least_squares_surface(points_, values), values)
-                           : method.reconstruct(points_, values)};
+    Reconstructed made{
+        reconstruction_method(settings.method).reconstruct(cloud(settings), settings.parameters)};
     seconds.reconstruct = watch.lap();
     return made;
   });

@@ -15,9 +15,9 @@ namespace emax {
 // Kept of each stage, in bytes: a surface of the 437,645 points of the dragon takes 21 MB.
 inline constexpr std::size_t kStageCacheBytes = std::size_t{1} << 27;
 
-// The chain from one cloud to decimated meshes: reconstruct -> fill holes -> decimate; or, in place
-// of the last, see kNoDecimator. Results of the stages before decimation are kept by the values of
-// their genes, so candidates that differ in decimation alone share them.
+// The chain from one cloud to decimated meshes: moving least squares -> reconstruct -> fill holes
+// -> decimate; or, in place of the last, see kNoDecimator. Results of the stages before decimation
+// are kept by the values of their genes, so candidates that differ in decimation alone share them.
 class Chain {
  public:
   explicit Chain(std::vector<Point> points, DecimationBound bound = {},
@@ -27,10 +27,15 @@ class Chain {
   // parameter has no value.
   ChainResult run(const ChainSettings& settings);
 
+  std::size_t clouds() const { return clouds_.made(); }
   std::size_t reconstructions() const { return reconstructions_.made(); }
   std::size_t surfaces() const { return surfaces_.made(); }
 
  private:
+  struct MovedCloud {
+    std::vector<Point> points;
+    std::size_t size_in_bytes() const { return points.size() * sizeof(Point); }
+  };
   struct Reconstructed : Reconstruction {
     std::size_t size_in_bytes() const { return emax::size_in_bytes(mesh); }
   };
@@ -41,11 +46,13 @@ class Chain {
     std::size_t size_in_bytes() const { return emax::size_in_bytes(mesh); }
   };
 
+  std::span<const Point> cloud(const ChainSettings& settings);
   const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds);
   const Surface& surface(const ChainSettings& settings, StageSeconds& seconds);
 
   std::vector<Point> points_;
   BoundedStage bounded_;
+  StageCache<ParameterValues, MovedCloud> clouds_;
   StageCache<StageKey, Reconstructed> reconstructions_;
   StageCache<std::pair<StageKey, std::string>, Surface> surfaces_;  // and the decimator
 };

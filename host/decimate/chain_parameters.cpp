@@ -153,9 +153,14 @@ void add_values(const ChainSettings& settings, std::span<const ParameterSpec> sp
 
 }  // namespace
 
+ParameterValues cloud_key(const ChainSettings& settings) {
+  ParameterValues values;
+  add_values(settings, mls_parameters(), values);
+  return values;
+}
+
 StageKey reconstruction_key(const ChainSettings& settings) {
-  StageKey key{settings.method, {}};
-  add_values(settings, mls_parameters(), key.second);
+  StageKey key{settings.method, cloud_key(settings)};
   add_values(settings, reconstruction_parameters(settings.method), key.second);
   return key;
 }

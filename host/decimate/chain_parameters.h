@@ -51,6 +51,7 @@ struct ChainResult {
 
 // What a stage's result depends on: the method and the values of its genes and of those before it.
 using StageKey = std::pair<std::string, ParameterValues>;
+ParameterValues cloud_key(const ChainSettings& settings);  // of the cloud moved; no method yet
 StageKey reconstruction_key(const ChainSettings& settings);
 StageKey surface_key(const ChainSettings& settings);  // its holes filled
 

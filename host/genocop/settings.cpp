@@ -1,5 +1,7 @@
 #include "host/genocop/settings.h"
 
+#include <algorithm>
+
 namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
@@ -65,6 +67,11 @@ std::span<const SettingInfo> setting_infos() {
   return infos;
 }
 
+double& Settings::frequency_of(Operator apply) {
+  const auto found = std::ranges::find(kOperators, apply, &OperatorEntry::apply);
+  return operator_frequencies.at(static_cast<std::size_t>(found - kOperators.begin()));
+}
+
 Settings Settings::original() {
   Settings settings;
   settings.look_ahead = 1;
@@ -76,9 +83,7 @@ Settings Settings::original() {
   settings.repair = RepairMethod::kRandom;
   settings.max_repair_tries = 100;
   settings.repair_only_promising = false;
-  for (std::size_t i = 0; i < kOperators.size(); ++i) {
-    if (kOperators[i].apply == uniform_mutation) settings.operator_frequencies[i] = 0;
-  }
+  settings.frequency_of(uniform_mutation) = 0;
   settings.monotone_step = settings.linear_model = settings.finish = false;
   settings.adaptive_frequencies = settings.sobol_starts = false;
   settings.cache = false;

@@ -60,6 +60,9 @@ struct Settings {
   bool cache = true;                 // points that were evaluated are not asked for again
   double cache_resolution = 1e-13;   // of the domains: genes are rounded to it and compared
 
+  // The entry of operator_frequencies that belongs to an operator of kOperators.
+  double& frequency_of(Operator apply);
+
   bool operator==(const Settings&) const = default;
 
   // Genocop III as published (Michalewicz & Nazhiyath 1995; Michalewicz 1996): populations of 70,

@@ -27,8 +27,8 @@ struct ParameterSpec {
   std::string meaning;  // one line with the unit, shown in the configuration file
   std::vector<std::string> categories = {};  // of a categorical one: the names of 0, 1, ...
   std::optional<Condition> only_with = std::nullopt;
-  // False: keeps its standard value unless the configuration gives it a domain, because more of it
-  // is always better and costs time.
+  // False: keeps its standard value unless the configuration gives it a domain, because a search
+  // over it gains nothing.
   bool searched = true;
 };
 

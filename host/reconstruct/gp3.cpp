@@ -12,7 +12,7 @@
 namespace emax {
 
 Reconstruction GreedyProjection::run(const LocalCloud& cloud, const ParameterValues& values) const {
-  const auto points = cloud.with_normals(static_cast<int>(values.at("normals.k")));
+  const auto points = cloud.with_normals(values);
   const double radians = std::numbers::pi / 180;
   // PCL searches this many neighbours without asking how many there are.
   const int max_neighbors =

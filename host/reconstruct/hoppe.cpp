@@ -99,7 +99,7 @@ Reconstruction HoppeSurface::run(const LocalCloud& cloud, const ParameterValues&
   CubicMarching marching(box, static_cast<int>(values.at("hoppe.resolution")),
                          values.at("hoppe.reach"));
   marching.set_spacing(cloud.spacing());
-  marching.setInputCloud(cloud.with_normals(static_cast<int>(values.at("normals.k"))));
+  marching.setInputCloud(cloud.with_normals(values));
   marching.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointNormal>>());
   pcl::PointCloud<pcl::PointNormal> soup;
   std::vector<pcl::Vertices> polygons;

@@ -16,10 +16,6 @@
 namespace emax {
 namespace {
 
-// Neighbours that orientation spreads to. Hoppe's graph is sparse; more neighbours only let it leap
-// between sheets.
-constexpr int kGraphNeighbours = 12;
-
 double median_spacing(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
                       const pcl::PointCloud<pcl::PointXYZ>& points) {
   std::vector<float> squared(points.size());
@@ -75,10 +71,10 @@ LocalCloud::LocalCloud(std::span<const Point> points)
   spacing_ = median_spacing(tree, *points_);
 }
 
-std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(int k) const {
+std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(const ParameterValues& values) const {
   const int n = static_cast<int>(size());
-  k = std::clamp(k, 3, n);
-  const int graph_k = std::min(n, kGraphNeighbours + 1);  // the point itself comes first
+  const int k = std::clamp(static_cast<int>(values.at("normals.k")), 3, n);
+  const int graph_k = std::clamp(static_cast<int>(values.at("normals.orientation_k")), 2, n);
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(points_);
   std::vector<Eigen::Vector3f> positions(size());
@@ -105,8 +101,9 @@ std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(int k) const {
   return normals;
 }
 
-pcl::PointCloud<pcl::PointNormal>::Ptr LocalCloud::with_normals(int k) const {
-  const std::vector<Eigen::Vector3f> normals = oriented_normals(k);
+pcl::PointCloud<pcl::PointNormal>::Ptr LocalCloud::with_normals(
+    const ParameterValues& values) const {
+  const std::vector<Eigen::Vector3f> normals = oriented_normals(values);
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
   cloud->resize(size());
   for (std::size_t i = 0; i < size(); ++i) {

@@ -12,7 +12,7 @@ Reconstruction PoissonSurface::run(const LocalCloud& cloud, const ParameterValue
   poisson.setSamplesPerNode(static_cast<float>(values.at("poisson.samples_per_node")));
   poisson.setScale(static_cast<float>(values.at("poisson.scale")));
   poisson.setThreads(1);
-  poisson.setInputCloud(cloud.with_normals(static_cast<int>(values.at("normals.k"))));
+  poisson.setInputCloud(cloud.with_normals(values));
   pcl::PointCloud<pcl::PointNormal> points;
   std::vector<pcl::Vertices> polygons;
   poisson.reconstruct(points, polygons);

@@ -16,9 +16,25 @@ ParameterSpec normals_k(double standard) {
           standard,    "neighbours, the point itself included, that a normal is fitted to"};
 }
 
+// Hoppe's graph is sparse; more neighbours let the orientation leap between sheets.
+const ParameterSpec& orientation_k() {
+  static const ParameterSpec spec = {
+      "normals.orientation_k",
+      kInteger,
+      5,
+      40,
+      13,
+      "neighbours, the point itself included, that the orientation of normals spreads to",
+      {},
+      std::nullopt,
+      false};
+  return spec;
+}
+
 const std::vector<ParameterSpec>& gp3() {
   static const std::vector<ParameterSpec> specs = {
       normals_k(20),
+      orientation_k(),
       {"gp3.radius", kContinuous, 2, 14, 10,
        "greatest edge length, in multiples of the median point spacing"},
       {"gp3.mu", kContinuous, 2, 6, 2.3,
@@ -35,6 +51,7 @@ const std::vector<ParameterSpec>& gp3() {
 const std::vector<ParameterSpec>& poisson() {
   static const std::vector<ParameterSpec> specs = {
       normals_k(15),
+      orientation_k(),
       {"poisson.depth", kInteger, 6, 10, 8, "depth of the octree"},
       {"poisson.samples_per_node", kContinuous, 1, 5, 1, "points that an octree cell should hold"},
       {"poisson.scale", kContinuous, 1.05, 1.3, 1.1,
@@ -46,6 +63,7 @@ const std::vector<ParameterSpec>& poisson() {
 const std::vector<ParameterSpec>& hoppe() {
   static const std::vector<ParameterSpec> specs = {
       normals_k(15),
+      orientation_k(),
       {"hoppe.resolution", kInteger, 32, 200, 128,
        "cubic cells of the marching grid along the longest side of the cloud"},
       {"hoppe.reach", kContinuous, 0.5, 4, 1,

@@ -104,7 +104,7 @@ def main():
     parser.add_argument("--decimate", action="store_true", help="measure the bounded decimator instead")
     arguments, others = parser.parse_known_args()
     if arguments.quick and (arguments.search or arguments.error):
-        parser.error("--quick is for the engine and --decimate; --search --only functions takes the shorter part")
+        parser.error("--quick is for the engine and --decimate; --search --only ablations takes some minutes")
     LOG.unlink(missing_ok=True)
     if arguments.search:
         search_bench.main(others, install_peers())

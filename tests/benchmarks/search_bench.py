@@ -3,9 +3,10 @@ writes the sections "Search" and "Search on scans" of docs/benchmarks.md, their 
 docs/benchmarks_search.md.
 
 Every run is kept in build/bench/search/, so that a measurement can be interrupted and continued;
---fresh begins anew, --only functions or --only scans measures one part, --only-write
-writes from what is there; a part without runs keeps what stands there. The functions take about
-three hours of one core, the scans five.
+--fresh begins anew, --only PART measures one part, --only-write writes from what is there; a part
+without runs keeps what stands there. On one core the functions beside the peers take about three
+hours, each strategy left out there and the published setting some minutes, the scans four hours
+and each strategy left out on one of them another.
 """
 
 import argparse
@@ -28,7 +29,8 @@ SEARCHES = ["emax", "emax, look-ahead 16"]
 LOOK_AHEAD_BUDGETS = [200, 1000, 5000]  # where every evaluation is dear
 ABLATIONS = ["without finish", "without linear model", "without both", "without monotone step",
              "without adaptive frequencies", "without Sobol starts", "without first phase", "without cache",
-             "replacement as published", "repair at random", "populations 70/70"]
+             "without uniform mutation", "replacement as published", "repair at random", "repair of every point",
+             "populations 70/70"]
 ABLATION_BUDGETS = [200, 1000]
 ORIGINAL = "original"
 ORIGINAL_BUDGET = 350000
@@ -96,13 +98,23 @@ def measure_functions(store, options):
     program, library = options.build / "bin/emax_search_benchmark", options.build / "lib/libemax_search_problems.so"
     plan = [(way, problem, budget) for budget in BUDGETS for problem in PROBLEMS
             for way in SEARCHES if way == "emax" or budget in LOOK_AHEAD_BUDGETS]
-    plan += [(way, problem, budget) for budget in ABLATION_BUDGETS for problem in PROBLEMS for way in ABLATIONS]
-    plan += [(ORIGINAL, problem, ORIGINAL_BUDGET) for problem in PUBLISHED]
     for way, problem, budget in plan:
         run_own(store, program, way, problem, budget, SEEDS)
     for budget in BUDGETS:
         for problem in PROBLEMS:
             run_peers(store, options.python, ["--library", library], PEERS, problem, budget, SEEDS)
+
+
+def measure_ablations(store, options):
+    for budget in ABLATION_BUDGETS:
+        for problem in PROBLEMS:
+            for way in ["emax"] + ABLATIONS:
+                run_own(store, options.build / "bin/emax_search_benchmark", way, problem, budget, SEEDS)
+
+
+def measure_published(store, options):
+    for problem in PUBLISHED:
+        run_own(store, options.build / "bin/emax_search_benchmark", ORIGINAL, problem, ORIGINAL_BUDGET, SEEDS)
 
 
 def measure_scans(store, options):
@@ -112,8 +124,11 @@ def measure_scans(store, options):
         run_peers(store, options.python, ["--program", program], SCAN_PEERS, scan, SCAN_BUDGET, SCAN_SEEDS)
     for percent in RANGE:
         run_own(store, program, "emax", by_percent(percent), SCAN_BUDGET, RANGE_SEEDS)
-    for way in SCAN_ABLATIONS:
-        run_own(store, program, way, SCANS[0], SCAN_BUDGET, SCAN_ABLATION_SEEDS)
+
+
+def measure_scan_ablations(store, options):
+    for way in ["emax"] + SCAN_ABLATIONS:
+        run_own(store, options.build / "bin/emax_search_benchmark", way, SCANS[0], SCAN_BUDGET, SCAN_ABLATION_SEEDS)
 
 
 def run_own(store, program, way, problem, budget, seeds):
@@ -248,12 +263,18 @@ within the bound, in brackets the least and the greatest. The name says scan and
 building 0.5 % of the points may be excluded. All begin with the standard values.
 """
 
-SCAN_ABLATIONS_EXPLAINED = """\
-Each strategy left out, or replaced by the published one. The finish and the first phase have nothing to do there: no \
+ABLATIONS_EXPLAINED = "The last rows show what replaces one part by the published one.\n"
+
+SCAN_ABLATIONS_EXPLAINED = f"""\
+Triangles after {SCAN_BUDGET} evaluations, run by run. The finish and the first phase have nothing to do there: no
 local search begins where a gene is monotone, and the standard values are feasible.
 """
 
-FUNCTIONS_EXPLAINED = f"""\
+HEAD = f"""\
+# Search, function by function
+
+Written by `./dev bench --search`; [benchmarks.md](benchmarks.md#search) has the summary.
+
 Median (best feasible − optimum) of {SEEDS} runs; in brackets the runs that ended feasible, where not all did; none: no
 feasible point in the median run; –: not measured. Functions as in `tests/host/genocop/benchmark_problems.h` and
 `staircase.h`, the same library for all; equalities hold within 1e-4, and a peer's inequalities within 1e-8. pagmo and
@@ -268,34 +289,51 @@ def functions_section(store):
 
 def scans_section(store, plots):
     parts = ["## Search on scans\n", SCANS_EXPLAINED, scan_table(store, ["emax"] + SCAN_PEERS, SCANS)]
-    if table := scan_ablations(store):
-        parts += [SCAN_ABLATIONS_EXPLAINED, table]
     if plots:
         parts.append(f"The paper's chain on the bunny by its bound (the paper's Fig. 3; it gives {PAPER_TRIANGLES} triangles at "
                      f"{PAPER_PERCENT} %):\n\n![{plots[0]['title']}](plots/{plots[0]['name']}.svg)\n")
     return "\n".join(parts)
 
 
-def details(store):
-    parts = ["# Search, function by function\n",
-             "Written by `./dev bench --search`; [benchmarks.md](benchmarks.md#search) has the summary.\n",
-             FUNCTIONS_EXPLAINED, f"{store.versions}.\n"]
+def functions_details(store):
+    parts = [f"{store.versions}.\n"]
     for budget in BUDGETS:
-        parts += [f"## {budget} evaluations\n", table(store, (SEARCHES if budget in LOOK_AHEAD_BUDGETS else SEARCHES[:1]) + PEERS,
-                                                  budget)]
-    parts += ["## Each strategy left out\n", "The last rows show what replaces one part by the published one.\n"]
+        ways = SEARCHES if budget in LOOK_AHEAD_BUDGETS else SEARCHES[:1]
+        parts += [f"## {budget} evaluations\n", table(store, ways + PEERS, budget)]
+    return "\n".join(parts)
+
+
+def ablations_details(store):
+    parts = ["## Each strategy left out\n", ABLATIONS_EXPLAINED]
     for budget in ABLATION_BUDGETS:
         parts += [f"{budget} evaluations:\n", table(store, ["emax"] + ABLATIONS, budget)]
-    parts += ["## The published Genocop III\n",
-              f"`Settings::original()`, {ORIGINAL_BUDGET} evaluations, a first feasible point found by the first phase.\n",
-              published(store)]
     return "\n".join(parts)
+
+
+def published_details(store):
+    return "\n".join(["## The published Genocop III\n",
+                      f"`Settings::original()`, {ORIGINAL_BUDGET} evaluations, a first feasible point found by the first phase.\n",
+                      published(store)])
+
+
+def scan_ablations_details(store):
+    return "\n".join(["## Each strategy left out on a scan\n", SCAN_ABLATIONS_EXPLAINED, scan_ablations(store)])
+
+
+# What is measured on its own: how, the ways and problems whose runs show that it was, and its part of the details.
+PARTS = {
+    "functions": (measure_functions, PEERS, PROBLEMS, functions_details),
+    "ablations": (measure_ablations, ABLATIONS, PROBLEMS, ablations_details),
+    "published": (measure_published, [ORIGINAL], PROBLEMS, published_details),
+    "scans": (measure_scans, SCAN_PEERS, SCANS, None),
+    "scan-ablations": (measure_scan_ablations, SCAN_ABLATIONS, SCANS, scan_ablations_details),
+}
 
 
 def main(words, python):
     parser = argparse.ArgumentParser(prog="./dev bench --search", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", choices=["functions", "scans"], help="measure this part")
+    parser.add_argument("--only", choices=PARTS, help="measure this part")
     parser.add_argument("--fresh", action="store_true", help="forget earlier runs")
     parser.add_argument("--build", type=Path, default=Path("build/bench"))
     parser.add_argument("--only-write", action="store_true", help="from the runs that are there")
@@ -306,23 +344,25 @@ def main(words, python):
         shutil.rmtree(folder, ignore_errors=True)
     store = Store(folder)
     if not options.only_write:
-        if options.only != "scans":
-            measure_functions(store, options)
-        if options.only != "functions":
-            measure_scans(store, options)
+        for part in [options.only] if options.only else PARTS:
+            PARTS[part][0](store, options)
     write(store, python)
 
 
 def write(store, python):
     """The parts that were measured; what stands of another one stays."""
-    functions = any(store.of("emax", problem, budget) for problem in PROBLEMS for budget in BUDGETS)
-    scans = any(store.of("emax", scan, SCAN_BUDGET) for scan in SCANS)
-    if not functions and not scans:
+    measured = [part for part, (_, ways, problems, _) in PARTS.items()
+                if any(store.of(way, problem, budget) for way in ways for problem in problems
+                       for budget in BUDGETS + [ORIGINAL_BUDGET])]
+    if not measured:
         sys.exit(f"{store.folder} holds no whole set of runs, so nothing is written; ./dev bench --search measures them")
-    if functions:
+    if "functions" in measured:
         sections.put("search", functions_section(store))
-        sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))
-    if not scans:
+    file = sections.DOCUMENT.with_name(DETAILS)
+    details = [sections.marked(part, write_details(store)) if part in measured else sections.existing(part, file)
+               for part, (*_, write_details) in PARTS.items() if write_details]
+    sections.write(file, "\n".join([HEAD] + [part for part in details if part]))
+    if "scans" not in measured:
         return
     plots = curve(store)
     sections.put("scans", scans_section(store, plots))

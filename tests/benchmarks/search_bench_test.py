@@ -24,20 +24,32 @@ class SearchBenchTest(DocumentsCase):
         return bench.Store(folder)
 
     def test_each_part_keeps_the_other(self):
-        bench.write(self.store(*(runs(way, problem, 200, [1e-9] * bench.SEEDS) for problem in bench.PROBLEMS
-                                 for way in ["emax", *bench.PEERS])), None)
-        details = Path("docs", bench.DETAILS).read_text()
+        details = Path("docs", bench.DETAILS)
+        own = [runs("emax", problem, 200, [1e-9] * bench.SEEDS) for problem in bench.PROBLEMS]
+        bench.write(self.store(*own, *(runs(peer, problem, 200, [1e-9] * bench.SEEDS) for problem in bench.PROBLEMS
+                                       for peer in bench.PEERS)), None)
+        functions = sections.existing("functions", details)
         self.assertIn("| 200 | 11 | 11 | 1.00 |", sections.existing("search"))
+        self.assertIn("\n| pagmo gaco | 1e-09 |", functions)
         self.assertEqual(sections.existing("scans"), "")
-        bench.write(self.store(runs("emax", bench.SCANS[0], bench.SCAN_BUDGET, [14324, 14152, 14168]),
+
+        on_scan = runs("emax", bench.SCANS[0], bench.SCAN_BUDGET, [14324, 14152, 14168])
+        bench.write(self.store(*own, on_scan, runs("without cache", "g01", 200, [2e-9] * bench.SEEDS),
                                runs("without cache", bench.SCANS[0], bench.SCAN_BUDGET, [15000])), None)
+        self.assertIn("\n| without cache | 2e-09 |", sections.existing("ablations", details))
+        self.assertIn("| seed 0 |\n|---|---:|\n| emax | 14324 |\n| without cache | 15000 |\n",
+                      sections.existing("scan-ablations", details))
+        self.assertEqual(sections.existing("functions", details), functions)
+        self.assertEqual(sections.existing("scans"), "")
+
+        before = details.read_text()
+        bench.write(self.store(on_scan, runs("pagmo gaco", bench.SCANS[0], bench.SCAN_BUDGET, [18838, 18554, 18838])), None)
         self.assertIn("| emax | 14168 (14152–14324) |", sections.existing("scans"))
-        self.assertIn("| seed 0 |\n|---|---:|\n| emax | 14324 |\n| without cache | 15000 |\n", sections.existing("scans"))
         self.assertIn("| 200 | 11 | 11 | 1.00 |", sections.existing("search"))
-        self.assertEqual(Path("docs", bench.DETAILS).read_text(), details)
+        self.assertEqual(details.read_text(), before)
 
     def test_nothing_is_written_from_parts_of_sets(self):
-        store = self.store(runs("emax", "g01", 200, [0.0] * (bench.SEEDS - 1)), runs("original", bench.SCANS[0], 200, [17908]))
+        store = self.store(runs("without cache", "g01", 200, [0.0] * (bench.SEEDS - 1)), runs("emax", bench.SCANS[0], 200, [14324]))
         self.assertRaises(SystemExit, bench.write, store, None)
         self.assertFalse(sections.DOCUMENT.exists())
 

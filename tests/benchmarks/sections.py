@@ -1,4 +1,4 @@
-"""The parts of docs/benchmarks.md that are measured on their own; each stands between two marks."""
+"""The parts of docs/benchmarks.md and its details that are measured on their own; each stands between two marks."""
 
 import os
 from pathlib import Path
@@ -11,13 +11,18 @@ def marks(name):
     return f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->\n"
 
 
-def text():
-    return DOCUMENT.read_text() if DOCUMENT.exists() else ""
+def marked(name, body):
+    begin, end = marks(name)
+    return begin + body + end
 
 
-def existing(name):
+def text(file=DOCUMENT):
+    return file.read_text() if file.exists() else ""
+
+
+def existing(name, file=DOCUMENT):
     """The section with its marks, or nothing."""
-    document, (begin, end) = text(), marks(name)
+    document, (begin, end) = text(file), marks(name)
     start, stop = document.find(begin), document.find(end)
     return document[start:stop + len(end)] if 0 <= start < stop else ""
 
@@ -30,8 +35,7 @@ def write(file, body):
 
 def put(name, body):
     """In place of the section that is there, else at the end."""
-    begin, end = marks(name)
-    document, old, new = text(), existing(name), begin + body + end
+    document, old, new = text(), existing(name), marked(name, body)
     document = document.replace(old, new) if old else document.rstrip("\n") + "\n\n" + new
     write(DOCUMENT, document)
 

@@ -40,9 +40,11 @@ const std::vector<Way>& ways() {
       {"without Sobol starts", [](Settings& s) { s.sobol_starts = false; }},
       {"without first phase", [](Settings& s) { s.first_phase = false; }},
       {"without cache", [](Settings& s) { s.cache = false; }},
+      {"without uniform mutation", [](Settings& s) { s.frequency_of(uniform_mutation) = 0; }},
       {"replacement as published",
        [](Settings& s) { s.replace_worse_only = s.share_feasible = false; }},
       {"repair at random", [](Settings& s) { s.repair = RepairMethod::kRandom; }},
+      {"repair of every point", [](Settings& s) { s.repair_only_promising = false; }},
       {"populations 70/70", [](Settings& s) { s.search_population = s.reference_population = 70; }},
       {"original", [](Settings& s) { s = Settings::original(); }}};
   return all;

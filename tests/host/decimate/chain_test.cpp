@@ -272,6 +272,7 @@ TEST(RunChain, TellsTheWaysToFillAndSmoothApart) {
       EXPECT_FALSE(same_bytes(meshes[a], meshes[b])) << a << ' ' << b;
   }
   EXPECT_EQ(chain.reconstructions(), 3u);
+  EXPECT_EQ(chain.clouds(), 2u);
   values.erase("mls.cell");
   EXPECT_THROW(run(), Error);
 }
@@ -287,6 +288,8 @@ TEST(RunChain, TakesNoNoticeOfTheCaches) {
     ChainSettings candidate = i % 2 == 0 ? settings("gp3") : bounded();
     candidate.parameters["gp3.mu"] = 2 + 0.5 * random.below(3);
     candidate.parameters["fill.size"] = 0.1 * random.below(2);
+    candidate.parameters.insert(
+        {{"mls.method", i < 4 ? 0 : 1}, {"mls.radius", 2}, {"mls.order", 2}});
     if (i % 2 == 0) candidate.parameters["schroeder.reduction"] = random.uniform(0.2, 0.9);
     const ChainResult expected = Chain(cloud, bound).run(candidate);
     for (Chain* chain : {&shared, &forgetful}) {
@@ -297,7 +300,8 @@ TEST(RunChain, TakesNoNoticeOfTheCaches) {
       EXPECT_EQ(result.back_distance, expected.back_distance);
     }
   }
-  EXPECT_LE(shared.reconstructions(), 3u);
+  EXPECT_EQ(shared.clouds(), 1u);
+  EXPECT_LE(shared.reconstructions(), 6u);
 }
 
 TEST(RunChain, RepeatsNoStageForALaterStagesGene) {
@@ -316,6 +320,15 @@ TEST(RunChain, RepeatsNoStageForALaterStagesGene) {
   candidate.parameters["gp3.mu"] = 3;
   chain.run(candidate);
   EXPECT_EQ(chain.reconstructions(), 2u);
+  EXPECT_EQ(chain.clouds(), 0u);
+  ChainSettings smoothed = settings("gp3");
+  smoothed.parameters.insert({{"mls.method", 1}, {"mls.radius", 4}, {"mls.order", 2}});
+  for (const double mu : {3.0, 4.0}) {
+    smoothed.parameters["gp3.mu"] = mu;
+    chain.run(smoothed);
+  }
+  EXPECT_EQ(chain.reconstructions(), 4u);
+  EXPECT_EQ(chain.clouds(), 1u);
 }
 
 struct Sized {

@@ -157,12 +157,28 @@ TEST(Reconstruction, TakesFewerPointsThanNeighbours) {
   for (const std::string_view method : {"gp3", "hoppe"}) {
     for (const double k : {3.0, 40.0}) {
       ParameterValues values = standards(method);
-      values["normals.k"] = k;
+      values["normals.k"] = values["normals.orientation_k"] = k;
       EXPECT_GT(reconstruction_method(method).reconstruct(octahedron, values).mesh.triangles.size(),
                 0u)
           << method << " k " << k;
     }
   }
+}
+
+// Two spheres side by side: a graph of near neighbours keeps them apart, a wider one joins the
+// points that face each other and so turns one sphere inward.
+TEST(Reconstruction, OrientationSpreadsToItsNeighbours) {
+  const std::vector<Point> one = sphere_cloud(1000);
+  std::vector<Point> cloud = one;
+  for (const Point& p : one) cloud.push_back(p + Point(2.15, 0, 0));
+  ParameterValues values = standards("gp3");
+  values["gp3.surface_angle"] = 45;
+  const auto volume = [&](double orientation_k) {
+    values["normals.orientation_k"] = orientation_k;
+    return signed_volume(reconstruction_method("gp3").reconstruct(cloud, values).mesh);
+  };
+  EXPECT_NEAR(volume(6), 2 * 4 * std::numbers::pi / 3, 0.2);
+  EXPECT_NEAR(volume(40), 0, 0.2);
 }
 
 TEST(Reconstruction, RefusesWhatSpansNoSurface) {
