@@ -260,7 +260,8 @@ SCANS_EXPLAINED = f"""\
 Written by `./dev bench --search`: the paper's chain (greedy projection, holes filled, Schroeder's decimation, bounded \
 on the points), {SCAN_BUDGET} evaluations one after the other, {SCAN_SEEDS} runs unless said; median of the least triangles \
 within the bound, in brackets the least and the greatest. The name says scan and ε in percent of the width; of the \
-building 0.5 % of the points may be excluded. All begin with the standard values.
+building 0.5 % of the points may be excluded. All begin with the standard values. [{DETAILS}]({DETAILS}) has each \
+strategy left out.
 """
 
 ABLATIONS_EXPLAINED = "The last rows show what replaces one part by the published one.\n"
