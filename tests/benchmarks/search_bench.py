@@ -95,11 +95,11 @@ def by_percent(percent):
 
 
 def measure_functions(store, options):
-    program, library = options.build / "bin/emax_search_benchmark", options.build / "lib/libemax_search_problems.so"
+    library = options.build / "lib/libemax_search_problems.so"
     plan = [(way, problem, budget) for budget in BUDGETS for problem in PROBLEMS
             for way in SEARCHES if way == "emax" or budget in LOOK_AHEAD_BUDGETS]
     for way, problem, budget in plan:
-        run_own(store, program, way, problem, budget, SEEDS)
+        run_own(store, options, way, problem, budget, SEEDS)
     for budget in BUDGETS:
         for problem in PROBLEMS:
             run_peers(store, options.python, ["--library", library], PEERS, problem, budget, SEEDS)
@@ -109,31 +109,34 @@ def measure_ablations(store, options):
     for budget in ABLATION_BUDGETS:
         for problem in PROBLEMS:
             for way in ["emax"] + ABLATIONS:
-                run_own(store, options.build / "bin/emax_search_benchmark", way, problem, budget, SEEDS)
+                run_own(store, options, way, problem, budget, SEEDS)
 
 
 def measure_published(store, options):
     for problem in PUBLISHED:
-        run_own(store, options.build / "bin/emax_search_benchmark", ORIGINAL, problem, ORIGINAL_BUDGET, SEEDS)
+        run_own(store, options, ORIGINAL, problem, ORIGINAL_BUDGET, SEEDS)
 
 
 def measure_scans(store, options):
-    program = options.build / "bin/emax_search_benchmark"
     for scan in SCANS:
-        run_own(store, program, "emax", scan, SCAN_BUDGET, SCAN_SEEDS)
-        run_peers(store, options.python, ["--program", program], SCAN_PEERS, scan, SCAN_BUDGET, SCAN_SEEDS)
+        run_own(store, options, "emax", scan, SCAN_BUDGET, SCAN_SEEDS)
+        run_peers(store, options.python, ["--program", own_program(options)], SCAN_PEERS, scan, SCAN_BUDGET, SCAN_SEEDS)
     for percent in RANGE:
-        run_own(store, program, "emax", by_percent(percent), SCAN_BUDGET, RANGE_SEEDS)
+        run_own(store, options, "emax", by_percent(percent), SCAN_BUDGET, RANGE_SEEDS)
 
 
 def measure_scan_ablations(store, options):
     for way in ["emax"] + SCAN_ABLATIONS:
-        run_own(store, options.build / "bin/emax_search_benchmark", way, SCANS[0], SCAN_BUDGET, SCAN_ABLATION_SEEDS)
+        run_own(store, options, way, SCANS[0], SCAN_BUDGET, SCAN_ABLATION_SEEDS)
 
 
-def run_own(store, program, way, problem, budget, seeds):
+def own_program(options):
+    return options.build / "bin/emax_search_benchmark"
+
+
+def run_own(store, options, way, problem, budget, seeds):
     if not store.has(way, problem, budget, seeds):
-        store.run([program, "--ways", way, "--problems", problem, "--budgets", budget, "--seeds", seeds], "emax")
+        store.run([own_program(options), "--ways", way, "--problems", problem, "--budgets", budget, "--seeds", seeds], "emax")
 
 
 def run_peers(store, python, source, ways, problem, budget, seeds):
@@ -264,8 +267,6 @@ building 0.5 % of the points may be excluded. All begin with the standard values
 strategy left out.
 """
 
-ABLATIONS_EXPLAINED = "The last rows show what replaces one part by the published one.\n"
-
 SCAN_ABLATIONS_EXPLAINED = f"""\
 Triangles after {SCAN_BUDGET} evaluations, run by run. The finish and the first phase have nothing to do there: no
 local search begins where a gene is monotone, and the standard values are feasible.
@@ -305,7 +306,7 @@ def functions_details(store):
 
 
 def ablations_details(store):
-    parts = ["## Each strategy left out\n", ABLATIONS_EXPLAINED]
+    parts = ["## Each strategy left out\n", "The last rows show what replaces one part by the published one.\n"]
     for budget in ABLATION_BUDGETS:
         parts += [f"{budget} evaluations:\n", table(store, ["emax"] + ABLATIONS, budget)]
     return "\n".join(parts)
