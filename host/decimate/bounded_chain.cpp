@@ -14,6 +14,17 @@ namespace {
 
 constexpr double kInside = 1 - 1e-9;  // of a bound: where no rounding leads beyond it
 
+// Certified: an upper bound on the distance where it keeps the limit, a lower one otherwise.
+double bounded_distance(MeshView from, const ExactMesh& to, double limit) {
+  const SurfaceDistance decided = decided_distance(from, to, limit);
+  if (decided.within(limit)) return decided.upper;
+  constexpr double kPrecision = 0.05;  // enough to compare candidates that fail
+  SurfaceDistanceOptions measure;
+  measure.relative = kPrecision;
+  const SurfaceDistance measured = surface_distance(from, to, measure);
+  return std::max({decided.lower, measured.lower, std::nextafter(limit, HUGE_VAL)});
+}
+
 }  // namespace
 
 BoundedStage::BoundedStage(std::span<const Point> points, DecimationBound bound)
@@ -64,15 +75,12 @@ TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
 
 double BoundedStage::back_distance(const TriangleMesh& mesh) const {
   if (!two_sided()) return 0;
-  const SurfaceDistance decided =
-      decided_distance(mesh.view(), *exact_reference_, bound_.epsilon_back);
-  if (decided.within(bound_.epsilon_back)) return decided.upper;
-  constexpr double kPrecision = 0.05;  // enough to compare candidates that fail
-  SurfaceDistanceOptions measure;
-  measure.relative = kPrecision;
-  const SurfaceDistance measured = surface_distance(mesh.view(), *exact_reference_, measure);
-  const double beyond = std::nextafter(bound_.epsilon_back, HUGE_VAL);
-  return std::max({decided.lower, measured.lower, beyond});
+  return bounded_distance(mesh.view(), *exact_reference_, bound_.epsilon_back);
+}
+
+double BoundedStage::reference_distance(const TriangleMesh& mesh) const {
+  if (!two_sided()) return 0;
+  return bounded_distance(bound_.reference.view(), ExactMesh(mesh.view()), bound_.epsilon);
 }
 
 }  // namespace emax

@@ -39,6 +39,10 @@ class BoundedStage {
   // epsilon_back, and a lower one otherwise; 0 when the bound is one-sided.
   double back_distance(const TriangleMesh& mesh) const;
 
+  // Likewise of the distance of the reference, the inside of its triangles included, from the mesh,
+  // whose bound is epsilon.
+  double reference_distance(const TriangleMesh& mesh) const;
+
  private:
   DecimationBound bound_;
   std::vector<Point> kept_;  // points that are no outliers

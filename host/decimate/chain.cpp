@@ -110,6 +110,7 @@ ChainResult Chain::run(const ChainSettings& settings) {
     result.mesh = bounded_.decimate(start.mesh, settings.parameters);
     result.seconds.decimate = watch.lap();
     result.back_distance = bounded_.back_distance(result.mesh);
+    result.reference_distance = bounded_.reference_distance(result.mesh);
     result.seconds.check = watch.lap();
   } else if (settings.decimator == kNoDecimator) {
     result.mesh = start.mesh;

@@ -46,6 +46,9 @@ struct ChainResult {
   // Of the bounded decimator under a two-sided bound: how far the mesh strays from the reference,
   // certified; more than epsilon_back exactly where it breaks the bound.
   double back_distance = 0;
+  // And how far any point of the reference is from the mesh; more than epsilon exactly where that
+  // bound is broken.
+  double reference_distance = 0;
   StageSeconds seconds = {};
 };
 

@@ -386,9 +386,10 @@ ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
 }
 
 double violation_of(const ChainResult& made, const MeasuredError& error,
-                    const DecimationBound& bound) {
+                    const DecimationBound& bound, bool keeps_reference) {
   if (!(bound.epsilon_back > 0)) return error.violation;
-  return std::max(error.violation, made.back_distance / bound.epsilon_back - 1);
+  const double back = std::max(error.violation, made.back_distance / bound.epsilon_back - 1);
+  return keeps_reference ? std::max(back, made.reference_distance / bound.epsilon - 1) : back;
 }
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,

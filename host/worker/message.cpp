@@ -72,6 +72,7 @@ json to_json(const MeshMessage& m) {
           {"reconstruction_triangles", m.result.reconstruction_triangles},
           {"unmeshed_points", m.result.unmeshed_points},
           {"back_distance", m.result.back_distance},
+          {"reference_distance", m.result.reference_distance},
           {"seconds", {t.reconstruct, t.prepare, t.decimate, t.check}}};
 }
 
@@ -99,6 +100,12 @@ std::uint64_t count_from(const json& j) {
   return j;
 }
 
+double distance_from(const json& j) {
+  const double distance = j;
+  if (!(distance >= 0) || std::isinf(distance)) throw Error("a distance is negative or not finite");
+  return distance;
+}
+
 Message points_from_json(const json& j) {
   PointsMessage m{points_from_binary(j.at("points")), {}};
   j.at("epsilon").get_to(m.bound.epsilon);
@@ -113,10 +120,8 @@ Message mesh_from_json(const json& j) {
   m.result.mesh = mesh_from_binary(j.at("vertices"), j.at("triangles"));
   m.result.reconstruction_triangles = count_from(j.at("reconstruction_triangles"));
   m.result.unmeshed_points = count_from(j.at("unmeshed_points"));
-  m.result.back_distance = j.at("back_distance");
-  if (!(m.result.back_distance >= 0) || std::isinf(m.result.back_distance)) {
-    throw Error("a distance is negative or not finite");
-  }
+  m.result.back_distance = distance_from(j.at("back_distance"));
+  m.result.reference_distance = distance_from(j.at("reference_distance"));
   const json& seconds = j.at("seconds");
   m.result.seconds = {seconds.at(0), seconds.at(1), seconds.at(2), seconds.at(3)};
   return m;

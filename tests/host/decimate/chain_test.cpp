@@ -87,6 +87,7 @@ TEST(RunChain, BoundedDecimationIsHeldToTheReference) {
   const ChainResult freer = Chain(cloud, one_sided).run(candidate);
   EXPECT_LE(freer.mesh.triangles.size(), result.mesh.triangles.size());
   EXPECT_EQ(freer.back_distance, 0);
+  EXPECT_EQ(freer.reference_distance, 0);
 }
 
 // A reference that lacks a part of the surface: what is made there is left out, and the bound
@@ -123,6 +124,40 @@ TEST(BoundedStage, TellsHowFarAMeshStraysFromTheReference) {
     EXPECT_GE(back, 0.9 * measured.lower) << shift;
     EXPECT_LE(back, std::max(measured.upper, 0.05)) << shift;
   }
+}
+
+// The deliberate fault that this direction alone catches: a mesh with a hole in it lies in the
+// reference, with a hole between the points it keeps all of them.
+TEST(BoundedStage, TellsHowFarTheReferenceIsFromAMesh) {
+  const std::vector<Point> corners = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
+  const DecimationBound bound = {0.5, 0.5, {corners, {{0, 1, 2}, {0, 2, 3}}}, {}};
+  const BoundedStage stage(corners, bound);
+  EXPECT_LE(stage.reference_distance(bound.reference), 0.5);
+  // A frame of the given width around the square's inside.
+  const auto frame = [&](double width) {
+    TriangleMesh mesh{corners, {}};
+    for (const Point& p : corners)
+      mesh.vertices.push_back(p + width * Point(p.x() > 0 ? -1 : 1, p.y() > 0 ? -1 : 1, 0));
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t j = (i + 1) % 4;
+      mesh.triangles.push_back({i, j, 4 + j});
+      mesh.triangles.push_back({i, 4 + j, 4 + i});
+    }
+    return mesh;
+  };
+  for (const double width : {3.45, 3.499, 3.501, 3.6, 3.9}) {
+    const TriangleMesh mesh = frame(width);
+    EXPECT_TRUE(certify(corners, mesh.view()).within(0));
+    EXPECT_LE(stage.back_distance(mesh), 1e-6);
+    const SurfaceDistance measured =
+        surface_distance(bound.reference.view(), ExactMesh(mesh.view()));
+    EXPECT_NEAR(measured.upper, 4 - width, 0.01);
+    const double found = stage.reference_distance(mesh);
+    EXPECT_EQ(found <= 0.5, width > 3.5) << width;
+    EXPECT_GE(found, 0.9 * measured.lower) << width;
+    EXPECT_LE(found, std::max(measured.upper, 0.5)) << width;
+  }
+  EXPECT_EQ(BoundedStage(corners, {0.5, 0, {}, {}}).reference_distance(frame(1)), 0);
 }
 
 // A core within a shell, which the surface misses: any triangle to it would pass through the shell.
@@ -300,6 +335,7 @@ TEST(RunChain, TakesNoNoticeOfTheCaches) {
       EXPECT_EQ(result.reconstruction_triangles, expected.reconstruction_triangles);
       EXPECT_EQ(result.unmeshed_points, expected.unmeshed_points);
       EXPECT_EQ(result.back_distance, expected.back_distance);
+      EXPECT_EQ(result.reference_distance, expected.reference_distance);
     }
   }
   EXPECT_EQ(shared.clouds(), 1u);

@@ -412,5 +412,24 @@ TEST(EvaluationLimits, GrowWithTheCloud) {
 #endif
 }
 
+// Each of the three bounds is broken where the others hold.
+TEST(Violation, IsThatOfTheWorstBound) {
+  const DecimationBound bound = {2, 4, {}, {}};
+  MeasuredError error = {};
+  error.violation = -0.5;
+  ChainResult made;
+  made.back_distance = made.reference_distance = 1;
+  EXPECT_EQ(violation_of(made, error, bound, true), -0.5);
+  made.reference_distance = 3;
+  EXPECT_EQ(violation_of(made, error, bound, true), 0.5);
+  EXPECT_EQ(violation_of(made, error, bound, false), -0.5);
+  made.reference_distance = 1;
+  made.back_distance = 8;
+  EXPECT_EQ(violation_of(made, error, bound, true), 1);
+  EXPECT_EQ(violation_of(made, error, {2, 0, {}, {}}, true), -0.5);  // one-sided
+  error.violation = 1.5;
+  EXPECT_EQ(violation_of(made, error, bound, true), 1.5);
+}
+
 }  // namespace
 }  // namespace emax::test

@@ -31,6 +31,7 @@ MeshMessage tetrahedron() {
            4,
            1,
            0,
+           0,
            {}}};
 }
 
@@ -65,9 +66,11 @@ TEST(Message, CarriesSettings) {
 TEST(Message, CarriesAMesh) {
   MeshMessage sent = tetrahedron();
   sent.result.back_distance = 0.1;
+  sent.result.reference_distance = 0.2;
   sent.result.seconds = {1, 2, 3, 4.5};
   const MeshMessage got = round_trip(sent);
   EXPECT_EQ(got.result.back_distance, 0.1);
+  EXPECT_EQ(got.result.reference_distance, 0.2);
   EXPECT_EQ(got.result.seconds.prepare, 2);
   EXPECT_EQ(got.result.seconds.sum(), 10.5);
   EXPECT_EQ(got.ticket, 7u);
@@ -131,9 +134,12 @@ TEST(Message, RefusesWhatIsNestedTooDeeply) {
 TEST(Message, RefusesDistancesThatAreNone) {
   for (const double distance :
        {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    MeshMessage message = tetrahedron();
-    message.result.back_distance = distance;
-    EXPECT_THROW(decode(body(encode(message))), Error) << distance;
+    for (double ChainResult::*member :
+         {&ChainResult::back_distance, &ChainResult::reference_distance}) {
+      MeshMessage message = tetrahedron();
+      message.result.*member = distance;
+      EXPECT_THROW(decode(body(encode(message))), Error) << distance;
+    }
   }
 }
 
