@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/geometry/input_file.h"
@@ -44,6 +46,31 @@ void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
   const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon[i]); };
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     content.triangles.push_back({index(0), index(i - 1), index(i)});
+  }
+}
+
+// Adds the triangles of strips of at least three corners each, which -1 ends and begins anew. Every
+// second triangle of a strip is turned, so that all face the same way. Triangles that repeat a
+// corner, by which strips are stitched together, are left out. `fail` as above.
+template <class Fail>
+void add_strips(FileContent& content, std::span<const std::int64_t> corners,
+                std::uint64_t vertex_count, const Fail& fail) {
+  for (std::size_t begin = 0; begin < corners.size();) {
+    std::size_t end = begin;
+    while (end < corners.size() && corners[end] != -1) ++end;
+    if (end != begin && end - begin < 3) {
+      fail("a strip of " + std::to_string(end - begin) + " corners, fewer than 3");
+    }
+    for (std::size_t i = begin + 2; i < end; ++i) {
+      std::array<std::int64_t, 3> triangle = {corners[i - 2], corners[i - 1], corners[i]};
+      if ((i - begin) % 2 != 0) std::swap(triangle[0], triangle[1]);
+      const auto& [a, b, c] = triangle;
+      const bool is_stitch = a == b || b == c || c == a;
+      // The indices are checked in any case.
+      add_polygon(content, triangle, vertex_count, fail);
+      if (is_stitch) content.triangles.pop_back();
+    }
+    begin = end + 1;
   }
 }
 

@@ -338,22 +338,27 @@ class Body {
 
   void read_element(const Element& element, std::uint64_t vertex_count) {
     const bool is_face = element.name == "face";
-    std::vector<std::int64_t> polygon;
+    const bool is_strips = element.name == "tristrips";
+    const auto fail = [&](const std::string& what) { values_.fail(what); };
+    std::vector<std::int64_t> corners;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       values_.begin_item(element, i);
       for (const Property& property : element.properties) {
         const std::uint64_t length = property.list_count ? list_length(property) : 1;
-        const bool is_polygon =
-            is_face && property.list_count &&
+        const bool holds_corners =
+            (is_face || is_strips) && property.list_count &&
             (property.name == "vertex_indices" || property.name == "vertex_index");
-        if (!is_polygon) {
+        if (!holds_corners) {
           values_.skip(property.type, length);
           continue;
         }
-        polygon.resize(length);
-        for (std::int64_t& corner : polygon) corner = values_.integer(property.type);
-        add_polygon(content_, polygon, vertex_count,
-                    [&](const std::string& what) { values_.fail(what); });
+        corners.resize(length);
+        for (std::int64_t& corner : corners) corner = values_.integer(property.type);
+        if (is_strips) {
+          add_strips(content_, corners, vertex_count, fail);
+        } else {
+          add_polygon(content_, corners, vertex_count, fail);
+        }
       }
       values_.end_item();
     }

@@ -130,6 +130,53 @@ TEST(MeshFile, ReadsWhatOthersWrite) {
   expect_square("binary.stl", binary);
 }
 
+const std::string kStripHeader =
+    "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+
+std::string text_strips(const std::string& corners) {
+  return "ply\nformat ascii 1.0\n" + kStripHeader + "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n" +
+         corners + "\n";
+}
+
+TEST(MeshFile, StripsOfAPlyFileBecomeTrianglesThatFaceOneWay) {
+  const TemporaryFolder folder;
+  struct Case {
+    std::vector<std::int32_t> corners;
+    std::vector<Triangle> triangles;
+  };
+  const std::vector<Case> cases{
+      {{0, 1, 2}, {{0, 1, 2}}},
+      {{0, 1, 2, 3, 4, 5}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}},
+      // Every strip begins anew with the winding of its first triangle.
+      {{0, 1, 2, 3, -1, 2, 3, 4, -1}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}},
+      {{-1, 0, 1, 2, -1, -1, 3, 4, 5}, {{0, 1, 2}, {3, 4, 5}}},
+      // A repeated corner stitches: it makes no triangle, and turns the next one.
+      {{0, 1, 2, 2, 3, 4}, {{0, 1, 2}, {3, 2, 4}}}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const std::vector<std::int32_t>& corners = cases[i].corners;
+    std::string text = std::to_string(corners.size());
+    for (const std::int32_t corner : corners) text += ' ' + std::to_string(corner);
+    const TriangleMesh mesh = read_mesh(folder.write("a.ply", text_strips(text)));
+    EXPECT_EQ(mesh.triangles, cases[i].triangles) << "case " << i;
+    ASSERT_EQ(mesh.vertices.size(), 6u);
+    for (const bool big_endian : {false, true}) {
+      std::string bytes = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+                          "_endian 1.0\n" + kStripHeader;
+      for (const Point& v : mesh.vertices) {
+        for (int k = 0; k < 3; ++k) append(bytes, static_cast<float>(v[k]), big_endian);
+      }
+      append(bytes, static_cast<std::int32_t>(corners.size()), big_endian);
+      for (const std::int32_t corner : corners) append(bytes, corner, big_endian);
+      EXPECT_EQ(read_mesh(folder.write("b.ply", bytes)).triangles, cases[i].triangles)
+          << "case " << i << (big_endian ? ", big endian" : ", little endian");
+      const std::filesystem::path cut = folder.write("c.ply", bytes.substr(0, bytes.size() - 1));
+      expect_clear(message_of([&] { read_mesh(cut); }), cut.string(), "tristrips 0: a list of",
+                   "truncated");
+    }
+  }
+}
+
 TEST(MeshFile, VerticesOfAMeshFileAreACloud) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = random_mesh(9);
@@ -157,6 +204,13 @@ TEST(MeshFile, BadMeshesAreRefused) {
        "finite"},
       {"a.off", "OFF\n3 1 0\n1 2 3\n4 5 6\n7 8 8\n3 0 1 3\n", "line 6: vertex index 3 is outside",
        "export"},
+      {"a.ply", text_strips("4 0 1 2 6"), "line 16: vertex index 6 is outside 0..6 - 1", "export"},
+      {"a.ply", text_strips("4 0 0 0 6"), "vertex index 6", "export"},
+      {"a.ply", text_strips("4 0 1 2 -2"), "vertex index -2", "export"},
+      {"a.ply", text_strips("6 0 1 2 -1 4 5"), "a strip of 2 corners", "export"},
+      {"a.ply", text_strips("5 0 1 2 3"), "a list of 5 values", "export"},
+      {"a.ply", text_strips("3 0 1 2 3"), "5 values where 4", "export"},
+      {"a.ply", text_strips("2 -1 -1"), "no triangles", "give a mesh"},
       {"a.stl", "OFF\n3 0 0\n1 2 3\n", "a .off file", "rename it to .off"},
       {"a.stl", "too short", "84 bytes", "export"},
       {"a.stl", whole.substr(0, whole.size() - 1), "promises 1 triangles", "truncated"},
