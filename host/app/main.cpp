@@ -38,7 +38,8 @@ void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& s
 }
 
 void add_common(CLI::App& command, CommonOptions& options) {
-  command.add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .pts .obj .off")
+  command
+      .add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .txt .pts .obj .off")
       ->required();
   command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
       ->capture_default_str();

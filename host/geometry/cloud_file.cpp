@@ -15,10 +15,10 @@ namespace {
 
 using Reader = FileContent (*)(const InputFile&);
 
-constexpr std::array<std::string_view, 7> kEndings{".ply", ".pcd", ".xyz", ".asc",
-                                                   ".pts", ".obj", ".off"};
-constexpr std::array<Reader, 7> kReaders{read_ply, read_pcd, read_xyz, read_xyz,
-                                         read_pts, read_obj, read_off};
+constexpr std::array<std::string_view, 8> kEndings{".ply", ".pcd", ".xyz", ".asc",
+                                                   ".txt", ".pts", ".obj", ".off"};
+constexpr std::array<Reader, 8> kReaders{read_ply, read_pcd, read_xyz, read_xyz,
+                                         read_xyz, read_pts, read_obj, read_off};
 
 void drop_invalid(PointCloud& cloud) {
   std::size_t kept = 0;

@@ -14,7 +14,7 @@ struct CloudReadOptions {
   bool skip_invalid = false;
 };
 
-// The endings that read_cloud knows: .ply .pcd .xyz .asc .pts .obj .off.
+// The endings that read_cloud knows: .ply .pcd .xyz .asc .txt .pts .obj .off.
 std::span<const std::string_view> cloud_endings();
 
 // Reads a cloud by the ending of `path`. Coordinates are those of the file to the last bit: text is

@@ -79,16 +79,19 @@ void add_strips(FileContent& content, std::span<const std::int64_t> corners,
 void check_count(const InputFile& input, std::uint64_t count, std::string_view items,
                  std::uint64_t least_bytes, std::uint64_t bytes_left);
 
-// One reader per format, strict: what the header promises is there, and nothing follows it.
+// One reader per format, strict: what the header promises is there, and nothing follows it; behind
+// the data of a PCD file there may be padding.
 FileContent read_ply(const InputFile& input);  // ascii, binary little and big endian
 FileContent read_off(const InputFile& input);  // [C][N]OFF
 FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are passed over
 FileContent read_stl(const InputFile& input);  // ascii, binary; equal vertices merged
 FileContent read_pcd(const InputFile& input);  // ascii, binary, binary_compressed
-// Columns: x y z, x y z i, x y z a b c, x y z a b c i; (a, b, c) are normals when every row holds a
-// unit vector, otherwise colours. Separated by blanks, commas or semicolons, the same throughout.
+// Columns: x y z, then any others, as many in every row: intensity, colour, normal in any order.
+// The first three columns behind x y z that hold a unit vector in every row are the normal.
+// Separated by blanks, commas or semicolons, the same throughout; decimal commas are refused.
 FileContent read_xyz(const InputFile& input);
-// As above, but (a, b, c) and (i, r, g, b) are never normals; the first line may hold the count.
+// As above, but the four columns behind x y z (intensity and colour) are never part of a normal;
+// the first line may hold the count.
 FileContent read_pts(const InputFile& input);
 
 }  // namespace emax

@@ -154,8 +154,14 @@ void TextLines::split() {
 
 double TextLines::number(std::size_t i) const {
   const std::optional<double> value = parse_double(fields_[i]);
-  if (!value) fail(fmt::format("\"{}\" is not a 64-bit number", printable(fields_[i])));
-  return *value;
+  if (value) return *value;
+  if (is_decimal_comma(fields_[i])) fail_at_decimal_comma(fields_[i]);
+  fail(fmt::format("\"{}\" is not a 64-bit number", printable(fields_[i])));
+}
+
+void TextLines::fail_at_decimal_comma(std::string_view text) const {
+  fail(fmt::format("\"{}\" has a decimal comma", printable(text)),
+       "export the file with decimal points, or replace the commas by points");
 }
 
 std::int64_t TextLines::integer(std::size_t i) const {

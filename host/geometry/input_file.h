@@ -63,6 +63,9 @@ class TextLines {
   std::uint64_t count(std::size_t i) const;  // an integer >= 0
   Point point(std::size_t i) const;          // three numbers
 
+  // Throws the error of a comma in place of the decimal point.
+  [[noreturn]] void fail_at_decimal_comma(std::string_view text) const;
+
   // "<name>: line <n>: <what>; <remedy>"
   [[noreturn]] void fail(
       std::string_view what,

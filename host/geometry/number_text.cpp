@@ -23,6 +23,16 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   return parse<std::int64_t>(text);
 }
 
+bool is_decimal_comma(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos || comma == 0 || comma + 1 == text.size()) return false;
+  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return false;
+  std::string with_point(text);
+  with_point[comma] = '.';
+  return parse_double(with_point).has_value();
+}
+
 void append_shortest(std::string& text, double value) {
   char digits[32];
   const auto result = std::to_chars(digits, digits + sizeof digits, value);

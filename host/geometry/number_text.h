@@ -13,6 +13,9 @@ namespace emax {
 std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
+// Whether `text` is a number but for one comma between two digits, in place of the decimal point.
+bool is_decimal_comma(std::string_view text);
+
 // The shortest decimal text that reads back as exactly `value`.
 void append_shortest(std::string& text, double value);
 

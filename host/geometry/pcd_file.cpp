@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "host/geometry/file_content.h"
+#include "host/geometry/number_text.h"
 
 namespace emax {
 namespace {
@@ -19,9 +20,13 @@ struct Field {
   std::string name;
   std::size_t size = 4;  // bytes of one value
   char type = 'F';
-  std::size_t count = 1;  // values
-  std::size_t bytes() const { return size * count; }
+  // Values. Negative for padding "_" alone: the Point Cloud Library's writer goes back so where the
+  // fields of a type do not stand in the order of its memory, and writes no column of text for it.
+  std::int64_t count = 1;
+  std::int64_t bytes() const { return static_cast<std::int64_t>(size) * count; }
 };
+
+constexpr std::int64_t kMostValues = 65536;
 
 enum class Data { kText, kBinary, kCompressed };
 
@@ -33,22 +38,24 @@ struct Header {
   std::size_t last_line = 0;
 
   std::size_t point_bytes() const {
-    std::size_t sum = 0;
+    std::int64_t sum = 0;
     for (const Field& f : fields) sum += f.bytes();
-    return sum;
+    return static_cast<std::size_t>(sum);
   }
   std::size_t columns() const {
-    std::size_t sum = 0;
-    for (const Field& f : fields) sum += f.count;
-    return sum;
+    std::int64_t sum = 0;
+    for (const Field& f : fields) sum += std::max<std::int64_t>(f.count, 0);
+    return static_cast<std::size_t>(sum);
   }
 };
 
 void check_field(const TextLines& lines, const Field& field) {
+  const bool is_integer_size =
+      field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8;
   const bool known = field.type == 'F' ? field.size == 4 || field.size == 8
-                                       : (field.type == 'I' || field.type == 'U') &&
-                                             (field.size == 1 || field.size == 2 ||
-                                              field.size == 4 || field.size == 8);
+                     : field.type == 'B'
+                         ? field.size == 1
+                         : (field.type == 'I' || field.type == 'U') && is_integer_size;
   if (!known) {
     lines.fail(fmt::format("field \"{}\" of type {} and {} bytes is no PCD field",
                            printable(field.name), field.type, field.size));
@@ -80,8 +87,10 @@ Header read_header(const InputFile& input) {
           [&](Field& f, std::size_t i) { f.type = lines[i].size() == 1 ? lines[i][0] : '?'; });
     } else if (key == "COUNT") {
       value_of_each_field([&](Field& f, std::size_t i) {
-        f.count = lines.count(i);
-        if (f.count == 0 || f.count > 65536) lines.fail("COUNT is outside 1..65536");
+        f.count = lines.integer(i);
+        if (f.count < (f.name == "_" ? -kMostValues : 1) || f.count > kMostValues) {
+          lines.fail(fmt::format("COUNT is outside 1..{}", kMostValues));
+        }
       });
     } else if (key == "WIDTH" || key == "HEIGHT" || key == "POINTS") {
       if (lines.size() != 2) lines.fail("needs one number");
@@ -102,7 +111,17 @@ Header read_header(const InputFile& input) {
       lines.fail(fmt::format("unknown header word \"{}\"", printable(key)));
     }
   }
-  for (const Field& field : header.fields) check_field(lines, field);
+  std::int64_t offset = 0;
+  std::int64_t greatest = 0;
+  for (const Field& field : header.fields) {
+    check_field(lines, field);
+    offset += field.bytes();
+    greatest = std::max(greatest, offset);
+    if (offset < 0) break;
+  }
+  if (offset < greatest) {
+    input.fail("a field of the header ends outside of its point", kExportAgain);
+  }
   if (!points && width) points = *width * height.value_or(1);
   if (!points) input.fail("the header has neither POINTS nor WIDTH", kExportAgain);
   const auto product_is_points = [&] {
@@ -131,12 +150,12 @@ std::optional<ThreePlaces> find_three(const Header& header,
   ThreePlaces places{};
   for (std::size_t k = 0; k < 3; ++k) {
     std::size_t column = 0;
-    std::size_t offset = 0;
+    std::int64_t offset = 0;
     for (const Field& field : header.fields) {
       if (field.name == names[k] && field.count == 1 && places[k].field == nullptr) {
-        places[k] = {&field, column, offset};
+        places[k] = {&field, column, static_cast<std::size_t>(offset)};
       }
-      column += field.count;
+      column += static_cast<std::size_t>(std::max<std::int64_t>(field.count, 0));
       offset += field.bytes();
     }
     if (places[k].field == nullptr) return std::nullopt;
@@ -173,7 +192,7 @@ std::string decompress(const InputFile& input, const Header& header, std::uint64
   std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
   if (room < sizeof sizes) input.fail("the file ends before its compressed data", kExportAgain);
   std::memcpy(sizes.data(), input.bytes.data() + header.body, sizeof sizes);
-  if (sizes[0] != room - sizeof sizes) {
+  if (sizes[0] > room - sizeof sizes) {
     input.fail(fmt::format("{} bytes of compressed data are promised, {} follow", sizes[0],
                            room - sizeof sizes),
                kExportAgain);
@@ -192,8 +211,19 @@ std::string decompress(const InputFile& input, const Header& header, std::uint64
   return data;
 }
 
+bool is_point(const TextLines& lines, std::size_t columns) {
+  if (lines.size() != columns) return false;
+  for (std::size_t k = 0; k < columns; ++k) {
+    if (!parse_double(lines[k])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
+// Writers pad the data to whole pages of memory, so what follows the last point is ignored, as the
+// Point Cloud Library's own reader does. A line of text that is one more point is refused: the
+// header contradicts it.
 FileContent read_pcd(const InputFile& input) {
   const Header header = read_header(input);
   const auto coordinates = find_three(header, {"x", "y", "z"});
@@ -235,16 +265,14 @@ FileContent read_pcd(const InputFile& input) {
     };
     add_all(
         "line", [&](const Place& p, std::size_t) { return lines.number(p.column); }, next_line);
-    if (lines.next()) lines.fail("more lines than the header promises");
+    if (lines.next() && is_point(lines, header.columns())) {
+      lines.fail(fmt::format("more points than the {} of the header", header.points));
+    }
     return content;
   }
 
   if (header.data == Data::kBinary) {
     check_count(input, header.points, "points", point_bytes, room);
-    if (header.points * point_bytes != room) {
-      input.fail(fmt::format("{} bytes follow the last point", room - header.points * point_bytes),
-                 kExportAgain);
-    }
     const char* const body = input.bytes.data() + header.body;
     add_all(
         "vertex",

@@ -92,7 +92,7 @@ TEST(BadCloud, Ply) {
         "export"},
        {"a.ply", text_ply(kTwoVertices, "1 2 3\n4 5 6 7\n"), "line 9: 4 values", "export"},
        {"a.ply", text_ply(kTwoVertices, "1 2 3\n4 5 6x\n"), "line 9: \"6x\"", "correct"},
-       {"a.ply", text_ply(kTwoVertices, "1 2 3\n4 5,5 6\n"), "\"5,5\"", "correct"},
+       {"a.ply", text_ply(kTwoVertices, "1 2 3\n4 5,,5 6\n"), "\"5,,5\"", "correct"},
        {"a.ply", text_ply(kTwoVertices, "1 2 3\n4 5 1e999\n"), "\"1e999\"", "correct"},
        {"a.ply", text_ply(kTwoVertices, "1 2 3\n4 5 +-6\n"), "\"+-6\"", "correct"},
        {"a.ply",
@@ -143,13 +143,12 @@ TEST(BadCloud, Ply) {
 TEST(BadCloud, Pcd) {
   expect_refused(
       {{"a.pcd", pcd("1.25 2.25 3.25\n"), "point 1 of 2", "truncated"},
-       {"a.pcd", pcd("1 2 3\n4 5 6\n7 8 9\n"), "line 12: more lines", "export"},
+       {"a.pcd", pcd("1 2 3\n4 5 6\n7 8 9\n"), "line 12: more points than the 2", "export"},
        {"a.pcd", pcd("1.25 2 3\n4 5\n"), "line 11: 2 columns", "export"},
        {"a.pcd", pcd("1 2 3\n4 5 x\n"), "line 11: \"x\"", "export"},
        {"a.pcd", pcd("1 2 3\n", "ascii", "1000000000000"), "1000000000000 points", "truncated"},
        {"a.pcd", pcd("", "ascii", "0"), "no points", "export"},
        {"a.pcd", pcd(std::string(23, '\1'), "binary"), "promises 2 points", "truncated"},
-       {"a.pcd", pcd(std::string(25, '\1'), "binary"), "1 bytes follow", "truncated"},
        {"a.pcd", pcd(std::string(24, '\1'), "binary", "1000000000000"), "room for 2", "trunc"},
        {"a.pcd", pcd("1234567", "binary_compressed"), "before its compressed", "truncated"},
        {"a.pcd", pcd(std::string(8, '\0'), "binary_compressed"), "cannot be the promised",
@@ -163,6 +162,16 @@ TEST(BadCloud, Pcd) {
        {"a.pcd", "FIELDS x y z\nSIZE 4 4\n", "line 2: needs one value for each", "export"},
        {"a.pcd", "FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nWIDTH 1\nDATA ascii\n1 2 3\n",
         "field \"z\" of type F and 3 bytes", "export"},
+       {"a.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 -1 1\n", "line 4: COUNT is",
+        "export"},
+       {"a.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 0 1\n", "line 4: COUNT is",
+        "export"},
+       {"a.pcd",
+        "FIELDS x _ y z\nSIZE 4 1 4 4\nTYPE F U F F\nCOUNT 1 -5 1 1\nWIDTH 1\nDATA ascii\n",
+        "outside of its point", "truncated"},
+       {"a.pcd",
+        "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 -4\nWIDTH 1\nDATA ascii\n",
+        "outside of its point", "truncated"},
        {"a.pcd", "FIELDS x y\nWIDTH 1\nDATA ascii\n1 2\n", "no FIELDS x, y and z", "fields"},
        {"a.pcd", "FIELDS x y z\nDATA ascii\n1 2 3\n", "neither POINTS nor WIDTH", "export"},
        {"a.pcd", "FIELDS x y z\nWIDTH 2\nHEIGHT 2\nPOINTS 3\nDATA ascii\n1 2 3\n",
@@ -174,13 +183,13 @@ TEST(BadCloud, Text) {
   expect_refused({{"a.xyz", "1 2 3\n4 5\n", "line 2: 2 columns", "export"},
                   {"a.xyz", "1 2 3\n4 5 6 7\n", "line 2: 4 columns", "export"},
                   {"a.xyz", "1 2\n", "line 1: 2 columns are not a point", "x y z"},
-                  {"a.xyz", "1 2 3 4 5\n", "line 1: 5 columns", "x y z"},
+                  {"a.xyz", "1 2 3 4 5\n1 2 3 4\n", "line 2: 4 columns where", "export"},
+                  {"a.xyz", "1 2 3 9 9 9 0 0 1\n1 2 3 9 9 9 0 0 up\n", "line 2: \"up\"", "correct"},
                   {"a.xyz", "x y z\n1 2 3\n", "line 1: \"x\" is not a 64-bit number", "correct"},
                   {"a.xyz", "1 2 3\n4 5 0x6\n", "\"0x6\"", "correct"},
                   {"a.xyz", "1 2 3\n4 5 6abc\n", "\"6abc\"", "correct"},
                   {"a.xyz", "1 2 3 ok\n", "\"ok\"", "correct"},
-                  {"a.xyz", "1,5 2,5 3,5\n", "line 1: \"5 2\"", "correct"},
-                  {"a.asc", "1;2,5;3\n", "\"2,5\"", "correct"},
+                  {"a.asc", "1;2,x;3\n", "\"2,x\"", "correct"},
                   {"a.asc", "1,2,\n", "\"\" is not", "correct"},
                   {"a.asc", "1,2,3\n4 5 6\n", "line 2: 1 columns", "correct"},
                   {"a.xyz", "3\ncomment\nC 1 2 3\n", "line 1: 1 columns", "x y z"},
@@ -190,6 +199,26 @@ TEST(BadCloud, Text) {
                   {"a.pts", "2\n", "the first of 2 points", "truncated"},
                   {"a.pts", "-1\n1 2 3\n", "-1 is negative", "export"},
                   {"a.pts", "1.5\n1 2 3\n", "\"1.5\" is not a whole number", "export"}});
+}
+
+TEST(BadCloud, DecimalCommasAreNamedWithTheirRemedy) {
+  std::vector<BadFile> files;
+  const auto add = [&files](std::string name, std::string bytes, std::string where) {
+    files.push_back({std::move(name), std::move(bytes), std::move(where) + " has a decimal comma",
+                     "decimal points"});
+  };
+  add("a.xyz", "1,5 2,5 3,5\n", "line 1: \"1,5 2,5 3,5\"");
+  add("a.xyz", "1,5\t2,5\t3,5\t255\n", "line 1: \"1,5?2,5?3,5?255\"");
+  add("a.xyz", "1,5, 2,5, 3,5\n", "line 1: \"1,5, 2,5, 3,5\"");
+  add("a.xyz", "-1 2 -3,25e4\n", "line 1: \"-1 2 -3,25e4\"");
+  add("a.xyz", "1 2 3\n4,5 5 6\n", "line 2: \"4,5\"");
+  add("a.asc", "1;2,5;3\n", "line 1: \"2,5\"");
+  add("a.pts", "2\n1,5 2,5 3,5\n4,5 5,5 6,5\n", "line 2: \"1,5 2,5 3,5\"");
+  add("a.ply", text_ply(kTwoVertices, "1 2 3\n4 5,5 6\n"), "line 9: \"5,5\"");
+  add("a.pcd", pcd("1 2 3\n4 5,5 6\n"), "line 11: \"5,5\"");
+  add("a.obj", "v 1 2 3\nv 4 5,5 6\n", "line 2: \"5,5\"");
+  add("a.off", "OFF\n1 0 0\n1,5 2,5 3,5\n", "line 3: \"1,5\"");
+  expect_refused(files);
 }
 
 TEST(BadCloud, Obj) {
