@@ -5,6 +5,7 @@
 #include "host/app/commands.h"
 #include "host/app/decimation_progress.h"
 #include "host/app/interrupt.h"
+#include "host/app/reference_text.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/sha256.h"
@@ -157,6 +158,7 @@ class DecimateCommand {
     certificate.vertices = result_.mesh.vertices.size();
     certificate.triangles = result_.mesh.triangles.size();
     certificate.validity = result_.validity;
+    certificate.topology = topology_of(result_.mesh.view());
     certificate.transform = normalization_of(scan_.cloud.points);
     certificate.chain = {"none",
                          "bounded",
@@ -186,7 +188,10 @@ class DecimateCommand {
     reference.triangles = reference_.mesh.triangles.size();
     reference.epsilon_back = epsilon_back();
     reference.mesh_to_reference = result_.mesh_to_reference->upper;
-    if (result_.reference_to_mesh) reference.reference_to_mesh = result_.reference_to_mesh->upper;
+    reference.topology = topology_of(reference_.mesh.view());
+    reference.reference_to_mesh = result_.reference_to_mesh
+                                      ? result_.reference_to_mesh->upper
+                                      : reference_to_mesh(reference_.mesh, result_.mesh, epsilon_);
     reference.points_to_reference =
         certify(scan_.cloud.points, reference_.mesh.view(), result_.points.excluded).e_max_upper;
     return reference;
@@ -202,18 +207,15 @@ class DecimateCommand {
     }
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(result_.mesh.triangles.size()), describe(result_.validity));
-    const auto line = [&](const char* name, double length, double limit, const char* what) {
-      fmt::print("{:<14} {:.9g} certified, at most {:.9g} ({:.4g}% of the width): {}\n", name,
-                 length, limit, percent(length), what);
-    };
-    line("e_max", result_.points.e_max_upper, epsilon_, "every point to the mesh");
-    if (result_.mesh_to_reference) {
-      line("back", result_.mesh_to_reference->upper, epsilon_back(),
-           "all of the mesh to the reference");
-    }
-    if (result_.reference_to_mesh) {
-      line("forth", result_.reference_to_mesh->upper, epsilon_, "all of the reference to the mesh");
-    }
+    fmt::print(
+        "topology       {}\n",
+        describe(topology_of(result_.mesh.view()),
+                 reference_bound_ ? std::optional(reference_bound_->topology) : std::nullopt));
+    fmt::print(
+        "e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width): every point to "
+        "the mesh\n",
+        result_.points.e_max_upper, epsilon_, percent(result_.points.e_max_upper));
+    if (reference_bound_) print(*reference_bound_, epsilon_, scan_.width, reference_file());
     print_excluded(result_.points, excludable());
     fmt::print("kernel         e_max^2 bits 0x{:08x} at point {}\n", kernel_.squared_bits,
                kernel_.worst_point);
@@ -238,6 +240,7 @@ class DecimateCommand {
     ResultReport report;
     report.feasible = feasible_;
     report.validity = result_.validity;
+    report.topology = topology_of(result_.mesh.view());
     report.triangles = result_.mesh.triangles.size();
     report.epsilon = epsilon_;
     report.certified = in_file_indices(result_.points, scan_.cloud);

@@ -9,6 +9,7 @@
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
+#include "host/app/reference_text.h"
 #include "host/emax_search/point_distances.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/cloud_file.h"
@@ -45,28 +46,28 @@ void check_outputs(const ErrorOptions& options) {
 // What the mesh is measured against: a surface, or a cloud as triangles of no size.
 struct Reference {
   std::string name;
-  bool is_cloud;
+  enum class Kind { kScan, kCloud, kSurface } kind;  // the cloud that is measured, or another one
   TriangleMesh mesh;
 };
 
-Reference cloud_reference(std::string name, std::vector<Point> points) {
+Reference cloud_reference(std::string name, Reference::Kind kind, std::vector<Point> points) {
   std::vector<Triangle> triangles = triangles_of_points(points.size());
-  return {std::move(name), true, {std::move(points), std::move(triangles)}};
+  return {std::move(name), kind, {std::move(points), std::move(triangles)}};
 }
 
 Reference read_reference(const ErrorOptions& options, const Scan& scan) {
   if (options.reference.empty()) {
-    return cloud_reference(scan.path.string(), scan.cloud.points);
+    return cloud_reference(scan.path.string(), Reference::Kind::kScan, scan.cloud.points);
   }
   // A file that may hold either is a surface where it has triangles.
   const std::string ending = lower_case_ending(options.reference);
   const bool may_be_mesh = std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
   const bool may_be_cloud = std::ranges::find(cloud_endings(), ending) != cloud_endings().end();
   if (may_be_mesh && (!may_be_cloud || holds_triangles(options.reference))) {
-    return {options.reference, false, read_mesh(options.reference)};
+    return {options.reference, Reference::Kind::kSurface, read_mesh(options.reference)};
   }
   PointCloud cloud = read_cloud(options.reference, {options.common.skip_invalid});
-  return cloud_reference(options.reference, std::move(cloud.points));
+  return cloud_reference(options.reference, Reference::Kind::kCloud, std::move(cloud.points));
 }
 
 void throw_if_interrupted() {
@@ -122,24 +123,39 @@ class CloudMeasurement {
   std::vector<double> distances_;
 };
 
-SurfaceErrors measure_surface(const TriangleMesh& mesh, const Reference& reference, double width,
+SurfaceErrors measure_surface(const TriangleMesh& from, const TriangleMesh& to, double width,
                               const std::vector<double>& quantiles, std::optional<double> limit) {
-  const ExactMesh exact(reference.mesh.view());
+  const ExactMesh exact(to.view());
   SurfaceDistanceOptions options;
   options.relative = kSurfacePrecision;
   options.absolute = kFinest * width;
   options.poll = throw_if_interrupted;
-  SurfaceDistance distance = surface_distance(mesh.view(), exact, options);
+  SurfaceDistance distance = surface_distance(from.view(), exact, options);
   if (limit && distance.lower <= *limit && !distance.within(*limit)) {
     options.limit = *limit;
     options.relative = kDecisionPrecision;
     options.absolute = 0;
-    distance = surface_distance(mesh.view(), exact, options);
+    distance = surface_distance(from.view(), exact, options);
   }
-  const PreparedCloud samples(surface_samples(mesh.view(), kSurfaceSamples));
-  const auto distances = point_distances(samples, reference.mesh.view(), was_interrupted);
-  return {reference.name, reference.is_cloud, reference.mesh.triangles.size(), distance,
-          statistics_of(distances, quantiles, limit)};
+  const PreparedCloud samples(surface_samples(from.view(), kSurfaceSamples));
+  const auto distances = point_distances(samples, to.view(), was_interrupted);
+  return {distance, statistics_of(distances, quantiles, limit)};
+}
+
+ReferenceErrors measure_reference(const TriangleMesh& mesh, const Reference& reference,
+                                  double width, const std::vector<double>& quantiles,
+                                  std::optional<double> limit) {
+  using Kind = Reference::Kind;
+  ReferenceErrors errors;
+  errors.name = reference.name;
+  errors.is_cloud = reference.kind != Kind::kSurface;
+  errors.size = reference.mesh.triangles.size();
+  if (reference.kind == Kind::kSurface) errors.topology = topology_of(reference.mesh.view());
+  errors.from_mesh = measure_surface(mesh, reference.mesh, width, quantiles, limit);
+  if (reference.kind != Kind::kScan) {
+    errors.to_mesh = measure_surface(reference.mesh, mesh, width, quantiles, limit);
+  }
+  return errors;
 }
 
 // Distances up to the tolerance use the whole map; without one, all do.
@@ -168,12 +184,26 @@ struct Findings {
   std::optional<double> cpu_seconds;
   CertifiedError certified;
   MeshValidity validity;
+  MeshTopology topology;
   ErrorReport errors;
 
-  bool points_within() const { return errors.limit && certified.within(*errors.limit); }
-  bool feasible() const {
-    return points_within() && (!errors.surface || errors.surface->distance.within(*errors.limit));
+  std::optional<MeshTopology> reference_topology() const {
+    return errors.reference ? errors.reference->topology : std::nullopt;
   }
+  // What is farther than the tolerance; nothing where it is kept.
+  std::string_view exceeding() const {
+    const auto beyond = [this](const SurfaceErrors& surface) {
+      return !surface.distance.within(*errors.limit);
+    };
+    const std::optional<ReferenceErrors>& reference = errors.reference;
+    if (!certified.within(*errors.limit)) return "by the points";
+    if (reference && beyond(reference->from_mesh)) return "by the mesh, seen from the reference";
+    if (reference && reference->to_mesh && beyond(*reference->to_mesh)) {
+      return "by the reference, seen from the mesh";
+    }
+    return "";
+  }
+  bool feasible() const { return errors.limit && exceeding().empty(); }
 };
 
 void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
@@ -182,14 +212,13 @@ void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
              grouped(scan.cloud.points.size()), scan.width);
   fmt::print("mesh           {}: {} triangles; {}\n", options.mesh, grouped(mesh.triangles.size()),
              describe(f.validity));
+  fmt::print("topology       {}\n", describe(f.topology, f.reference_topology()));
   fmt::print("e_max          {:.9g} certified ({:.4g}% of the width)\n", f.certified.e_max_upper,
              100 * f.certified.e_max_upper / scan.width);
   print_excluded(f.certified, excludable);
   if (f.tolerance) {
     fmt::print("tolerance      {}: {}\n", to_text(*f.tolerance, scan.width),
-               f.feasible()         ? "kept"
-               : !f.points_within() ? "exceeded"
-                                    : "exceeded by the mesh, seen from the reference");
+               f.feasible() ? "kept" : fmt::format("exceeded {}", f.exceeding()));
   }
   fmt::print("worst point    {}\n", f.measured.kept.worst_point);
   fmt::print("kernel         e_max^2 bits 0x{:08x}\n", f.measured.kept.squared_bits);
@@ -207,6 +236,7 @@ std::string json_text(const Findings& f, const ErrorOptions& options, const Tria
     report.epsilon = f.errors.limit;
   }
   report.validity = f.validity;
+  report.topology = f.topology;
   report.triangles = mesh.triangles.size();
   report.certified = f.certified;
   report.kernel = f.measured.kept;
@@ -256,6 +286,7 @@ int run_error(const ErrorOptions& options) {
       in_file_indices(certify(scan.cloud.points, mesh.view(), f.measured.excluded), scan.cloud);
   f.measured.kept.worst_point = scan.cloud.index_in_file(f.measured.kept.worst_point);
   f.validity = check_mesh(mesh.view());
+  f.topology = topology_of(mesh.view());
 
   const std::vector<double> quantiles =
       options.quantiles.empty()
@@ -265,7 +296,7 @@ int run_error(const ErrorOptions& options) {
   if (limit) cloud.settle(*limit, point_distance_margin(prepared, mesh.view(), *limit));
   f.errors.cloud = cloud.errors(quantiles, options.worst, limit);
   if (reference) {
-    f.errors.surface = measure_surface(mesh, *reference, scan.width, quantiles, limit);
+    f.errors.reference = measure_reference(mesh, *reference, scan.width, quantiles, limit);
   }
 
   const std::string& json = options.common.json;

@@ -7,6 +7,7 @@
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/progress.h"
+#include "host/app/reference_text.h"
 #include "host/app/run_identity.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
@@ -164,6 +165,7 @@ class OptimizeCommand {
     }
     const BestMesh& shown = state_.best ? *state_.best : *state_.least_error;
     validity_ = check_mesh(shown.mesh.view());
+    topology_ = topology_of(shown.mesh.view());
     certified_ = certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded);
     if (state_.best) {
       keep(*state_.best);
@@ -190,8 +192,9 @@ class OptimizeCommand {
           grouped(settings_.bound.outliers.size()));
     }
     if (settings_.epsilon_back) {
-      fmt::print("reference      {} triangles\n",
-                 grouped(settings_.bound.reference.triangles.size()));
+      fmt::print("reference      {} triangles; {}\n",
+                 grouped(settings_.bound.reference.triangles.size()),
+                 describe(topology_of(settings_.bound.reference.view())));
     }
     std::fflush(stdout);
   }
@@ -231,6 +234,7 @@ class OptimizeCommand {
     certificate.vertices = best.mesh.vertices.size();
     certificate.triangles = best.mesh.triangles.size();
     certificate.validity = validity_;
+    certificate.topology = topology_;
     certificate.transform = constraint_->cloud().normalization();
     certificate.chain = best.chain;
     certificate.seed = settings_.seed;
@@ -246,11 +250,14 @@ class OptimizeCommand {
     write_together(files);
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(best.mesh.triangles.size()), describe(validity_));
+    fmt::print(
+        "topology       {}\n",
+        describe(topology_, certificate.reference ? std::optional(certificate.reference->topology)
+                                                  : std::nullopt));
     fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",
                certified_.e_max_upper, epsilon_, 100 * certified_.e_max_upper / scan_.width);
     if (certificate.reference) {
-      fmt::print("back           {:.9g} certified, at most {:.9g}: all of the mesh to {}\n",
-                 certificate.reference->mesh_to_reference, epsilon_, files.front().path.string());
+      print(*certificate.reference, epsilon_, scan_.width, files.front().path);
     }
     fmt::print("certificate    {}\n", certificate_path(options_.output).string());
     reference_ = certificate.reference;
@@ -261,12 +268,21 @@ class OptimizeCommand {
         best.mesh.view(), ExactMesh(settings_.bound.reference.view()), *settings_.epsilon_back);
     if (!back.within(*settings_.epsilon_back)) {
       throw Error(
-          fmt::format("the certificate ({:.9g}) contradicts the decimator's back bound: "
-                      "nothing is written; this is a defect of the program, please report "
-                      "it",
+          fmt::format("the certificate ({:.9g}) contradicts the decimator's bound on the distance "
+                      "of the mesh to the reference: nothing is written; this is a defect of the "
+                      "program, please report it",
                       back.upper));
     }
     ReferenceBound bound;
+    bound.reference_to_mesh = reference_to_mesh(settings_.bound.reference, best.mesh, epsilon_);
+    if (kReferenceIsKept && bound.reference_to_mesh > epsilon_) {
+      throw Error(
+          fmt::format("the certificate ({:.9g}) contradicts the decimator's bound on the distance "
+                      "of the reference to the mesh: nothing is written; this is a defect of the "
+                      "program, please report it",
+                      bound.reference_to_mesh));
+    }
+    bound.topology = topology_of(settings_.bound.reference.view());
     bound.file = file.path.filename().string();
     bound.sha256 = sha256(file.bytes);
     bound.triangles = settings_.bound.reference.triangles.size();
@@ -283,8 +299,9 @@ class OptimizeCommand {
                epsilon_);
     if (certified_.within(epsilon_)) {
       fmt::print(
-          "back           {:.4g} times the bound is the least found, with {} triangles; raise "
-          "--max-error, raise --budget or take --bound one-sided\n",
+          "reference      {:.4g} times the bound is the least distance found between mesh and "
+          "reference, with {} triangles; raise --max-error, raise --budget or take --bound "
+          "one-sided\n",
           1 + least.violation, grouped(least.mesh.triangles.size()));
       return;
     }
@@ -337,6 +354,7 @@ class OptimizeCommand {
     ResultReport report;
     report.feasible = state_.best.has_value();
     report.validity = validity_;
+    report.topology = topology_;
     report.triangles = shown.mesh.triangles.size();
     report.epsilon = epsilon_;
     report.certified = in_file_indices(certified_, scan_.cloud);
@@ -373,6 +391,7 @@ class OptimizeCommand {
   std::optional<CpuTwin> cpu_;               // with a board to compare with
   std::optional<ReferenceBound> reference_;  // of the mesh that was written
   MeshValidity validity_;
+  MeshTopology topology_;
   CertifiedError certified_;
 };
 

@@ -5,6 +5,8 @@
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
+#include "host/app/reference_text.h"
+#include "host/decimate/decimation_bound.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/sha256.h"
 #include "host/report/certificate_file.h"
@@ -90,6 +92,7 @@ class Verification {
     const MeshValidity validity = check_mesh(mesh.view());
     require(validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");
+    check_topology("the mesh", certificate_.topology, mesh);
     const Normalization transform = normalization_of(scan.cloud.points);
     require(transform.origin == certificate_.transform.origin &&
                 transform.scale == certificate_.transform.scale,
@@ -100,6 +103,12 @@ class Verification {
  private:
   void require(bool holds, std::string otherwise) {
     if (!holds) reasons_.push_back(std::move(otherwise));
+  }
+
+  void check_topology(const char* what, const MeshTopology& claimed, const TriangleMesh& mesh) {
+    const MeshTopology found = topology_of(mesh.view());
+    require(claimed == found, fmt::format("it claims {} for {}, which has {}", describe(claimed),
+                                          what, describe(found)));
   }
 
   void check_error(const TriangleMesh& mesh, const Scan& scan,
@@ -158,10 +167,11 @@ class Verification {
     };
     check("the distance of the mesh to the reference", mesh.view(), reference,
           claimed.mesh_to_reference, claimed.epsilon_back);
-    if (claimed.reference_to_mesh) {
-      check("the distance of the reference to the mesh", reference.view(), mesh,
-            *claimed.reference_to_mesh, certificate_.epsilon);
-    }
+    // The decimator of a mesh keeps its reference whole in any case.
+    const bool kept = kReferenceIsKept || certificate_.vertices_of_mesh;
+    check("the distance of the reference to the mesh", reference.view(), mesh,
+          claimed.reference_to_mesh, kept ? certificate_.epsilon : HUGE_VAL);
+    check_topology("the reference", claimed.topology, reference);
     const CertifiedError own = certify(scan.cloud.points, reference.view(), excluded);
     require(claimed.points_to_reference >= own.e_max_lower,
             fmt::format("it claims {:.9g} for the distance of the points to the reference, which "
@@ -181,13 +191,21 @@ class Verification {
                    std::ranges::max(error.excluded_distances));
       }
       if (certificate_.reference) {
-        fmt::print("yes: all of it lies within {:.9g} of {} (at most {:.9g}){}\n",
-                   certificate_.reference->epsilon_back, reference_path_.string(),
-                   certificate_.reference->mesh_to_reference,
-                   certificate_.reference->reference_to_mesh
-                       ? fmt::format(", and all of that within {:.9g} of it", certificate_.epsilon)
-                       : "");
+        const ReferenceBound& reference = *certificate_.reference;
+        fmt::print("yes: all of it lies within {:.9g} of {} (at most {:.9g})\n",
+                   reference.epsilon_back, reference_path_.string(), reference.mesh_to_reference);
+        if (reference.reference_to_mesh <= certificate_.epsilon) {
+          fmt::print("yes: all of {} lies within {:.9g} of it (at most {:.9g})\n",
+                     reference_path_.string(), certificate_.epsilon, reference.reference_to_mesh);
+        } else {
+          fmt::print("     all of {} lies within {:.9g} of it, which is not bounded\n",
+                     reference_path_.string(), reference.reference_to_mesh);
+        }
       }
+      fmt::print("yes: topology  {}\n",
+                 describe(certificate_.topology,
+                          certificate_.reference ? std::optional(certificate_.reference->topology)
+                                                 : std::nullopt));
       return true;
     }
     for (const std::string& reason : reasons_) fmt::print("no: {}\n", reason);

@@ -10,7 +10,9 @@
 namespace emax {
 namespace {
 
-constexpr const char* kSchema = "emax-certificate-1";
+constexpr const char* kSchema = "emax-certificate-2";
+// A two-sided bound of this schema did not hold the reference to the mesh.
+constexpr const char* kFormerSchema = "emax-certificate-1";
 
 std::uint32_t parse_bits(const std::string& text) {
   std::uint32_t bits = 0;
@@ -29,13 +31,18 @@ ReferenceBound reference_from_json(const Json& json) {
   get_count(json.at("triangles"), r.triangles);
   json.at("epsilon_back").get_to(r.epsilon_back);
   json.at("mesh_to_reference").get_to(r.mesh_to_reference);
-  const Json& whole = json.at("reference_to_mesh");
-  if (!whole.is_null()) r.reference_to_mesh = whole.get<double>();
+  json.at("reference_to_mesh").get_to(r.reference_to_mesh);
+  r.topology = topology_from_json(json.at("topology"));
   json.at("points_to_reference").get_to(r.points_to_reference);
   return r;
 }
 
 Certificate parse(const Json& json) {
+  if (json.at("schema") == kFormerSchema) {
+    throw Error(
+        "it was made before topology and the way from the reference to the mesh were certified; "
+        "check it with the emax that made it, or make the mesh anew");
+  }
   if (json.at("schema") != kSchema) throw Error("its schema is not " + std::string(kSchema));
   if (json.at("kernel_version") != kKernelVersion) {
     throw Error("it was made by another version of the kernel; use the program that made it");
@@ -66,6 +73,7 @@ Certificate parse(const Json& json) {
   c.kernel.squared_bits = parse_bits(json.at("e_max_squared_bits").get<std::string>());
   c.validity = validity_from_json(json.at("validity"));
   json.at("valid").get_to(c.claims_valid);
+  c.topology = topology_from_json(json.at("topology"));
   c.transform = normalization_from_json(json.at("transform"));
   return c;
 }
@@ -84,9 +92,10 @@ Json to_json(const ReferenceBound& r) {
   return {{"file", r.file},
           {"sha256", r.sha256},
           {"triangles", r.triangles},
+          {"topology", to_json(r.topology)},
           {"epsilon_back", r.epsilon_back},
           {"mesh_to_reference", r.mesh_to_reference},
-          {"reference_to_mesh", r.reference_to_mesh ? Json(*r.reference_to_mesh) : Json()},
+          {"reference_to_mesh", r.reference_to_mesh},
           {"points_to_reference", r.points_to_reference}};
 }
 
@@ -105,6 +114,7 @@ std::string to_json_text(const Certificate& c) {
       {"triangles", c.triangles},
       {"valid", c.validity.valid()},
       {"validity", to_json(c.validity)},
+      {"topology", to_json(c.topology)},
       {"mesh", {{"file", c.mesh_file}, {"sha256", c.mesh_sha256}, {"vertices", c.vertices}}},
       {"cloud",
        {{"file", c.cloud_file},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/decimate/chain_parameters.h"
+#include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
 #include "sw_model/certificate.h"
@@ -13,14 +14,15 @@
 
 namespace emax {
 
-// What is proven in the other direction. Lengths are upper bounds, in the cloud's unit.
+// What is proven between the mesh and the reference. Lengths are upper bounds, in the cloud's unit.
 struct ReferenceBound {
   std::string file, sha256;  // of the reference, without folders
   std::size_t triangles = 0;
+  MeshTopology topology;  // of the reference
   double epsilon_back = 0;
-  double mesh_to_reference = 0;             // from any point of the mesh, at most epsilon_back
-  std::optional<double> reference_to_mesh;  // from any point of the reference, at most epsilon
-  double points_to_reference = 0;           // from the kept points
+  double mesh_to_reference = 0;    // from any point of the mesh, at most epsilon_back
+  double reference_to_mesh = 0;    // from any point of the reference, at most epsilon
+  double points_to_reference = 0;  // from the kept points
 };
 
 // What a certificate says of a mesh and its cloud, apart from how the mesh was found. It holds no
@@ -35,6 +37,7 @@ struct Certificate {
   EmaxResult kernel = {};         // over the kept points; the index is the file's
   std::size_t vertices = 0, triangles = 0;
   MeshValidity validity;
+  MeshTopology topology;
   bool claims_valid = false;  // of a certificate that was read; what is written follows validity
   std::optional<ReferenceBound> reference;  // of a two-sided bound
   Normalization transform;

@@ -27,7 +27,7 @@ class Text {
              far.position.x(), far.position.y(), far.position.z(), far.triangle);
       }
     }
-    if (report_.surface) surface(*report_.surface);
+    if (report_.reference) reference(*report_.reference);
     return std::move(text_);
   }
 
@@ -60,15 +60,30 @@ class Text {
     }
   }
 
-  void surface(const SurfaceErrors& s) {
+  void reference(const ReferenceErrors& r) {
+    const std::string name = fmt::format("{} {}, {} {}", r.is_cloud ? "cloud" : "surface", r.name,
+                                         r.size, r.is_cloud ? "points" : "triangles");
+    line("\nmesh to {}\n", name);
+    surface(r.from_mesh, "triangle", "over the whole surface", "samples of equal area");
+    if (!r.to_mesh) {
+      line("\nthe reference is the cloud: its distances to the mesh are those at the top\n");
+      return;
+    }
+    line("\n{} to mesh\n", name);
+    if (r.is_cloud) {
+      surface(*r.to_mesh, "point", "over all points", "points");
+    } else {
+      surface(*r.to_mesh, "triangle", "over the whole surface", "samples of equal area");
+    }
+  }
+
+  void surface(const SurfaceErrors& s, const char* part, const char* extent, const char* samples) {
     const SurfaceDistance& d = s.distance;
-    line("\nmesh to {} {}, {} {}\n", s.is_cloud ? "cloud" : "surface", s.reference,
-         s.reference_size, s.is_cloud ? "points" : "triangles");
     length("maximum at most", d.upper);
     length("maximum at least", d.lower);
-    line("  at ({:.9g}, {:.9g}, {:.9g}), triangle {}; certified over the whole surface\n",
-         d.witness.x(), d.witness.y(), d.witness.z(), d.triangle);
-    line("  over {} samples of equal area\n", s.statistics.count);
+    line("  at ({:.9g}, {:.9g}, {:.9g}), {} {}; certified {}\n", d.witness.x(), d.witness.y(),
+         d.witness.z(), part, d.triangle, extent);
+    line("  over {} {}\n", s.statistics.count, samples);
     statistics(s.statistics, false);
   }
 
@@ -96,6 +111,17 @@ Json to_json(const ErrorStatistics& s) {
           {"exceeding", s.exceeding ? Json(*s.exceeding) : Json()}};
 }
 
+Json to_json(const SurfaceErrors& s, const ReferenceErrors& r) {
+  return {{"reference", r.name},
+          {"kind", r.is_cloud ? "cloud" : "surface"},
+          {"size", r.size},
+          {"upper", s.distance.upper},
+          {"lower", s.distance.lower},
+          {"witness", to_json(s.distance.witness)},
+          {"triangle", s.distance.triangle},
+          {"samples", to_json(s.statistics)}};
+}
+
 }  // namespace
 
 std::string to_text(const ErrorReport& report) { return Text(report).take(); }
@@ -108,17 +134,14 @@ Json to_json(const ErrorReport& report) {
                      {"distance", far.distance},
                      {"triangle", far.triangle}});
   }
-  Json json = {{"width", report.width},
-               {"cloud_to_mesh", to_json(report.cloud.statistics)},
-               {"worst_points", worst},
-               {"mesh_to_reference", Json()}};
-  if (report.surface) {
-    const SurfaceErrors& s = *report.surface;
-    json["mesh_to_reference"] = {
-        {"reference", s.reference},        {"kind", s.is_cloud ? "cloud" : "surface"},
-        {"size", s.reference_size},        {"upper", s.distance.upper},
-        {"lower", s.distance.lower},       {"witness", to_json(s.distance.witness)},
-        {"triangle", s.distance.triangle}, {"samples", to_json(s.statistics)}};
+  Json json = {{"width", report.width},       {"cloud_to_mesh", to_json(report.cloud.statistics)},
+               {"worst_points", worst},       {"mesh_to_reference", Json()},
+               {"reference_to_mesh", Json()}, {"reference_topology", Json()}};
+  if (report.reference) {
+    const ReferenceErrors& r = *report.reference;
+    json["mesh_to_reference"] = to_json(r.from_mesh, r);
+    if (r.to_mesh) json["reference_to_mesh"] = to_json(*r.to_mesh, r);
+    if (r.topology) json["reference_topology"] = emax::to_json(*r.topology);
   }
   return json;
 }

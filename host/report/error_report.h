@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/geometry/mesh_topology.h"
 #include "host/report/error_statistics.h"
 #include "sw_model/surface_distance.h"
 
@@ -23,20 +24,27 @@ struct CloudErrors {
   std::vector<FarPoint> worst;  // the farthest first
 };
 
-// From the mesh to a reference.
+// From all of one surface to another.
 struct SurfaceErrors {
-  std::string reference;
-  bool is_cloud;               // or a surface
-  std::size_t reference_size;  // points, or triangles
   SurfaceDistance distance;    // over the whole surface, certified
-  ErrorStatistics statistics;  // over samples of equal area
+  ErrorStatistics statistics;  // over samples of equal area; of a cloud, over its points
+};
+
+// Between the mesh and a reference.
+struct ReferenceErrors {
+  std::string name;
+  bool is_cloud;                         // or a surface
+  std::size_t size;                      // points, or triangles
+  std::optional<MeshTopology> topology;  // of a surface
+  SurfaceErrors from_mesh;
+  std::optional<SurfaceErrors> to_mesh;  // unless the reference is the cloud, which CloudErrors has
 };
 
 struct ErrorReport {
   double width = 0;
   std::optional<double> limit;
   CloudErrors cloud;
-  std::optional<SurfaceErrors> surface;
+  std::optional<ReferenceErrors> reference;
 };
 
 // Lines for a terminal.

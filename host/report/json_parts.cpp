@@ -17,6 +17,25 @@ constexpr std::pair<const char*, std::size_t MeshValidity::*> kValidityCounts[] 
     {"self_intersecting_triangles", &MeshValidity::self_intersecting_triangles},
     {"components", &MeshValidity::components}};
 
+constexpr std::pair<const char*, std::size_t MeshTopology::*> kTopologyCounts[] = {
+    {"components", &MeshTopology::components},
+    {"border_loops", &MeshTopology::border_loops},
+    {"genus", &MeshTopology::genus}};
+
+template <class Counts, class Table>
+Json counts_to_json(const Counts& counts, const Table& table) {
+  Json json;
+  for (const auto& [key, member] : table) json[key] = counts.*member;
+  return json;
+}
+
+template <class Counts, class Table>
+Counts counts_from_json(const Json& json, const Table& table) {
+  Counts counts;
+  for (const auto& [key, member] : table) get_count(json.at(key), counts.*member);
+  return counts;
+}
+
 }  // namespace
 
 std::string bits_text(std::uint32_t bits) { return fmt::format("0x{:08x}", bits); }
@@ -35,16 +54,16 @@ Normalization normalization_from_json(const Json& json) {
   return transform;
 }
 
-Json to_json(const MeshValidity& validity) {
-  Json json;
-  for (const auto& [key, member] : kValidityCounts) json[key] = validity.*member;
-  return json;
-}
+Json to_json(const MeshValidity& validity) { return counts_to_json(validity, kValidityCounts); }
 
 MeshValidity validity_from_json(const Json& json) {
-  MeshValidity validity;
-  for (const auto& [key, member] : kValidityCounts) get_count(json.at(key), validity.*member);
-  return validity;
+  return counts_from_json<MeshValidity>(json, kValidityCounts);
+}
+
+Json to_json(const MeshTopology& topology) { return counts_to_json(topology, kTopologyCounts); }
+
+MeshTopology topology_from_json(const Json& json) {
+  return counts_from_json<MeshTopology>(json, kTopologyCounts);
 }
 
 Json to_json(const DeviceCounters& c) {

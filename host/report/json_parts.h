@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/report/certificate_file.h"
 #include "host/report/error_report.h"
@@ -16,7 +17,8 @@ namespace emax {
 using Json = nlohmann::ordered_json;
 
 inline constexpr const char* kBound = "one-sided";  // every cloud point within epsilon of the mesh
-inline constexpr const char* kTwoSidedBound = "two-sided";  // also the mesh, of the reference
+// Also all of the mesh within epsilon_back of the reference, and all of that within epsilon of it.
+inline constexpr const char* kTwoSidedBound = "two-sided";
 
 // A whole number that T holds; throws nlohmann's type_error otherwise, where get() would convert.
 template <typename T>
@@ -32,6 +34,8 @@ Json to_json(const Normalization& transform);
 Normalization normalization_from_json(const Json& json);
 Json to_json(const MeshValidity& validity);
 MeshValidity validity_from_json(const Json& json);
+Json to_json(const MeshTopology& topology);
+MeshTopology topology_from_json(const Json& json);
 Json to_json(const DeviceCounters& counters);
 // The points left out, each with its index in the file and its distance.
 Json excluded_to_json(const CertifiedError& error);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/optimize/error_constraint.h"
 #include "host/report/certificate_file.h"
@@ -19,6 +20,7 @@ namespace emax {
 struct ResultReport {
   std::optional<bool> feasible;  // null without an epsilon
   std::optional<MeshValidity> validity;
+  std::optional<MeshTopology> topology;
   std::optional<std::size_t> triangles;     // of the best mesh, or of the one with the least error
   std::optional<double> epsilon;            // file units
   std::optional<CertifiedError> certified;  // indices are the file's

@@ -12,6 +12,7 @@
 #include "host/geometry/cloud_file.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/mesh_validity.h"
+#include "host/geometry/sha256.h"
 #include "sw_model/certificate.h"
 #include "sw_model/surface_distance.h"
 #include "tests/host/app/program.h"
@@ -74,7 +75,7 @@ TEST_F(DecimateCommand, BoundsBothSurfacesAndVerifyAgrees) {
     EXPECT_GT(bounded.get<double>(), epsilon / 4);
   }
   for (const char* key : {"e_max", "epsilon", "e_max_squared_bits", "worst_point", "triangles",
-                          "valid", "transform", "bound", "reference"}) {
+                          "valid", "transform", "bound", "reference", "topology"}) {
     EXPECT_EQ(result.at(key), c.at(key)) << key;
   }
   EXPECT_EQ(verify("out.ply"), 0);
@@ -116,7 +117,9 @@ TEST_F(DecimateCommand, KeepsToTheCloudThatIsGiven) {
                     .within(c.at("epsilon").get<double>()));
     EXPECT_EQ(verify("out.off"), 0);
   }
-  EXPECT_TRUE(certificate("out.off").at("reference").at("reference_to_mesh").is_null());
+  const TriangleMesh out = read_mesh(folder_ / "out.off");
+  EXPECT_LE(distance(mesh_, out),
+            certificate("out.off").at("reference").at("reference_to_mesh").get<double>());
   ASSERT_EQ(decimate("loose.off", {"--cloud", "scan.xyz", "--back-error", "3%"}).exit_code, 0);
   const json loose = certificate("loose.off");
   EXPECT_NEAR(loose.at("reference").at("epsilon_back").get<double>(),
@@ -167,6 +170,42 @@ TEST_F(DecimateCommand, VerifyCatchesEveryFalseClaim) {
   EXPECT_EQ(verdict([](json& c, json&) { c["e_max"] = 0; }), 2);
   EXPECT_EQ(verdict([](json&, json& r) { r.erase("epsilon_back"); }), 1);
   EXPECT_EQ(verdict([](json&, json& r) { r["file"] = "absent.ply"; }), 1);
+  EXPECT_EQ(verdict([](json&, json& r) { r["reference_to_mesh"] = nullptr; }), 1);
+  for (const char* key : {"components", "border_loops", "genus"}) {
+    EXPECT_EQ(verdict([&](json& c, json&) { c["topology"][key] = 3; }), 2) << key;
+    EXPECT_EQ(verdict([&](json&, json& r) { r["topology"][key] = 3; }), 2) << key;
+    EXPECT_EQ(verdict([&](json& c, json&) { c["topology"].erase(key); }), 1) << key;
+  }
+
+  // A reference with a piece that the mesh lacks: only the way from the reference to the mesh can
+  // tell, all else that is said of it is true.
+  TriangleMesh more = mesh_;
+  const auto first = static_cast<std::uint32_t>(more.vertices.size());
+  for (const Point& p : {Point(5, 0, 0), Point(6, 0, 0), Point(5, 1, 0)})
+    more.vertices.push_back(p);
+  more.triangles.push_back({first, first + 1, first + 2});
+  write_mesh(folder_ / "more.off", more);
+  const auto with_more = [&](json&, json& r) {
+    r["file"] = "more.off";
+    r["sha256"] = sha256_of_file(folder_ / "more.off");
+    r["triangles"] = more.triangles.size();
+    r["topology"] = {{"components", 2}, {"border_loops", 1}, {"genus", 0}};
+  };
+  EXPECT_EQ(verdict(with_more), 2);
+  const ProgramRun run = emax({"verify", "claim.json"});
+  EXPECT_NE(run.output.find("for the distance of the reference to the mesh"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(run.output, '\n'), 1) << run.output;
+}
+
+TEST_F(DecimateCommand, VerifySaysThatAFormerCertificateBoundsLess) {
+  ASSERT_EQ(decimate("out.ply", {"--effort", "quick"}).exit_code, 0);
+  json former = certificate("out.ply");
+  former["schema"] = "emax-certificate-1";
+  std::ofstream(folder_ / "claim.json") << former;
+  const ProgramRun run = emax({"verify", "claim.json"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.errors.find("before topology and the way from the reference"), std::string::npos)
+      << run.errors;
 }
 
 // A fin, a hole, a turned triangle, doubled vertices and a second part.
@@ -194,6 +233,9 @@ TEST_F(DecimateCommand, ABrokenMeshEndsInAValidOne) {
   const json c = certificate("out.ply");
   EXPECT_EQ(c.at("reference").at("file"), "out.ply.reference.ply");
   EXPECT_EQ(c.at("validity").at("components"), 2);
+  EXPECT_EQ(c.at("topology").at("components"), 2);
+  EXPECT_EQ(c.at("topology").at("genus"), 0);
+  EXPECT_GT(c.at("topology").at("border_loops"), 0);
   EXPECT_GT(c.at("validity").at("boundary_edges"), 0);
   EXPECT_EQ(c.at("valid"), true);
   EXPECT_EQ(verify("out.ply"), 0);

@@ -194,6 +194,7 @@ TEST_F(EndToEnd, VerifyCatchesEveryFalseClaim) {
   EXPECT_EQ(verdict(altered([](json& c) { c["worst_point"] = 1499; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["e_max_squared_bits"] = "0x00000000"; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["validity"]["components"] = 77; })), 2);
+  EXPECT_EQ(verdict(altered([](json& c) { c["topology"]["genus"] = 7; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["valid"] = !c["valid"].get<bool>(); })), 2);
   EXPECT_EQ(verdict(altered([&](json& c) { c["e_max_all"] = e_max / 2; })), 2);
   EXPECT_EQ(verdict(altered([](json& c) { c["transform"]["scale"] = 3; })), 2);
@@ -369,6 +370,9 @@ TEST_F(EndToEnd, TheBoundedDecimatorKeepsBothBounds) {
   EXPECT_EQ(c.at("valid"), true);
   EXPECT_EQ(c.at("reference"), result.at("reference"));
   EXPECT_LE(c.at("reference").at("mesh_to_reference"), c.at("epsilon"));
+  EXPECT_GT(c.at("reference").at("reference_to_mesh"), 0);
+  EXPECT_EQ(c.at("topology"), result.at("topology"));
+  EXPECT_EQ(c.at("topology").at("components"), 1);
   EXPECT_GT(c.at("reference").at("triangles"), 5 * c.at("triangles").get<int>());
   EXPECT_TRUE(exists("mesh.ply.reference.ply"));
   EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);

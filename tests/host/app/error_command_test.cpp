@@ -10,6 +10,7 @@
 #include "host/geometry/cloud_file.h"
 #include "host/geometry/mesh_file.h"
 #include "sw_model/exact_distance.h"
+#include "sw_model/surface_distance.h"
 #include "tests/host/app/program.h"
 #include "tests/host/geometry/temporary_folder.h"
 
@@ -117,15 +118,108 @@ TEST_F(ErrorCommand, TwoSidedBoundsTheMeshToo) {
   // A cloud lies less densely than a surface.
   EXPECT_GT(cloud.at("errors").at("mesh_to_reference").at("lower").get<double>(), upper);
 
-  // The other direction decides, too.
+  EXPECT_TRUE(cloud.at("errors").at("reference_to_mesh").is_null());
+  EXPECT_TRUE(cloud.at("errors").at("reference_topology").is_null());
+  const json closed = {{"components", 1}, {"border_loops", 0}, {"genus", 0}};
+  EXPECT_EQ(surface.at("errors").at("reference_topology"), closed);
+  EXPECT_EQ(surface.at("topology"), closed);
+
+  // And from the reference to the mesh.
+  const json& whole = surface.at("errors").at("reference_to_mesh");
+  const TriangleMesh coarse = read_mesh(folder_ / "surface.off");
+  const SurfaceDistance twin = surface_distance(fine.view(), ExactMesh(coarse.view()));
+  EXPECT_LE(whole.at("lower").get<double>(), twin.upper);
+  EXPECT_GE(whole.at("upper").get<double>(), twin.lower);
+  EXPECT_LE(whole.at("samples").at("maximum").get<double>(),
+            whole.at("upper").get<double>() + 1e-6);
+
+  // The other directions decide, too.
   const double forth = surface.at("e_max").get<double>();
-  const double both = 1.001 * std::max(forth, upper);
+  const double both = 1.001 * std::max({forth, upper, whole.at("upper").get<double>()});
   EXPECT_EQ(
       error({"--two-sided", "--reference", "fine.off", "--max-error", fmt::format("{}", both)})
           .exit_code,
       0);
   EXPECT_EQ(error({"--two-sided", "--max-error", fmt::format("{}", 1.001 * forth)}).exit_code, 2);
   EXPECT_EQ(error({"--max-error", fmt::format("{}", 1.001 * forth)}).exit_code, 0);
+}
+
+// A cube, its points on edges and corners, and for each direction a fault that it alone catches.
+TEST_F(ErrorCommand, EachDirectionCatchesTheFaultThatItAloneSees) {
+  TriangleMesh cube;
+  for (int v = 0; v < 8; ++v) cube.vertices.emplace_back(8 * (v & 1), 4 * (v & 2), 2 * (v & 4));
+  cube.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  std::ofstream points(folder_ / "points.xyz");
+  for (int v = 0; v < 8; ++v) {
+    for (const int axis : {1, 2, 4}) {
+      if ((v & axis) != 0) continue;
+      for (int i = 0; i <= 4; ++i) {
+        const Point p = cube.vertices[v] + 0.25 * i * (cube.vertices[v | axis] - cube.vertices[v]);
+        points << fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
+      }
+    }
+  }
+  points.close();
+  std::ofstream(folder_ / "stray.xyz") << test::file_text(folder_ / "points.xyz") << "4 4 10\n";
+  // The bottom becomes a frame of width 1 around a hole.
+  TriangleMesh holed = cube;
+  holed.triangles.erase(holed.triangles.begin(), holed.triangles.begin() + 2);
+  const std::array<std::uint32_t, 4> ring = {0, 2, 3, 1};
+  for (const std::uint32_t v : ring) {
+    const Point& p = cube.vertices[v];
+    holed.vertices.emplace_back(p.x() > 0 ? 7 : 1, p.y() > 0 ? 7 : 1, 0);
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    holed.triangles.push_back({ring[i], ring[j], 8 + j});
+    holed.triangles.push_back({ring[i], 8 + j, 8 + i});
+  }
+  // A sheet through the inside.
+  TriangleMesh sheet = cube;
+  sheet.triangles.push_back({0, 3, 7});
+  write_mesh(folder_ / "cube.off", cube);
+  write_mesh(folder_ / "holed.off", holed);
+  write_mesh(folder_ / "sheet.off", sheet);
+
+  const auto judge = [&](const std::string& cloud, const std::string& mesh) {
+    return test::run_emax({"error", cloud, mesh, "--two-sided", "--reference", "cube.off",
+                           "--max-error", "1", "--json", "r.json"},
+                          folder_.path());
+  };
+  const auto beyond = [&] {
+    const json r = json::parse(test::file_text(folder_ / "r.json"));
+    const json& errors = r.at("errors");
+    return std::array<bool, 3>{r.at("e_max").get<double>() > 1,
+                               errors.at("mesh_to_reference").at("lower").get<double>() > 1,
+                               errors.at("reference_to_mesh").at("lower").get<double>() > 1};
+  };
+  using Beyond = std::array<bool, 3>;
+  const struct {
+    const char *cloud, *mesh, *said;
+    Beyond beyond;
+  } cases[] = {
+      {"points.xyz", "cube.off", ": kept", {false, false, false}},
+      {"stray.xyz", "cube.off", "exceeded by the points", {true, false, false}},
+      {"points.xyz", "sheet.off", "by the mesh, seen from the reference", {false, true, false}},
+      {"points.xyz", "holed.off", "by the reference, seen from the mesh", {false, false, true}}};
+  for (const auto& c : cases) {
+    const ProgramRun run = judge(c.cloud, c.mesh);
+    EXPECT_EQ(run.exit_code, c.beyond == Beyond{} ? 0 : 2) << c.said << run.errors;
+    EXPECT_NE(run.output.find(c.said), std::string::npos) << run.output;
+    EXPECT_EQ(beyond(), c.beyond) << c.said;
+  }
+  EXPECT_NE(judge("points.xyz", "holed.off")
+                .output.find("topology       1 component, 1 border, genus 0; the reference: 1 "
+                             "component, closed, genus 0"),
+            std::string::npos);
+  // Another cloud as a reference is measured in both directions.
+  EXPECT_EQ(test::run_emax({"error", "points.xyz", "cube.off", "--two-sided", "--reference",
+                            "stray.xyz", "--max-error", "9", "--json", "r.json"},
+                           folder_.path())
+                .exit_code,
+            0);
+  EXPECT_EQ(beyond(), (Beyond{false, true, true}));
 }
 
 TEST_F(ErrorCommand, WritesColouredFiles) {
@@ -151,7 +245,9 @@ TEST_F(ErrorCommand, ShowsAPersonWhatThereIs) {
   EXPECT_EQ(run.exit_code, 2) << run.errors;
   for (const char* text :
        {"cloud to mesh, 1500 points", "maximum", "mean", "RMS", "50 %", "99.9 %", "exceeding",
-        "histogram", "####", "worst points", "mesh to surface fine.off, ", "maximum at most"}) {
+        "histogram", "####", "worst points", "mesh to surface fine.off, ",
+        "surface fine.off, 4680 triangles to mesh", "maximum at most",
+        "topology       1 component, closed, genus 0, like the reference"}) {
     EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
   }
 }

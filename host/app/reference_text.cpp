@@ -1,0 +1,35 @@
+#include "host/app/reference_text.h"
+
+#include <fmt/format.h>
+
+#include "sw_model/surface_distance.h"
+
+namespace emax {
+
+double reference_to_mesh(const TriangleMesh& reference, const TriangleMesh& mesh, double epsilon) {
+  const ExactMesh exact(mesh.view());
+  const SurfaceDistance decided = decided_distance(reference.view(), exact, epsilon);
+  return decided.within(epsilon) ? decided.upper : surface_distance(reference.view(), exact).upper;
+}
+
+std::string describe(const MeshTopology& mesh, const std::optional<MeshTopology>& reference) {
+  std::string text = describe(mesh);
+  if (reference) {
+    text +=
+        *reference == mesh ? ", like the reference" : "; the reference: " + describe(*reference);
+  }
+  return text;
+}
+
+void print(const ReferenceBound& bound, double epsilon, double width,
+           const std::filesystem::path& reference) {
+  const auto line = [&](const char* name, double length, double limit, const std::string& what) {
+    fmt::print("{:<14} {:.9g} certified, at most {:.9g} ({:.4g}% of the width): {}\n", name, length,
+               limit, 100 * length / width, what);
+  };
+  line("to reference", bound.mesh_to_reference, bound.epsilon_back,
+       "all of the mesh to " + reference.string());
+  line("from reference", bound.reference_to_mesh, epsilon, "all of the reference to the mesh");
+}
+
+}  // namespace emax
