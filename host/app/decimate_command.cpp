@@ -8,6 +8,7 @@
 #include "host/app/reference_text.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/geometry/atomic_file.h"
+#include "host/geometry/merge_vertices.h"
 #include "host/geometry/sha256.h"
 #include "host/geometry/tolerance.h"
 #include "host/optimize/error_constraint.h"
@@ -37,9 +38,12 @@ class DecimateCommand {
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
     check_distinct({options.output, certificate_path(options.output), options.json},
                    {options.mesh, options.cloud});
-    given_ = read_mesh(options.mesh);
+    MeshFile file = read_mesh_file(options.mesh);
+    given_ = std::move(file.mesh);
+    lost_attributes_ = std::move(file.attributes);
     scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
                        : read_scan(options.cloud, options.skip_invalid);
+    drop_unused_vertices(given_.vertices, given_.triangles);
     // Of what was read: the files may change while the decimation runs.
     mesh_sha256_ = sha256_of_file(options.mesh);
     cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_file(scan_.path);
@@ -132,6 +136,10 @@ class DecimateCommand {
   void print_task() const {
     fmt::print("mesh           {}: {} triangles\n", options_.mesh,
                grouped(given_.triangles.size()));
+    if (!lost_attributes_.empty()) {
+      fmt::print("not kept       {}: the result holds vertices and triangles alone\n",
+                 fmt::join(lost_attributes_, ", "));
+    }
     fmt::print("points         {}: {}{}, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "", scan_.width);
     fmt::print("tolerance      {}, {}", to_text(tolerance_, scan_.width),
@@ -248,6 +256,7 @@ class DecimateCommand {
     report.points = scan_.cloud.points.size();
     report.transform = normalization_of(scan_.cloud.points);
     report.reconstruction_triangles = given_.triangles.size();
+    report.lost_attributes = lost_attributes_;
     report.device = "cpu";
     report.two_sided = options_.two_sided;
     report.reference = reference_bound_;
@@ -259,6 +268,7 @@ class DecimateCommand {
   double share_;
   Tolerance tolerance_;
   TriangleMesh given_;
+  std::vector<std::string> lost_attributes_;
   Scan scan_;
   std::string mesh_sha256_, cloud_sha256_;
   double epsilon_ = 0;

@@ -14,6 +14,7 @@
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/cloud_file.h"
 #include "host/geometry/input_file.h"
+#include "host/geometry/merge_vertices.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/tolerance.h"
 #include "host/optimize/error_constraint.h"
@@ -258,7 +259,8 @@ int run_error(const ErrorOptions& options) {
   Findings f;
   if (!options.max_error.empty()) f.tolerance = parse_tolerance(options.max_error);
   check_outputs(options);
-  const TriangleMesh mesh = read_mesh(options.mesh);
+  TriangleMesh mesh = read_mesh(options.mesh);
+  drop_unused_vertices(mesh.vertices, mesh.triangles);  // they have no colour either
   const Scan scan = read_scan(options.common.cloud, options.common.skip_invalid);
   std::optional<Reference> reference;
   if (options.two_sided) reference = read_reference(options, scan);

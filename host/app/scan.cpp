@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
 
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/cloud_file.h"
+#include "host/geometry/exact_predicates.h"
+#include "host/geometry/merge_vertices.h"
 #include "host/geometry/mesh_file.h"
 #include "host/report/certificate_file.h"
 #include "sw_model/error.h"
@@ -23,10 +26,15 @@ Scan read_scan(const std::filesystem::path& path, bool skip_invalid) {
 }
 
 Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  std::vector<bool> used(mesh.vertices.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) used[v] = true;
+  std::vector<Triangle> surface;
+  std::ranges::copy_if(mesh.triangles, std::back_inserter(surface), [&](const Triangle& t) {
+    return !collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  });
+  if (surface.empty()) {
+    throw Error(
+        fmt::format("{}: no triangle of any area; give a mesh that is a surface", path.string()));
   }
+  const std::vector<bool> used = used_vertices(mesh.vertices.size(), surface);
   Scan scan = {path, {}, 0};
   for (std::uint32_t v = 0; v < used.size(); ++v) {
     if (!used[v]) continue;

@@ -36,7 +36,9 @@ struct Scan {
   double width;
 };
 
-// The vertices that a mesh uses, as a scan: a mesh may be flat, or of fewer points than a cloud.
+// The vertices of the triangles of a mesh that have an area, as a scan: a mesh may be flat, or of
+// fewer points than a cloud. Other vertices are no part of its surface. Throws Error when no
+// triangle has an area.
 Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 Scan read_scan(const std::filesystem::path& path, bool skip_invalid);

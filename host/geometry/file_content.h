@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -13,6 +14,12 @@
 
 namespace emax {
 
+inline constexpr std::string_view kColours = "colours";
+inline constexpr std::string_view kNormals = "normals";
+inline constexpr std::string_view kTextureCoordinates = "texture coordinates";
+inline constexpr std::string_view kGroups = "groups";
+inline constexpr std::string_view kMaterials = "materials";
+
 // What a file of any format holds. Coordinates may still be NaN or infinite: the first vertex of
 // that kind is named, and clouds and meshes judge it each in their own way.
 struct FileContent {
@@ -20,12 +27,18 @@ struct FileContent {
   std::vector<Point> normals;       // empty, or one per vertex
   std::vector<Triangle> triangles;  // polygons as fans around their first vertex
   std::string first_invalid;        // "line 12" or "vertex 5"; empty when all are finite
+  // What else the file says of its mesh, each once: kColours and the like, or a name of its own.
+  std::vector<std::string> attributes;
 
   void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
     if (first_invalid.empty() && !point.allFinite()) {
       first_invalid = std::string(place) + ' ' + std::to_string(number);
     }
     vertices.push_back(point);
+  }
+
+  void note_attribute(std::string_view name) {
+    if (std::ranges::find(attributes, name) == attributes.end()) attributes.emplace_back(name);
   }
 };
 

@@ -35,4 +35,27 @@ void merge_equal_vertices(std::vector<Point>& vertices, std::vector<Triangle>& t
   vertices = std::move(merged);
 }
 
+std::vector<bool> used_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
+  std::vector<bool> used(vertex_count, false);
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) used[v] = true;
+  }
+  return used;
+}
+
+void drop_unused_vertices(std::vector<Point>& vertices, std::vector<Triangle>& triangles) {
+  const std::vector<bool> used = used_vertices(vertices.size(), triangles);
+  std::vector<std::uint32_t> kept(vertices.size(), 0);
+  std::uint32_t count = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (!used[v]) continue;
+    kept[v] = count;
+    vertices[count++] = vertices[v];
+  }
+  vertices.resize(count);
+  for (Triangle& t : triangles) {
+    for (std::uint32_t& v : t) v = kept[v];
+  }
+}
+
 }  // namespace emax

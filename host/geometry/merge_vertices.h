@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "sw_model/mesh_view.h"
@@ -11,5 +13,11 @@ namespace emax {
 // keep their number and order; one whose corners fall together keeps its place with a repeated
 // index. Coordinates are finite. O(n) expected.
 void merge_equal_vertices(std::vector<Point>& vertices, std::vector<Triangle>& triangles);
+
+// Whether any triangle uses the vertex, for each of `vertex_count` vertices. O(n).
+std::vector<bool> used_vertices(std::size_t vertex_count, std::span<const Triangle> triangles);
+
+// Drops vertices that no triangle uses; the others keep their order. O(n).
+void drop_unused_vertices(std::vector<Point>& vertices, std::vector<Triangle>& triangles);
 
 }  // namespace emax

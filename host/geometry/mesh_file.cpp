@@ -108,6 +108,20 @@ FileContent read_content(const InputFile& input, const std::filesystem::path& pa
   return kReaders[format](input);
 }
 
+// Meshes of depth images hold a vertex for every pixel, NaN where nothing was seen. Such a vertex
+// belongs to no triangle: it gets the place of one that does, so that the others keep their index.
+// False where a triangle has a corner that is not finite.
+bool replace_unused_invalid(FileContent& content) {
+  const std::vector<bool> used = used_vertices(content.vertices.size(), content.triangles);
+  const Point place = content.vertices[content.triangles.front()[0]];
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (content.vertices[v].allFinite()) continue;
+    if (used[v]) return false;
+    content.vertices[v] = place;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::span<const std::string_view> mesh_endings() { return kEndings; }
@@ -122,17 +136,20 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
   return static_cast<MeshFormat>(known - kEndings.begin());
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
+TriangleMesh read_mesh(const std::filesystem::path& path) { return read_mesh_file(path).mesh; }
+
+MeshFile read_mesh_file(const std::filesystem::path& path) {
   const InputFile input = read_input(path);
   FileContent content = read_content(input, path);
-  if (!content.first_invalid.empty()) {
-    input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
-               "mend the mesh, its vertices must be finite");
-  }
   if (content.triangles.empty()) {
     input.fail("holds no triangles", "give a mesh, a cloud cannot stand in its place");
   }
-  return {std::move(content.vertices), std::move(content.triangles)};
+  if (!content.first_invalid.empty() && !replace_unused_invalid(content)) {
+    input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
+               "mend the mesh, its vertices must be finite");
+  }
+  return {{std::move(content.vertices), std::move(content.triangles)},
+          std::move(content.attributes)};
 }
 
 bool holds_triangles(const std::filesystem::path& path) {

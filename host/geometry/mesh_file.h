@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/geometry/triangle_mesh.h"
 
@@ -15,6 +16,15 @@ enum class MeshFormat { kPly, kObj, kStl, kOff };
 std::span<const std::string_view> mesh_endings();
 // By the ending of `path`. Throws Error for another one.
 MeshFormat mesh_format(const std::filesystem::path& path);
+
+// A mesh, and by name what else its file says of it, which no file of ours keeps: "colours",
+// "normals", "texture coordinates", "groups", "materials", or a name of the file's in quotes.
+struct MeshFile {
+  TriangleMesh mesh;
+  std::vector<std::string> attributes;
+};
+// As read_mesh. The normals of STL say nothing that the triangles do not, and are not named.
+MeshFile read_mesh_file(const std::filesystem::path& path);
 
 // Reads a triangle mesh as strictly as read_cloud reads clouds; indices are checked, polygons cut
 // into fans. STL repeats its vertices: those of exactly equal coordinates are merged. Throws Error.

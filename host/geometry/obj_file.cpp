@@ -11,9 +11,22 @@
 namespace emax {
 namespace {
 
-// Elements without a say in the shape.
-constexpr std::array<std::string_view, 12> kPassedOver{
-    "vt", "vp", "o", "g", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "l", "p"};
+// Elements without a say in the shape, and the attribute that each gives to it; empty: none.
+struct PassedOver {
+  std::string_view word, attribute;
+};
+constexpr std::array<PassedOver, 12> kPassedOver{{{"vt", kTextureCoordinates},
+                                                  {"vp", ""},
+                                                  {"o", kGroups},
+                                                  {"g", kGroups},
+                                                  {"s", "smoothing groups"},
+                                                  {"mg", "smoothing groups"},
+                                                  {"usemtl", kMaterials},
+                                                  {"mtllib", kMaterials},
+                                                  {"usemap", kMaterials},
+                                                  {"maplib", kMaterials},
+                                                  {"l", "lines"},
+                                                  {"p", "points"}}};
 
 // 0-based, from a 1-based index or a negative one that counts back from the last of `count`.
 std::int64_t resolve(std::int64_t index, std::size_t count) {
@@ -64,10 +77,12 @@ FileContent read_obj(const InputFile& input) {
         lines.fail(fmt::format("{} columns do not make a vertex", columns));
       }
       for (std::size_t k = 4; k <= columns; ++k) lines.number(k);
+      if (columns >= 6) content.note_attribute(kColours);
       content.add_vertex(lines.point(1), "line", lines.line());
     } else if (lines[0] == "vn") {
       if (lines.size() != 4) lines.fail("a normal needs three numbers");
       content.normals.push_back(lines.point(1));
+      content.note_attribute(kNormals);
     } else if (lines[0] == "f") {
       polygon.clear();
       for (std::size_t k = 1; k < lines.size(); ++k) {
@@ -80,9 +95,13 @@ FileContent read_obj(const InputFile& input) {
         polygon.push_back(corner.vertex);
       }
       add_polygon(content, polygon, kNoLimit, [&](const std::string& what) { lines.fail(what); });
-    } else if (std::ranges::find(kPassedOver, lines[0]) == kPassedOver.end()) {
-      lines.fail(fmt::format("\"{}\" is not an OBJ element that emax reads", printable(lines[0])),
-                 "export polygons, or check that this is an OBJ file");
+    } else {
+      const auto known = std::ranges::find(kPassedOver, lines[0], &PassedOver::word);
+      if (known == kPassedOver.end()) {
+        lines.fail(fmt::format("\"{}\" is not an OBJ element that emax reads", printable(lines[0])),
+                   "export polygons, or check that this is an OBJ file");
+      }
+      if (!known->attribute.empty()) content.note_attribute(known->attribute);
     }
   }
   if (greatest >= static_cast<std::int64_t>(content.vertices.size())) {

@@ -34,6 +34,8 @@ FileContent read_off(const InputFile& input) {
   check_count(input, faces, "faces", 2, room - 2 * columns * vertices);
 
   FileContent content;
+  if (has_normals) content.note_attribute(kNormals);
+  if (has_colours) content.note_attribute(kColours);
   content.vertices.reserve(vertices);
   for (std::uint64_t i = 0; i < vertices; ++i) {
     lines.require_next("vertex", i, vertices);
@@ -59,6 +61,7 @@ FileContent read_off(const InputFile& input) {
     if (colours == 2 || colours > 4) {
       lines.fail(fmt::format("{} values follow the corners of the face", colours));
     }
+    if (colours > 0) content.note_attribute(kColours);
     for (std::size_t k = corners + 1; k < lines.size(); ++k) lines.number(k);
     add_polygon(content, polygon, vertices, [&](const std::string& what) { lines.fail(what); });
   }

@@ -245,6 +245,58 @@ class BinaryValues {
   std::uint64_t index_ = 0;
 };
 
+// What a property says of a vertex or a face beside its place: one of the common attributes, or the
+// property's own name in quotes.
+std::string attribute_of(std::string_view property) {
+  struct Known {
+    std::string_view attribute, property;
+  };
+  static constexpr Known kKnown[] = {{kNormals, "nx"},
+                                     {kNormals, "ny"},
+                                     {kNormals, "nz"},
+                                     {kColours, "red"},
+                                     {kColours, "green"},
+                                     {kColours, "blue"},
+                                     {kColours, "alpha"},
+                                     {kColours, "diffuse_red"},
+                                     {kColours, "diffuse_green"},
+                                     {kColours, "diffuse_blue"},
+                                     {kTextureCoordinates, "s"},
+                                     {kTextureCoordinates, "t"},
+                                     {kTextureCoordinates, "u"},
+                                     {kTextureCoordinates, "v"},
+                                     {kTextureCoordinates, "texture_u"},
+                                     {kTextureCoordinates, "texture_v"},
+                                     {kTextureCoordinates, "texcoord"},
+                                     {kMaterials, "material_index"},
+                                     {kMaterials, "texnumber"}};
+  for (const Known& known : kKnown) {
+    if (known.property == property) return std::string(known.attribute);
+  }
+  return fmt::format("\"{}\"", printable(property));
+}
+
+bool is_corner_list(const Element& element, const Property& property) {
+  return (element.name == "face" || element.name == "tristrips") && property.list_count &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+void note_attributes(const Header& header, FileContent& content) {
+  for (const Element& element : header.elements) {
+    const bool is_vertex = element.name == "vertex";
+    if (element.count == 0) continue;
+    if (!is_vertex && element.name != "face" && element.name != "tristrips") {
+      content.note_attribute(attribute_of(element.name));
+      continue;
+    }
+    for (const Property& p : element.properties) {
+      const bool is_shape =
+          is_vertex ? p.name == "x" || p.name == "y" || p.name == "z" : is_corner_list(element, p);
+      if (!is_shape) content.note_attribute(attribute_of(p.name));
+    }
+  }
+}
+
 // Positions among the properties of the three scalars named `names`; empty when one is missing.
 std::optional<std::array<std::size_t, 3>> find_three(const Element& element,
                                                      const std::array<std::string_view, 3>& names) {
@@ -293,6 +345,7 @@ class Body {
       }
     }
     values_.end();
+    note_attributes(header_, content_);
     return std::move(content_);
   }
 
@@ -337,7 +390,6 @@ class Body {
   }
 
   void read_element(const Element& element, std::uint64_t vertex_count) {
-    const bool is_face = element.name == "face";
     const bool is_strips = element.name == "tristrips";
     const auto fail = [&](const std::string& what) { values_.fail(what); };
     std::vector<std::int64_t> corners;
@@ -345,10 +397,7 @@ class Body {
       values_.begin_item(element, i);
       for (const Property& property : element.properties) {
         const std::uint64_t length = property.list_count ? list_length(property) : 1;
-        const bool holds_corners =
-            (is_face || is_strips) && property.list_count &&
-            (property.name == "vertex_indices" || property.name == "vertex_index");
-        if (!holds_corners) {
+        if (!is_corner_list(element, property)) {
           values_.skip(property.type, length);
           continue;
         }

@@ -42,6 +42,9 @@ FileContent read_binary(const InputFile& input) {
                   sizeof xyz);
       add_corner(content, Point(xyz[0], xyz[1], xyz[2]), "triangle", t);
     }
+    // Some programs keep a colour in the two bytes that the format leaves without a meaning.
+    const char* const end = input.bytes.data() + kHeaderBytes + (t + 1) * kTriangleBytes;
+    if (end[-2] != 0 || end[-1] != 0) content.note_attribute(kColours);
   }
   return content;
 }
@@ -57,10 +60,12 @@ FileContent read_text(const InputFile& input) {
     if (!fits) lines.fail(fmt::format("\"{}\" is expected here", words));
   };
   bool inside = false;
+  std::size_t solids = 0;
   while (!inside ? lines.next() : (lines.require_next("\"endsolid\""), true)) {
     if (!inside) {
       if (lines[0] != "solid") lines.fail("\"solid\" is expected here");
       inside = true;
+      if (++solids > 1) content.note_attribute(kGroups);
     } else if (lines[0] == "endsolid") {
       inside = false;
     } else {

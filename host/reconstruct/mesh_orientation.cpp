@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/geometry/merge_vertices.h"
+
 namespace emax {
 namespace {
 
@@ -105,21 +107,7 @@ void drop_folds(TriangleMesh& mesh) {
 void drop_unused(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles,
                 [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> kept(mesh.vertices.size(), kUnused);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) kept[v] = 0;
-  }
-  std::uint32_t count = 0;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (kept[v] == kUnused) continue;
-    kept[v] = count;
-    mesh.vertices[count++] = mesh.vertices[v];
-  }
-  mesh.vertices.resize(count);
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = kept[v];
-  }
+  drop_unused_vertices(mesh.vertices, mesh.triangles);
 }
 
 }  // namespace emax

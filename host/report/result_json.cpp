@@ -39,6 +39,7 @@ std::string to_json_text(const ResultReport& r) {
       {"topology", r.topology ? to_json(*r.topology) : Json()},
       {"reconstruction_triangles", or_null(r.reconstruction_triangles)},
       {"unmeshed_points", or_null(r.unmeshed_points)},
+      {"lost_attributes", or_null(r.lost_attributes)},
       {"reference", r.reference ? to_json(*r.reference) : Json()},
       {"predicted", Json()},
       {"errors", r.errors ? to_json(*r.errors) : Json()}};

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
@@ -32,6 +33,7 @@ struct ResultReport {
   std::optional<std::map<std::string, std::uint64_t>> failures;  // of evaluations, by reason
   std::optional<std::string> ended_by;                           // of a search
   std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
+  std::optional<std::vector<std::string>> lost_attributes;  // of the mesh that was decimated
   std::string device;
   std::optional<DeviceCounters> counters;
   std::optional<BoardModel> board;    // whose time is to be predicted

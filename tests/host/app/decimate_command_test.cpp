@@ -241,6 +241,50 @@ TEST_F(DecimateCommand, ABrokenMeshEndsInAValidOne) {
   EXPECT_EQ(verify("out.ply"), 0);
 }
 
+// Stray vertices, which no triangle with an area uses, change neither the task nor the result.
+TEST_F(DecimateCommand, VerticesOfNoTriangleAreNoPartOfTheMesh) {
+  TriangleMesh stray = mesh_;
+  stray.vertices.insert(stray.vertices.end(), {{0, 0, 0}, {1e9, 0.1, 0.1}, {900, 0, 0}});
+  const auto last = static_cast<std::uint32_t>(stray.vertices.size() - 1);
+  stray.triangles.push_back({0, last, last});
+  write_mesh(folder_ / "stray.off", stray);
+  for (const std::string name : {"out.ply", "out.stl"}) {
+    ASSERT_EQ(decimate(name, {"--effort", "quick"}).exit_code, 0);
+    const ProgramRun run = decimate("stray_" + name, {"--effort", "quick"}, "stray.off");
+    ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+    EXPECT_EQ(test::file_text(folder_ / name), test::file_text(folder_ / ("stray_" + name)));
+    EXPECT_EQ(certificate(name).at("epsilon"), certificate("stray_" + name).at("epsilon"));
+    EXPECT_EQ(certificate(name).at("points"), certificate("stray_" + name).at("points"));
+    EXPECT_EQ(verify("stray_" + name), 0);
+  }
+  ASSERT_EQ(emax({"error", "scan.xyz", "stray.off", "--reference", "surface.off", "--two-sided",
+                  "--color-mesh", "colours.ply"})
+                .exit_code,
+            0);
+  EXPECT_EQ(read_mesh(folder_ / "colours.ply").vertices.size(), mesh_.vertices.size() + 1);
+}
+
+TEST_F(DecimateCommand, NamesTheAttributesThatTheResultLacks) {
+  std::string obj = "mtllib a.mtl\nvt 0 0\n";
+  for (const Point& p : mesh_.vertices)
+    obj += fmt::format("v {} {} {} 1 0 0\n", p.x(), p.y(), p.z());
+  for (const Triangle& t : mesh_.triangles) {
+    obj += fmt::format("f {}/1 {}/1 {}/1\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  }
+  std::ofstream(folder_ / "painted.obj") << obj;
+  const ProgramRun run =
+      decimate("out.obj", {"--effort", "quick", "--json", "r.json"}, "painted.obj");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_NE(run.output.find("not kept       materials, texture coordinates, colours: "),
+            std::string::npos)
+      << run.output;
+  EXPECT_EQ(read("r.json").at("lost_attributes"),
+            json({"materials", "texture coordinates", "colours"}));
+  const ProgramRun plain = decimate("plain.obj", {"--effort", "quick", "--json", "p.json"});
+  EXPECT_EQ(plain.output.find("not kept"), std::string::npos) << plain.output;
+  EXPECT_EQ(read("p.json").at("lost_attributes"), json::array());
+}
+
 // So far that only a sliver would reach it.
 TEST_F(DecimateCommand, PointsOutOfReachAreRefusedOrNamed) {
   std::ofstream(folder_ / "scan.xyz", std::ios::app) << "500 0 0\n";

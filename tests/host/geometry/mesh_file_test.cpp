@@ -6,6 +6,7 @@
 
 #include "file_bytes.h"
 #include "host/geometry/cloud_file.h"
+#include "host/geometry/merge_vertices.h"
 #include "temporary_folder.h"
 #include "tests/support/stimuli.h"
 
@@ -184,6 +185,78 @@ TEST(MeshFile, VerticesOfAMeshFileAreACloud) {
     write_mesh(folder / name, mesh);
     EXPECT_EQ(read_cloud(folder / name).points, mesh.vertices) << name;
   }
+}
+
+TEST(MeshFile, NamesWhatElseAFileSaysOfItsMesh) {
+  const TemporaryFolder folder;
+  const auto attributes = [&](std::string_view name, std::string_view bytes) {
+    return read_mesh_file(folder.write(name, bytes)).attributes;
+  };
+  using Names = std::vector<std::string>;
+  const std::string off = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2";
+  EXPECT_EQ(attributes("a.off", "OFF\n" + off), Names{});
+  EXPECT_EQ(attributes("a.off", "OFF\n" + off + " 0.5 0.5 0.5\n"), Names{"colours"});
+  EXPECT_EQ(attributes("a.off",
+                       "CNOFF\n3 1 0\n0 0 0 0 0 1 9 9 9\n1 0 0 0 0 1 9 9 9\n"
+                       "0 1 0 0 0 1 9 9 9\n3 0 1 2 7\n"),
+            (Names{"normals", "colours"}));
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(attributes("a.obj", obj), Names{});
+  EXPECT_EQ(attributes("a.obj", "mtllib a.mtl\no part\ng side\ns 1\nvt 0 0\nvn 0 0 1\n" + obj +
+                                    "usemtl red\nf 1/1/1 2/1/1 3/1/1\nl 1 2\n"),
+            (Names{"materials", "groups", "smoothing groups", "texture coordinates", "normals",
+                   "lines"}));
+  EXPECT_EQ(attributes("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"),
+            Names{"colours"});
+  EXPECT_EQ(attributes("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n"), Names{})
+      << "weights";
+  const auto ply = [&](const std::string& vertex, const std::string& face, const std::string& more,
+                       const std::string& body) {
+    return attributes("a.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                      "property float y\nproperty float z\n" +
+                          vertex + "element face 1\nproperty list uchar int vertex_index\n" + face +
+                          more + "end_header\n" + body);
+  };
+  EXPECT_EQ(ply("", "", "element edge 0\nproperty int a\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+            Names{});
+  EXPECT_EQ(ply("property uchar red\nproperty uchar alpha\nproperty float nx\n"
+                "property float quality\nproperty float s\n",
+                "property list uchar float texcoord\nproperty int texnumber\nproperty int flags\n",
+                "element edge 1\nproperty int a\n",
+                "0 0 0 9 9 0 1 0\n1 0 0 9 9 0 1 0\n0 1 0 9 9 0 1 0\n3 0 1 2 2 0 0 7 1\n5\n"),
+            (Names{"colours", "normals", "\"quality\"", "texture coordinates", "materials",
+                   "\"flags\"", "\"edge\""}));
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\n";
+  EXPECT_EQ(attributes("a.stl", "solid\n" + facet + "endsolid\n"), Names{});
+  EXPECT_EQ(attributes("a.stl", "solid a\n" + facet + "endsolid\nsolid b\n" + facet + "endsolid\n"),
+            Names{"groups"});
+  std::string stl = mesh_bytes({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, MeshFormat::kStl);
+  EXPECT_EQ(attributes("b.stl", stl), Names{});
+  stl.back() = '\x80';
+  EXPECT_EQ(attributes("b.stl", stl), Names{"colours"});
+}
+
+TEST(MeshFile, VerticesOfNoTriangleNeedNotBeFinite) {
+  const TemporaryFolder folder;
+  const std::string vertices = "OFF\n5 1 0\n0 nan 0\n0 0 0\n1 0 0\n0 inf 1\n0 1 0\n3 ";
+  const TriangleMesh mesh = read_mesh(folder.write("a.off", vertices + "1 2 4\n"));
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{1, 2, 4}}));
+  EXPECT_EQ(mesh.vertices,
+            (std::vector<Point>{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}}));
+  const std::filesystem::path bad = folder.write("b.off", vertices + "1 2 3\n");
+  expect_clear(message_of([&] { read_mesh(bad); }), bad.string(), "line 3: a coordinate is NaN",
+               "finite");
+}
+
+TEST(MeshFile, DroppingUnusedVerticesKeepsTheOrderOfTheOthers) {
+  TriangleMesh mesh{{{9, 9, 9}, {0, 0, 0}, {8, 8, 8}, {1, 0, 0}, {0, 1, 0}, {7, 7, 7}},
+                    {{4, 1, 3}, {3, 3, 4}}};
+  drop_unused_vertices(mesh.vertices, mesh.triangles);
+  EXPECT_EQ(mesh.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{2, 0, 1}, {1, 1, 2}}));
 }
 
 TEST(MeshFile, BadMeshesAreRefused) {
