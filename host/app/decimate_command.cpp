@@ -96,7 +96,10 @@ class DecimateCommand {
       refuse();
     }
     fmt::print("decimation     {:.1f} s{}{}\n", progress.seconds(),
-               result_.repairs > 0 ? fmt::format(", mended {} times", result_.repairs) : "",
+               result_.repairs > 0
+                   ? fmt::format("; {} earlier results missed the bound and were corrected",
+                                 grouped(static_cast<std::uint64_t>(result_.repairs)))
+                   : "",
                was_interrupted()     ? "; interrupted"
                : result_.interrupted ? "; out of time"
                                      : "");
@@ -145,7 +148,7 @@ class DecimateCommand {
     fmt::print("tolerance      {}, {}", to_text(tolerance_, scan_.width),
                options_.two_sided ? "two-sided" : "one-sided");
     if (options_.two_sided && epsilon_back() != epsilon_) {
-      fmt::print(", back {:.6g}", epsilon_back());
+      fmt::print(", mesh to reference {:.6g}", epsilon_back());
     }
     fmt::print("\n");
     std::fflush(stdout);
@@ -208,10 +211,10 @@ class DecimateCommand {
   void print_result() const {
     if (!given_is_reference()) {
       fmt::print(
-          "reference      {} triangles dropped that are degenerate, not manifold or "
-          "intersect others, {} points joined{}\n",
-          grouped(reference_.dropped), grouped(reference_.inserted),
-          options_.two_sided ? ": " + reference_file().string() : "");
+          "reference      {}{} triangles removed that are degenerate, not manifold or intersect "
+          "others; {} points that the mesh missed were added\n",
+          options_.two_sided ? reference_file().string() + ": " : "", grouped(reference_.dropped),
+          grouped(reference_.inserted));
     }
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(result_.mesh.triangles.size()), describe(result_.validity));
@@ -235,7 +238,8 @@ class DecimateCommand {
     const double farthest = std::ranges::max(points.excluded_distances);
     fmt::print(
         "result         infeasible: {} of {} points are farther than {:.9g} from the mesh and "
-        "cannot be joined to it, the farthest {:.9g} (point {}); nothing is written\n",
+        "no triangles can be added that reach them, the farthest {:.9g} (point {}); nothing is "
+        "written\n",
         grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), epsilon_, farthest,
         scan_.cloud.index_in_file(points.excluded[static_cast<std::size_t>(
             std::ranges::max_element(points.excluded_distances) -

@@ -188,7 +188,8 @@ class OptimizeCommand {
     if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(
-          "outliers       {} points farther than that from the reconstruction are left out\n",
+          "outliers       {} points farther than the tolerance from the reconstruction are left "
+          "out\n",
           grouped(settings_.bound.outliers.size()));
     }
     if (settings_.epsilon_back) {
@@ -344,7 +345,7 @@ class OptimizeCommand {
     const auto percent = [all](double part) { return 100 * part / all; };
     fmt::print(
         "time           reconstruction {:.0f}%, holes and far points {:.0f}%, decimation {:.0f}%, "
-        "back bound {:.1f}%; e_max {:.2f}%\n",
+        "distance to the reference {:.1f}%; e_max {:.2f}%\n",
         percent(state_.stages.reconstruct), percent(state_.stages.prepare),
         percent(state_.stages.decimate), percent(state_.stages.check), percent(state_.measuring));
   }
