@@ -10,7 +10,10 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include "host/app/command_words.h"
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
 #include "host/app/option_checks.h"
@@ -58,22 +61,6 @@ void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
           "auto: the search chooses, under a one-sided bound")
       ->check(CLI::IsMember({"bounded", "schroeder", "auto"}))
       ->capture_default_str();
-}
-
-// What the parser would not name.
-void check_words(CLI::App& app, std::span<char*> words) {
-  for (const std::string word : words.subspan(std::min<std::size_t>(1, words.size()))) {
-    if (is_utf8(word)) continue;
-    throw Error(printable(word) + ": is not UTF-8, as certificates need; rename the file");
-  }
-  if (words.size() < 2 || words[1][0] == '-') return;
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == words[1]) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  throw Error(
-      fmt::format("there is no command '{}', but {}; see emax --help", printable(words[1]), names));
 }
 
 int run(int argc, char** argv) {
@@ -262,13 +249,15 @@ int run(int argc, char** argv) {
       if (option->get_type_name() == "TEXT") option->check(not_empty());
     }
   }
-  check_words(app, std::span(argv, static_cast<std::size_t>(argc)));
+  std::vector<std::string> words =
+      checked_words(app, std::span(argv, static_cast<std::size_t>(argc)));
   if (argc == 1) {
     to_standard_error(app.help());
     return kExitError;
   }
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as the parser asks for
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& parse_error) {
     return app.exit(parse_error) == 0 ? kExitOk : kExitError;
   }

@@ -186,7 +186,9 @@ TEST_F(BadInput, Options) {
       test::run_emax({"error", "scan.xyz", "surface.off", "--quantile", "nan"}, folder_.path()),
       {"--quantile", "0 to 100"});
   expect_refusal(test::run_emax({"optimise", "scan.xyz"}, folder_.path()),
-                 {"optimise", "optimize, decimate"});
+                 {"optimise", "did you mean optimize?", "optimize, decimate"});
+  expect_refusal(optimize({"scan.xyz", "--max-eror", "1%", "-o", "out.ply"}),
+                 {"--max-eror", "did you mean --max-error?", "optimize --help"});
   expect_refusal(with("--exclude-outliers", "1.5"), {"--exclude-outliers"});
   expect_refusal(with("--config", "none.toml"), {"none.toml"});
   write("bad.toml", "[search]\nbudgett = 3\n");

@@ -138,6 +138,13 @@ TEST_F(DecimateCommand, EveryFormatIsCertifiedAsItIsStored) {
   EXPECT_EQ(verify("again.ply"), 0);
 }
 
+TEST_F(DecimateCommand, AShortOptionTakesItsValueBehindAnEqualsSign) {
+  ASSERT_EQ(
+      emax({"decimate", "surface.off", "--max-error=3%", "--effort=quick", "-o=out.ply"}).exit_code,
+      0);
+  EXPECT_EQ(verify("out.ply"), 0);
+}
+
 TEST_F(DecimateCommand, SameInputSameBytes) {
   ASSERT_EQ(decimate("one.ply").exit_code, 0);
   ASSERT_EQ(decimate("two.ply").exit_code, 0);
