@@ -26,9 +26,9 @@ std::span<const std::string_view> cloud_endings();
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options = {});
 
 // Throws Error naming `file` when nothing can be reconstructed from the cloud: fewer than 4 points,
-// all equal, on one line or in one plane. On a line or in a plane means to within the greater of
-// 1e-9 of the cloud's extent and 8 roundings of its greatest coordinate, so that a tilted plane far
-// from the origin, which rounding has roughened, counts as one. Duplicates are fine. O(n).
+// all equal or on one line. A plane is a surface. On a line means to within the greater of 1e-9 of
+// the cloud's extent and 8 roundings of its greatest coordinate, so that a tilted line far from the
+// origin, which rounding has roughened, counts as one. Duplicates are fine. O(n).
 void check_cloud(const PointCloud& cloud, std::string_view file);
 
 }  // namespace emax

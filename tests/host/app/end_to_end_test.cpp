@@ -75,6 +75,25 @@ TEST_F(EndToEnd, SameSeedSameBytesForAnyJobsAndDevice) {
   EXPECT_NE(certificate("one.ply"), certificate("other.ply"));
 }
 
+// Exactly planar, along the axes and tilted.
+TEST_F(EndToEnd, APlanarCloudIsASurface) {
+  for (const double tilt : {0.0, 0.25}) {
+    std::ofstream file(folder_ / "plane.xyz");
+    for (int i = 0; i < 25; ++i) {
+      for (int j = 0; j < 25; ++j) file << fmt::format("{} {} {}\n", i, j, tilt * i + 2 * tilt * j);
+    }
+    file.close();
+    const ProgramRun run = emax({"optimize", "plane.xyz", "--max-error", "2%", "-o", "plane.ply",
+                                 "--method", "poisson", "--budget", "1", "--no-polish"});
+    ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+    const json certificate = read("plane.ply.certificate.json");
+    EXPECT_EQ(certificate.at("valid"), true);
+    EXPECT_LT(certificate.at("triangles"), 300);
+    EXPECT_EQ(emax({"verify", "plane.ply.certificate.json"}).exit_code, 0);
+    EXPECT_EQ(emax({"error", "plane.xyz", "plane.ply", "--max-error", "2%"}).exit_code, 0);
+  }
+}
+
 TEST_F(EndToEnd, OptimizesOnTheHardware) {
   test::write_scan(folder_.path() / "scan.xyz", 400, 2);
   const test::BoardProgram board(EMAX_BOARD_PROGRAM);
