@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sw_model/exact_distance.h"
 #include "sw_model/mesh_view.h"
 
 namespace emax {
@@ -25,12 +26,17 @@ struct CertifiedError {
 };
 
 // The greatest distance from a point of the cloud to the mesh, by the oracle of exact_distance.h:
-// this number alone permits writing a result.
+// this number alone permits writing a result. The same to the bit for any number of threads.
+//
+// Points are taken along a space-filling curve, so that a triangle near one of them is often near
+// enough to the next to show that it cannot be the worst.
 //
 // Throws Error naming the point that is not finite or beyond 1e150, or where nothing is left to
 // certify, and as ExactMesh does; std::invalid_argument for an excluded index that does not exist
 // or comes twice; std::logic_error while flush mode is on. About O(points log triangles).
+CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
+                       std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
 CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
-                       std::span<const std::uint32_t> excluded = {});
+                       std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
 
 }  // namespace emax

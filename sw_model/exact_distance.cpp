@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -169,22 +168,22 @@ ExactMesh::ExactMesh(MeshView mesh) {
   require_measurable(mesh);
   const std::size_t count = mesh.triangles.size();
   corners_.reserve(count);
-  std::vector<Point> centres;
+  std::vector<Centre> centres;
   centres.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     const std::array<Point, 3> corners = mesh.corners(i);
     corners_.push_back(corners);
-    centres.push_back(corners[0] / 3 + corners[1] / 3 + corners[2] / 3);
+    centres.push_back({corners[0] / 3 + corners[1] / 3 + corners[2] / 3, i});
   }
-  order_.resize(count);
-  std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(2 * count / kLeafSize + 1);
   build(0, static_cast<std::uint32_t>(count), centres);
 
   // Leaves read their corners in the order of the tree.
+  order_.resize(count);
   place_of_.resize(count);
   std::vector<std::array<Point, 3>> by_place(count);
   for (std::uint32_t place = 0; place < count; ++place) {
+    order_[place] = centres[place].triangle;
     place_of_[order_[place]] = place;
     by_place[place] = corners_[order_[place]];
   }
@@ -192,34 +191,54 @@ ExactMesh::ExactMesh(MeshView mesh) {
 }
 
 std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
-                               const std::vector<Point>& centres) {
+                               std::vector<Centre>& centres) {
   const std::uint32_t node = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({Point::Constant(kInfinity), Point::Constant(-kInfinity), begin, end, 0});
+  const auto enclose = [&](const Point& low, const Point& high) {
+    nodes_[node].low = nodes_[node].low.cwiseMin(low);
+    nodes_[node].high = nodes_[node].high.cwiseMax(high);
+  };
+  if (end - begin <= kLeafSize) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      for (const Point& corner : corners_[centres[i].triangle]) enclose(corner, corner);
+    }
+    return node;
+  }
   Point low = Point::Constant(kInfinity), high = -low;  // of the centres
   for (std::uint32_t i = begin; i < end; ++i) {
-    for (const Point& corner : corners_[order_[i]]) {
-      nodes_[node].low = nodes_[node].low.cwiseMin(corner);
-      nodes_[node].high = nodes_[node].high.cwiseMax(corner);
-    }
-    low = low.cwiseMin(centres[order_[i]]);
-    high = high.cwiseMax(centres[order_[i]]);
+    low = low.cwiseMin(centres[i].at);
+    high = high.cwiseMax(centres[i].at);
   }
-  if (end - begin <= kLeafSize) return node;
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(
-      order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b) { return centres[a][axis] < centres[b][axis]; });
-  build(begin, middle, centres);
+  std::nth_element(centres.begin() + begin, centres.begin() + middle, centres.begin() + end,
+                   [&](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; });
+  const std::uint32_t left = build(begin, middle, centres);
   const std::uint32_t right = build(middle, end, centres);
   nodes_[node].right = right;
+  for (const std::uint32_t child : {left, right}) enclose(nodes_[child].low, nodes_[child].high);
   return node;
 }
 
 DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) const {
   require_no_flush("the exact distance");
   return bounds(p, corners_[place_of_.at(triangle)]);
+}
+
+bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) const {
+  const std::array<Point, 3>& corners = corners_[place_of_.at(triangle)];
+  // docs/numerics.md, "The oracle's rounding": then no rounding leads to an upper end beyond it.
+  if (limit > 0x1p-400 && limit < 0x1p400) {
+    double nearest = kInfinity, farthest = 0;
+    for (const Point& corner : corners) {
+      const double squared = (corner - p).squaredNorm();
+      nearest = std::min(nearest, squared);
+      farthest = std::max(farthest, squared);
+    }
+    if (nearest <= 0.25 * limit * limit && farthest <= 0x1p60 * limit * limit) return true;
+  }
+  return distance_to(p, triangle).upper <= limit;
 }
 
 ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32_t seed) const {

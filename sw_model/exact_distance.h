@@ -56,6 +56,10 @@ class ExactMesh {
   // Bounds of the distance to one triangle of the mesh.
   DistanceBounds distance_to(const Point& p, std::uint32_t triangle) const;
 
+  // distance_to(p, triangle).upper <= limit, mostly for less: a corner of the triangle that is
+  // plainly within the limit shows it, too.
+  bool is_within(const Point& p, std::uint32_t triangle, double limit) const;
+
  private:
   struct Node {
     Point low, high;
@@ -63,7 +67,11 @@ class ExactMesh {
     std::uint32_t right;       // the right child; the left one follows its parent. 0 in a leaf.
   };
 
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end, const std::vector<Point>& centres);
+  struct Centre {
+    Point at;
+    std::uint32_t triangle;
+  };
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Centre>& centres);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;     // triangle of each place in the leaves

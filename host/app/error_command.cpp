@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <numeric>
 
 #include "host/app/commands.h"
@@ -22,6 +23,7 @@
 #include "host/report/result_json.h"
 #include "host/report/surface_samples.h"
 #include "sw_model/error.h"
+#include "sw_model/parallel.h"
 
 namespace emax {
 namespace {
@@ -79,10 +81,11 @@ void throw_if_interrupted() {
 // the limit.
 class CloudMeasurement {
  public:
-  CloudMeasurement(const PreparedCloud& prepared, const Scan& scan, const TriangleMesh& mesh)
+  CloudMeasurement(const PreparedCloud& prepared, const Scan& scan, const TriangleMesh& mesh,
+                   const ExactMesh& exact)
       : scan_(scan),
-        exact_(mesh.view()),
-        distances_(point_distances(prepared, mesh.view(), was_interrupted)) {}
+        exact_(exact),
+        distances_(point_distances(prepared, mesh.view(), was_interrupted, processor_threads())) {}
 
   void settle(double limit, double margin) {
     for (std::size_t i = 0; i < distances_.size(); ++i) {
@@ -120,7 +123,7 @@ class CloudMeasurement {
 
  private:
   const Scan& scan_;
-  ExactMesh exact_;
+  const ExactMesh& exact_;
   std::vector<double> distances_;
 };
 
@@ -139,7 +142,7 @@ SurfaceErrors measure_surface(const TriangleMesh& from, const TriangleMesh& to, 
     distance = surface_distance(from.view(), exact, options);
   }
   const PreparedCloud samples(surface_samples(from.view(), kSurfaceSamples));
-  const auto distances = point_distances(samples, to.view(), was_interrupted);
+  const auto distances = point_distances(samples, to.view(), was_interrupted, processor_threads());
   return {distance, statistics_of(distances, quantiles, limit)};
 }
 
@@ -174,6 +177,12 @@ void write_colors(const std::string& path, std::span<const Point> points,
                greatest / 2, greatest, limit ? " and beyond" : "");
   }
 }
+
+struct MeshFindings {
+  ExactMesh exact;
+  MeshValidity validity;
+  MeshTopology topology;
+};
 
 // Everything that is said of the mesh.
 struct Findings {
@@ -268,10 +277,14 @@ int run_error(const ErrorOptions& options) {
   std::optional<double>& limit = f.errors.limit;
   if (f.tolerance) limit = f.tolerance->in_units(scan.width);
 
+  // What needs the mesh alone goes on beside what needs the cloud.
+  auto of_mesh = std::async(std::launch::async, [&] {
+    return MeshFindings{ExactMesh(mesh.view()), check_mesh(mesh.view()), topology_of(mesh.view())};
+  });
   const auto start = std::chrono::steady_clock::now();
   // Without a tolerance the farthest points are excluded whatever their distance.
   ErrorConstraint constraint(scan.cloud.points, limit.value_or(0), share,
-                             options.common.brute_force);
+                             options.common.brute_force, processor_threads());
   const PreparedCloud& prepared = constraint.cloud();
   const auto device = make_evaluator(address);
   f.measured = device ? constraint.measure(mesh.view(), *device, {.interrupted = was_interrupted})
@@ -284,17 +297,19 @@ int run_error(const ErrorOptions& options) {
     cpu.measure(mesh.view(), f.measured);
     f.cpu_seconds = cpu.seconds();
   }
-  f.certified =
-      in_file_indices(certify(scan.cloud.points, mesh.view(), f.measured.excluded), scan.cloud);
+  const MeshFindings mesh_findings = of_mesh.get();
+  f.validity = mesh_findings.validity;
+  f.topology = mesh_findings.topology;
+  f.certified = in_file_indices(
+      certify(scan.cloud.points, mesh_findings.exact, f.measured.excluded, processor_threads()),
+      scan.cloud);
   f.measured.kept.worst_point = scan.cloud.index_in_file(f.measured.kept.worst_point);
-  f.validity = check_mesh(mesh.view());
-  f.topology = topology_of(mesh.view());
 
   const std::vector<double> quantiles =
       options.quantiles.empty()
           ? std::vector<double>(kUsualQuantiles.begin(), kUsualQuantiles.end())
           : options.quantiles;
-  CloudMeasurement cloud(prepared, scan, mesh);
+  CloudMeasurement cloud(prepared, scan, mesh, mesh_findings.exact);
   if (limit) cloud.settle(*limit, point_distance_margin(prepared, mesh.view(), *limit));
   f.errors.cloud = cloud.errors(quantiles, options.worst, limit);
   if (reference) {

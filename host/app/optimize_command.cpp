@@ -18,6 +18,7 @@
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
 #include "sw_model/error.h"
+#include "sw_model/parallel.h"
 #include "sw_model/surface_distance.h"
 
 namespace emax {
@@ -166,7 +167,8 @@ class OptimizeCommand {
     const BestMesh& shown = state_.best ? *state_.best : *state_.least_error;
     validity_ = check_mesh(shown.mesh.view());
     topology_ = topology_of(shown.mesh.view());
-    certified_ = certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded);
+    certified_ =
+        certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded, processor_threads());
     if (state_.best) {
       keep(*state_.best);
     } else {
@@ -289,9 +291,9 @@ class OptimizeCommand {
     bound.triangles = settings_.bound.reference.triangles.size();
     bound.epsilon_back = *settings_.epsilon_back;
     bound.mesh_to_reference = back.upper;
-    bound.points_to_reference =
-        certify(scan_.cloud.points, settings_.bound.reference.view(), best.error.excluded)
-            .e_max_upper;
+    bound.points_to_reference = certify(scan_.cloud.points, settings_.bound.reference.view(),
+                                        best.error.excluded, processor_threads())
+                                    .e_max_upper;
     return bound;
   }
 

@@ -11,6 +11,7 @@
 #include "host/geometry/sha256.h"
 #include "host/report/certificate_file.h"
 #include "sw_model/error.h"
+#include "sw_model/parallel.h"
 #include "sw_model/surface_distance.h"
 
 namespace emax {
@@ -113,7 +114,8 @@ class Verification {
 
   void check_error(const TriangleMesh& mesh, const Scan& scan,
                    std::span<const std::uint32_t> excluded) {
-    const CertifiedError error = certify(scan.cloud.points, mesh.view(), excluded);
+    const CertifiedError error =
+        certify(scan.cloud.points, mesh.view(), excluded, processor_threads());
     const CertifiedError& claimed = certificate_.error;
     require(
         error.within(certificate_.epsilon),
@@ -172,7 +174,8 @@ class Verification {
     check("the distance of the reference to the mesh", reference.view(), mesh,
           claimed.reference_to_mesh, kept ? certificate_.epsilon : HUGE_VAL);
     check_topology("the reference", claimed.topology, reference);
-    const CertifiedError own = certify(scan.cloud.points, reference.view(), excluded);
+    const CertifiedError own =
+        certify(scan.cloud.points, reference.view(), excluded, processor_threads());
     require(claimed.points_to_reference >= own.e_max_lower,
             fmt::format("it claims {:.9g} for the distance of the points to the reference, which "
                         "is {:.9g}",

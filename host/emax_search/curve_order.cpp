@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "host/emax_search/parallel.h"
+#include "sw_model/parallel.h"
 #include "sw_model/triangle_frame.h"
 
 namespace emax {

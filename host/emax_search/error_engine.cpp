@@ -7,7 +7,7 @@
 
 #include "host/emax_search/emax_search.h"
 #include "host/emax_search/nearest_rank.h"
-#include "host/emax_search/parallel.h"
+#include "sw_model/parallel.h"
 #include "sw_model/flush_mode.h"
 
 namespace emax {

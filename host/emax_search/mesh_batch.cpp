@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "host/emax_search/parallel.h"
+#include "sw_model/parallel.h"
 
 namespace emax {
 

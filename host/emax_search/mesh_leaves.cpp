@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/emax_search/curve_order.h"
-#include "host/emax_search/parallel.h"
+#include "sw_model/parallel.h"
 
 namespace emax {
 namespace {

@@ -8,9 +8,9 @@
 namespace emax {
 
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
-                                    const std::function<bool()>& interrupted) {
-  ErrorEngine engine(cloud, {.interrupted = interrupted});
-  const PreparedMesh prepared(mesh, cloud.normalization());
+                                    const std::function<bool()>& interrupted, std::size_t threads) {
+  ErrorEngine engine(cloud, {.threads = threads, .interrupted = interrupted});
+  const PreparedMesh prepared(mesh, cloud.normalization(), engine.target(), threads);
   std::vector<double> distances;
   distances.reserve(cloud.points().size());
   for (const std::uint32_t bits : engine.squared_distances(prepared)) {

@@ -9,10 +9,11 @@
 namespace emax {
 
 // The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the
-// square roots of what brute force gives, to the bit. Throws as PreparedMesh does; Interrupted when
-// `interrupted` says so.
+// square roots of what brute force gives, to the bit, with any number of threads. Throws as
+// PreparedMesh does; Interrupted when `interrupted` says so.
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
-                                    const std::function<bool()>& interrupted = nullptr);
+                                    const std::function<bool()>& interrupted = nullptr,
+                                    std::size_t threads = 1);
 
 // The greatest difference between such a distance of at most `distance` and the true one, in the
 // cloud's unit (docs/numerics.md). O(vertices).

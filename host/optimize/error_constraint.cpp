@@ -17,12 +17,13 @@ std::size_t excludable_points(double share, std::size_t points) {
 }
 
 ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
-                                 double excluded_share, bool brute_force)
+                                 double excluded_share, bool brute_force, std::size_t threads)
     : cloud_(cloud),
-      engine_(cloud_),
+      engine_(cloud_, {.threads = threads}),
       epsilon_(epsilon),
       excludable_(excludable_points(excluded_share, cloud.size())),
-      brute_force_(brute_force) {}
+      brute_force_(brute_force),
+      threads_(threads) {}
 
 double ErrorConstraint::in_file_units(std::uint32_t squared_bits) const {
   return distance_of(squared_bits) / cloud_.normalization().scale;
@@ -61,7 +62,7 @@ MeasuredError ErrorConstraint::measure(MeshView mesh, const std::function<bool()
     return measure(mesh, every_pair, {.interrupted = interrupted});
   }
   engine_.interrupt_with(interrupted);
-  const PreparedMesh prepared(mesh, cloud_.normalization());
+  const PreparedMesh prepared(mesh, cloud_.normalization(), engine_.target(), threads_);
   return judge(
       mesh, [&] { return engine_.e_max(prepared); },
       [&] { return engine_.squared_distances(prepared); });

@@ -30,9 +30,10 @@ std::size_t excludable_points(double share, std::size_t points);
 // may lie beyond epsilon.
 class ErrorConstraint {
  public:
-  // `epsilon` in the cloud's unit; `excluded_share` in [0, 1).
+  // `epsilon` in the cloud's unit; `excluded_share` in [0, 1). The threads measure on this
+  // processor, with the same bits however many they are.
   ErrorConstraint(std::span<const Point> cloud, double epsilon, double excluded_share,
-                  bool brute_force = false);
+                  bool brute_force = false, std::size_t threads = 1);
 
   ErrorConstraint(const ErrorConstraint&) = delete;  // the engine refers to the cloud
   ErrorConstraint& operator=(const ErrorConstraint&) = delete;
@@ -69,6 +70,7 @@ class ErrorConstraint {
   double epsilon_;
   std::size_t excludable_;
   bool brute_force_;
+  std::size_t threads_;
 };
 
 }  // namespace emax

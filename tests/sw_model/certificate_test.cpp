@@ -95,6 +95,32 @@ TEST(Certificate, FindsTheFirstOfManyEqualPoints) {
   EXPECT_EQ(once.e_max_upper, twice.e_max_upper);
 }
 
+// Several pieces of the cloud, the worst point in many of them: the lowest index wins.
+TEST(Certificate, IsTheSameForAnyNumberOfThreads) {
+  const test::Stimulus one = test::bumpy_sphere(9, 11, 700, 76);
+  test::Stimulus many = one;
+  for (int i = 0; i < 40; ++i) {
+    many.cloud.insert(many.cloud.end(), one.cloud.begin(), one.cloud.end());
+  }
+  std::reverse(many.cloud.begin() + 350, many.cloud.end());
+  const BruteForce brute(one);
+  const std::vector<std::uint32_t> excluded = {3, 20'000};
+  const CertifiedError alone = certify(many.cloud, many.mesh(), excluded);
+  EXPECT_EQ(alone.e_max_upper, *std::ranges::max_element(brute.upper));
+  const ExactMesh exact(many.mesh());
+  std::size_t lowest = 0;
+  while (lowest == 3 || exact.distance(many.cloud[lowest]).upper < alone.e_max_upper) ++lowest;
+  EXPECT_EQ(alone.worst_point, lowest);
+  for (const std::size_t threads : {1, 2, 3, 16}) {
+    SCOPED_TRACE(threads);
+    const CertifiedError certified = certify(many.cloud, exact, excluded, threads);
+    EXPECT_EQ(certified.e_max_upper, alone.e_max_upper);
+    EXPECT_EQ(certified.e_max_lower, alone.e_max_lower);
+    EXPECT_EQ(certified.worst_point, alone.worst_point);
+    EXPECT_EQ(certified.excluded_distances, alone.excluded_distances);
+  }
+}
+
 TEST(Certificate, IsZeroWhereEveryPointIsAVertex) {
   const test::Stimulus s = test::bumpy_sphere(8, 8, 0, 74);
   const CertifiedError certified = certify(s.vertices, s.mesh());

@@ -210,6 +210,32 @@ TEST(ExactMesh, StopsEarlyOnlyWithinWhatIsEnough) {
   EXPECT_GT(stopped_early, 0);
 }
 
+// The corners decide only where the upper end would, slivers and tiny limits included.
+TEST(ExactMesh, IsWithinExactlyWhereTheUpperEndIs) {
+  std::array<std::size_t, 2> seen{};
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::Random random(seed);
+    const double scale = std::pow(10.0, random.uniform(-130, 130));
+    Corners corners = random_corners(random);
+    const Point p = scale * random_point_near(random, corners);
+    std::vector<Point> vertices;
+    for (const Point& corner : corners) vertices.push_back(scale * corner);
+    const std::vector<Triangle> triangles = {{0, 1, 2}};
+    const ExactMesh mesh(MeshView{vertices, triangles});
+    double nearest = INFINITY;
+    for (const Point& corner : vertices) nearest = std::min(nearest, (corner - p).norm());
+    const double upper = mesh.distance_to(p, 0).upper;
+    for (const double limit : {2 * nearest, 2.000001 * nearest, nearest, upper,
+                               std::nextafter(upper, 0), 3 * upper, 0.0, -1.0}) {
+      EXPECT_EQ(mesh.is_within(p, 0, limit), upper <= limit) << limit;
+      ++seen[upper <= limit];
+    }
+  }
+  EXPECT_GT(seen[0], 5000u);
+  EXPECT_GT(seen[1], 5000u);
+}
+
 TEST(ExactMesh, RefusesWhatHasNoDistance) {
   const std::vector<Point> vertices = {Point(0, 0, 0), Point(1, 0, 0), Point(0, NAN, 0)};
   const std::vector<Triangle> none, broken = {{0, 1, 3}}, not_finite = {{0, 1, 2}};

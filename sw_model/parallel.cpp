@@ -1,4 +1,4 @@
-#include "host/emax_search/parallel.h"
+#include "sw_model/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,6 +8,8 @@
 #include <vector>
 
 namespace emax {
+
+std::size_t processor_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 void in_pieces(std::size_t threads, std::size_t count, std::size_t piece,
                const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {
