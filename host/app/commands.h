@@ -9,7 +9,8 @@
 
 namespace emax {
 
-// The subcommands. Each prints its result on standard output and returns the exit code.
+// The subcommands. Each prints its result on standard output and returns the exit code. `json` is a
+// file, or empty where there is none and where standard output takes the JSON (json_output.h).
 
 struct OptimizeOptions {
   CommonOptions common;
@@ -62,6 +63,7 @@ int run_error(const ErrorOptions& options);
 struct VerifyOptions {
   std::string certificate;
   std::string cloud, mesh, reference;  // empty: looked for by the names in the certificate
+  std::string json;
 };
 int run_verify(const VerifyOptions& options);
 

@@ -5,6 +5,7 @@
 #include "host/app/commands.h"
 #include "host/app/decimation_progress.h"
 #include "host/app/interrupt.h"
+#include "host/app/json_output.h"
 #include "host/app/reference_text.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/geometry/atomic_file.h"
@@ -248,7 +249,7 @@ class DecimateCommand {
   }
 
   void write_json() const {
-    if (options_.json.empty()) return;
+    if (!json_is_wanted(options_.json)) return;
     ResultReport report;
     report.feasible = feasible_;
     report.validity = result_.validity;
@@ -264,7 +265,7 @@ class DecimateCommand {
     report.device = "cpu";
     report.two_sided = options_.two_sided;
     report.reference = reference_bound_;
-    write_atomically(options_.json, to_json_text(report));
+    emax::write_json(options_.json, to_json_text(report));
   }
 
   const DecimateOptions& options_;

@@ -10,6 +10,7 @@
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
+#include "host/app/json_output.h"
 #include "host/app/reference_text.h"
 #include "host/emax_search/point_distances.h"
 #include "host/geometry/atomic_file.h"
@@ -34,15 +35,13 @@ constexpr double kSurfacePrecision = 1e-3;
 constexpr double kFinest = 1e-6;  // and, where that is nothing, as a share of the width
 constexpr double kDecisionPrecision = 1e-9;
 constexpr std::array<std::string_view, 1> kColorEndings = {".ply"};
-constexpr const char* kStandardOutput = "-";
 
 void check_outputs(const ErrorOptions& options) {
   const std::string& json = options.common.json;
-  const bool json_file = !json.empty() && json != kStandardOutput;
-  if (json_file) check_output(json, kJsonEndings);
+  if (!json.empty()) check_output(json, kJsonEndings);
   if (!options.color.empty()) check_output(options.color, kColorEndings);
   if (!options.color_mesh.empty()) check_output(options.color_mesh, kColorEndings);
-  check_distinct({json_file ? json : "", options.color, options.color_mesh},
+  check_distinct({json, options.color, options.color_mesh},
                  {options.common.cloud, options.mesh, options.reference});
 }
 
@@ -169,13 +168,11 @@ double color_range(std::span<const double> distances, std::optional<double> limi
 
 void write_colors(const std::string& path, std::span<const Point> points,
                   std::span<const double> distances, std::span<const Triangle> triangles,
-                  std::optional<double> limit, bool print) {
+                  std::optional<double> limit) {
   const double greatest = color_range(distances, limit);
   write_error_ply(path, points, distances, greatest, triangles);
-  if (print) {
-    fmt::print("colours        {}: viridis, dark blue 0, green {:.6g}, yellow {:.6g}{}\n", path,
-               greatest / 2, greatest, limit ? " and beyond" : "");
-  }
+  fmt::print("colours        {}: viridis, dark blue 0, green {:.6g}, yellow {:.6g}{}\n", path,
+             greatest / 2, greatest, limit ? " and beyond" : "");
 }
 
 struct MeshFindings {
@@ -317,23 +314,17 @@ int run_error(const ErrorOptions& options) {
   }
 
   const std::string& json = options.common.json;
-  const bool text = json != kStandardOutput;
-  if (text) print(f, options, scan, mesh, constraint.excludable());
+  print(f, options, scan, mesh, constraint.excludable());
   if (!options.color.empty()) {
-    write_colors(options.color, scan.cloud.points, cloud.distances(), {}, limit, text);
+    write_colors(options.color, scan.cloud.points, cloud.distances(), {}, limit);
   }
   if (!options.color_mesh.empty()) {
     const auto distances =
         point_distances(PreparedCloud(mesh.vertices), reference->mesh.view(), was_interrupted);
-    write_colors(options.color_mesh, mesh.vertices, distances, mesh.triangles, limit, text);
+    write_colors(options.color_mesh, mesh.vertices, distances, mesh.triangles, limit);
   }
-  if (!json.empty()) {
-    const std::string bytes = json_text(f, options, mesh, scan, prepared.normalization());
-    if (text) {
-      write_atomically(json, bytes);
-    } else {
-      fmt::print("{}", bytes);
-    }
+  if (json_is_wanted(json)) {
+    write_json(json, json_text(f, options, mesh, scan, prepared.normalization()));
   }
   return f.tolerance && !f.feasible() ? kExitNo : kExitOk;
 }

@@ -16,6 +16,7 @@
 #include "host/app/command_words.h"
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
+#include "host/app/json_output.h"
 #include "host/app/option_checks.h"
 #include "host/app/standard_streams.h"
 #include "host/decimate/chain_parameters.h"
@@ -29,9 +30,15 @@
 namespace emax {
 namespace {
 
+void add_json(CLI::App& command, std::string& json) {
+  command.add_option("--json", json,
+                     "also write the result to this file, or with - to standard output; the text "
+                     "then goes to standard error");
+}
+
 void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& skip_invalid,
                          std::string& json) {
-  command.add_option("--json", json, "also write the result to this file");
+  add_json(command, json);
   command
       .add_option("--exclude-outliers", excluded_share,
                   "share of the points (N or N%) that may lie beyond the tolerance; they are named")
@@ -195,8 +202,6 @@ int run(int argc, char** argv) {
   error_command.add_option("--max-error", error.max_error,
                            "tolerance, N or N%: how many points exceed it; exit code 2 when it is "
                            "not kept");
-  error_command.get_option("--json")->description(
-      "also write the result to this file, or - to print it in place of the text");
   error_command.add_flag("--two-sided", error.two_sided,
                          "also bound the distance of the whole mesh from the reference");
   error_command
@@ -231,6 +236,7 @@ int run(int argc, char** argv) {
   verify_command.add_option("--reference", verify.reference,
                             "the reference of a two-sided bound, if it is neither beside the "
                             "certificate nor here");
+  add_json(verify_command, verify.json);
   verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
 
   std::string config_method = "gp3", config_decimator = "bounded";
@@ -261,6 +267,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& parse_error) {
     return app.exit(parse_error) == 0 ? kExitOk : kExitError;
   }
+  for (std::string* json :
+       {&optimize.common.json, &decimate.json, &error.common.json, &verify.json}) {
+    direct_json(*json);
+  }
   verify_arithmetic();
   if (!verify_command.parsed()) note_interrupts();  // which has nothing to end well
   return chosen();
@@ -289,7 +299,8 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     complain(std::string(error.what()) + " (a defect of the program; please report it)");
   }
-  if (std::fflush(stdout) != 0) {
+  // Where it takes the JSON, what is flushed here is bound for standard error.
+  if (std::fflush(stdout) != 0 && !emax::standard_output_is_json()) {
     complain(std::string("standard output cannot be written: ") + std::strerror(errno));
     return emax::kExitError;
   }

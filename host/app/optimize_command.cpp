@@ -6,6 +6,7 @@
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
+#include "host/app/json_output.h"
 #include "host/app/progress.h"
 #include "host/app/reference_text.h"
 #include "host/app/run_identity.h"
@@ -353,7 +354,7 @@ class OptimizeCommand {
   }
 
   void write_json(const BestMesh& shown) const {
-    if (options_.common.json.empty()) return;
+    if (!json_is_wanted(options_.common.json)) return;
     ResultReport report;
     report.feasible = state_.best.has_value();
     report.validity = validity_;
@@ -376,7 +377,7 @@ class OptimizeCommand {
     report.two_sided = settings_.epsilon_back.has_value();
     report.reference = reference_;
     if (cpu_) report.cpu_seconds = cpu_->seconds();
-    write_atomically(options_.common.json, to_json_text(report));
+    emax::write_json(options_.common.json, to_json_text(report));
   }
 
   const OptimizeOptions& options_;

@@ -5,11 +5,14 @@
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
+#include "host/app/json_output.h"
 #include "host/app/reference_text.h"
 #include "host/decimate/decimation_bound.h"
+#include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/sha256.h"
 #include "host/report/certificate_file.h"
+#include "host/report/verification_json.h"
 #include "sw_model/error.h"
 #include "sw_model/parallel.h"
 #include "sw_model/surface_distance.h"
@@ -56,6 +59,22 @@ class Verification {
       reference_path_ =
           locate(options.reference, certificate_.reference->file, "reference", path_, true);
     }
+  }
+
+  // Throws Error when `json` is one of the files that are read.
+  void require_apart(const std::string& json) const {
+    check_distinct({json}, {path_, mesh_path_, cloud_path_, reference_path_});
+  }
+
+  // Of what run() found.
+  std::string json_text() const {
+    return to_json_text({.certificate_file = path_.string(),
+                         .mesh_file = mesh_path_.string(),
+                         .cloud_file = cloud_path_.string(),
+                         .reference_file = reference_path_.string(),
+                         .certificate = &certificate_,
+                         .e_max = e_max_,
+                         .reasons = reasons_});
   }
 
   bool run() {
@@ -187,7 +206,7 @@ class Verification {
       const CertifiedError& error = certificate_.error;
       fmt::print("yes: every {}point of {} lies within {:.9g} of {} (e_max {:.9g}, {} triangles)\n",
                  error.excluded.empty() ? "" : "kept ", cloud_path_.string(), certificate_.epsilon,
-                 mesh_path_.string(), e_max_, grouped(certificate_.triangles));
+                 mesh_path_.string(), *e_max_, grouped(certificate_.triangles));
       if (!error.excluded.empty()) {
         fmt::print("     {} of its {} points are excluded, the farthest at {:.9g}\n",
                    grouped(error.excluded.size()), grouped(error.points + error.excluded.size()),
@@ -218,14 +237,19 @@ class Verification {
   std::filesystem::path path_;
   Certificate certificate_;
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
-  double e_max_ = 0;
+  std::optional<double> e_max_;
   std::vector<std::string> reasons_;
 };
 
 }  // namespace
 
 int run_verify(const VerifyOptions& options) {
-  return Verification(options).run() ? kExitOk : kExitNo;
+  if (!options.json.empty()) check_output(options.json, kJsonEndings);
+  Verification verification(options);
+  verification.require_apart(options.json);
+  const bool holds = verification.run();
+  if (json_is_wanted(options.json)) write_json(options.json, verification.json_text());
+  return holds ? kExitOk : kExitNo;
 }
 
 }  // namespace emax
