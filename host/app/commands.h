@@ -44,6 +44,7 @@ struct DecimateOptions {
   std::string excluded_share = "0";
   std::optional<double> seconds;
   bool two_sided = true;
+  bool repair = false;  // what intersects is removed instead of kept
   bool skip_invalid = false;
 };
 int run_decimate(const DecimateOptions& options);

@@ -8,6 +8,8 @@
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
 #include "host/decimate/certified_decimation.h"
+#include "host/decimate/close_holes.h"
+#include "host/decimate/manifold_part.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/geometry/sha256.h"
@@ -25,6 +27,8 @@ using Effort = DecimationSettings::Effort;
 Effort effort_named(const std::string& name) {
   return name == "quick" ? Effort::kCollapse : name == "deep" ? Effort::kDeep : Effort::kRelax;
 }
+
+constexpr double kAnyHole = 1;  // as wide as the mesh
 
 class DecimateCommand {
  public:
@@ -55,7 +59,6 @@ class DecimateCommand {
     settings_.decimation.effort = effort_named(options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
     settings_.format = mesh_format(options.output);
-    settings_.whole_reference = own_cloud_;
     require_storable(given_, settings_.format, std::min(epsilon_, epsilon_back()), options.output);
   }
 
@@ -72,7 +75,7 @@ class DecimateCommand {
       kept.push_back(scan_.cloud.points[i]);
       index.push_back(i);
     }
-    reference_ = reference_surface(given_, kept, epsilon_ / 2, was_interrupted);
+    make_reference(kept);
     if (was_interrupted()) throw Interrupted{};
     if (options_.two_sided && !given_is_reference()) {
       check_distinct({reference_file(), options_.json}, {options_.mesh, options_.cloud});
@@ -131,10 +134,56 @@ class DecimateCommand {
   double percent(double length) const { return 100 * length / scan_.width; }
 
   // The reference is the mesh as it was given, but for its order.
-  bool given_is_reference() const { return reference_.dropped == 0 && reference_.inserted == 0; }
+  bool given_is_reference() const {
+    return !options_.repair && reference_.dropped == 0 && reference_.split == 0 &&
+           reference_.cut_vertices == 0 && reference_.inserted == 0;
+  }
   std::filesystem::path reference_file() const {
     if (given_is_reference()) return options_.mesh;
     return reference_path(options_.output);
+  }
+
+  // The mesh as it was given, cut apart where it is not manifold; or repaired.
+  void make_reference(std::span<const Point> kept) {
+    if (!options_.repair) {
+      reference_ =
+          reference_surface(given_, kept, epsilon_ / 2, was_interrupted, MadeManifold::kByCutting);
+      return;
+    }
+    before_repair_ = topology_of(cut_to_manifold(given_).mesh.view());
+    ManifoldPart part = manifold_part(given_);
+    if (before_repair_->border_loops == 0 && !part.mesh.triangles.empty()) {
+      ClosedHoles closed = close_holes(std::move(part.mesh), kAnyHole);
+      part.mesh = std::move(closed.mesh);
+      part.dropped += closed.dropped;
+    }
+    reference_ = reference_surface(part.mesh, kept, epsilon_ / 2, was_interrupted);
+    reference_.dropped += part.dropped;
+  }
+
+  void print_reference() const {
+    if (given_is_reference()) return;
+    const ReferenceSurface& r = reference_;
+    std::string made;
+    const auto say = [&](std::size_t count, std::string_view what, std::string_view then) {
+      if (count == 0) return;
+      made += fmt::format("{}{} {} {}", made.empty() ? "" : ", ", grouped(count), what, then);
+    };
+    say(r.dropped, r.dropped == 1 ? "triangle" : "triangles",
+        options_.repair ? "removed (degenerate, not manifold or intersecting others)"
+                        : "removed (degenerate or repeated)");
+    say(r.split, r.split == 1 ? "triangle" : "triangles", "split at vertices on their sides");
+    say(r.cut_edges, r.cut_edges == 1 ? "non-manifold edge" : "non-manifold edges", "cut apart");
+    say(r.cut_vertices, r.cut_vertices == 1 ? "non-manifold vertex" : "non-manifold vertices",
+        "cut apart");
+    say(r.inserted, r.inserted == 1 ? "point" : "points", "added that the mesh missed");
+    fmt::print("reference      {}{}\n", made.empty() ? "as given" : made,
+               options_.two_sided ? ": " + reference_file().string() : "");
+    if (!before_repair_) return;
+    const bool was_closed = before_repair_->border_loops == 0;
+    const MeshTopology now = topology_of(reference_.mesh.view());
+    fmt::print("repaired       {}{}; now {}\n", describe(*before_repair_),
+               was_closed && now.border_loops > 0 ? "; was closed, now open" : "", describe(now));
   }
 
   void print_task() const {
@@ -201,22 +250,14 @@ class DecimateCommand {
     reference.epsilon_back = epsilon_back();
     reference.mesh_to_reference = result_.mesh_to_reference->upper;
     reference.topology = topology_of(reference_.mesh.view());
-    reference.reference_to_mesh = result_.reference_to_mesh
-                                      ? result_.reference_to_mesh->upper
-                                      : reference_to_mesh(reference_.mesh, result_.mesh, epsilon_);
+    reference.reference_to_mesh = result_.reference_to_mesh->upper;
     reference.points_to_reference =
         certify(scan_.cloud.points, reference_.mesh.view(), result_.points.excluded).e_max_upper;
     return reference;
   }
 
   void print_result() const {
-    if (!given_is_reference()) {
-      fmt::print(
-          "reference      {}{} triangles removed that are degenerate, not manifold or intersect "
-          "others; {} points that the mesh missed were added\n",
-          options_.two_sided ? reference_file().string() + ": " : "", grouped(reference_.dropped),
-          grouped(reference_.inserted));
-    }
+    print_reference();
     fmt::print("result         {}: {} triangles; {}\n", options_.output,
                grouped(result_.mesh.triangles.size()), describe(result_.validity));
     fmt::print(
@@ -279,6 +320,7 @@ class DecimateCommand {
   double epsilon_ = 0;
   CertifiedDecimationSettings settings_;
   ReferenceSurface reference_;
+  std::optional<MeshTopology> before_repair_;
   CertifiedDecimation result_;
   EmaxResult kernel_ = {};  // the point is the file's
   std::optional<ReferenceBound> reference_bound_;

@@ -174,6 +174,9 @@ int run(int argc, char** argv) {
                   "quick: collapses alone; deep: until nothing is gained")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
+  decimate_command.add_flag("--repair", decimate.repair,
+                            "remove triangles that intersect others or are not manifold, and close "
+                            "the holes that leaves in a closed mesh (default: kept, cut apart)");
   decimate_command
       .add_option("--feature-angle", decimate.feature_angle,
                   "keep edges over which the surface turns by more than this many degrees, and "

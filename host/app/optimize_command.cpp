@@ -279,7 +279,7 @@ class OptimizeCommand {
     }
     ReferenceBound bound;
     bound.reference_to_mesh = reference_to_mesh(settings_.bound.reference, best.mesh, epsilon_);
-    if (kReferenceIsKept && bound.reference_to_mesh > epsilon_) {
+    if (bound.reference_to_mesh > epsilon_) {
       throw Error(
           fmt::format("the certificate ({:.9g}) contradicts the decimator's bound on the distance "
                       "of the reference to the mesh: nothing is written; this is a defect of the "

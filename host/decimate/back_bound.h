@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "host/decimate/slot_tree.h"
+#include "host/decimate/triangle_sheet.h"
 
 namespace emax {
 
@@ -27,6 +29,7 @@ class BackBound {
  public:
   // `reference` is manifold, consistently oriented and without degenerate triangles.
   BackBound(const TriangleMesh& reference, double limit);
+  ~BackBound();
 
   double limit() const { return limit_; }
   // Shares of sights seen before are of the former limit.
@@ -52,25 +55,11 @@ class BackBound {
   bool holds(const std::array<Point, 3>& corners, std::uint32_t near) const;
 
  private:
-  struct Corner {
-    double y, z, height;  // in the plane of T, and over it
-  };
-  struct Plane;
-  enum class Sheet { kWithin, kBeyond, kNoSheet };
+  class Faces;
 
-  struct Covering {
-    std::uint32_t triangle;
-    std::array<Corner, 3> corners;
-    std::array<unsigned, 3> beyond;  // the sides of T that each corner is beyond
-  };
-
-  Sheet follow_covering(const Plane& plane, std::uint32_t start) const;
-  void clip(const Plane& plane, const std::array<Corner, 3>& r,
-            const std::array<unsigned, 3>& beyond) const;
-  Sheet follow_sheet(const Plane& plane, std::uint32_t near) const;
-  std::uint32_t under_centroid(const Plane& plane, std::uint32_t from) const;
+  Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near) const;
   bool covers_itself() const;
-  double part_distance(const Plane& plane, const std::vector<Corner>& part,
+  double part_distance(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                        std::uint32_t triangle) const;
   bool halve(const std::array<Point, 3>& corners) const;
 
@@ -86,9 +75,9 @@ class BackBound {
   mutable std::vector<Face> faces_;
   mutable std::uint32_t search_ = 0;
   mutable std::vector<std::uint32_t> front_;
-  mutable std::vector<Covering> covering_;
-  mutable std::vector<Corner> part_, clipped_;
-  mutable std::vector<std::array<Corner, 3>> sheet_;  // what was followed
+  mutable std::unique_ptr<SheetWalk<Faces>> walk_;
+  mutable PartOverTriangle part_;
+  mutable std::vector<std::array<PlanarCorner, 3>> sheet_;  // what was followed
   mutable std::vector<std::array<Point, 3>> pieces_;
   mutable int budget_ = 0;
 };

@@ -5,8 +5,6 @@
 
 #include "host/decimate/chain_parameters.h"
 #include "host/decimate/drop_components.h"
-#include "host/decimate/far_points.h"
-#include "host/decimate/manifold_part.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -25,13 +23,17 @@ double bounded_distance(MeshView from, const ExactMesh& to, double limit) {
   return std::max({decided.lower, measured.lower, std::nextafter(limit, HUGE_VAL)});
 }
 
+bool equal(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
 }  // namespace
 
 BoundedStage::BoundedStage(std::span<const Point> points, DecimationBound bound)
     : bound_(std::move(bound)), kept_(points_without(points, bound_.outliers)) {
   if (!two_sided()) return;
-  back_.emplace(bound_.reference, kInside * bound_.epsilon_back);
   exact_reference_.emplace(bound_.reference.view());
+  topology_ = topology_of(bound_.reference.view());
 }
 
 TriangleMesh BoundedStage::without_needless(TriangleMesh surface) const {
@@ -41,20 +43,7 @@ TriangleMesh BoundedStage::without_needless(TriangleMesh surface) const {
 
 TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   if (!(bound_.epsilon > 0)) throw Error("the bounded decimator was given no bound");
-  const double far = bound_.epsilon / 2;
-  if (!two_sided()) return reference_surface(surface, kept_, far).mesh;
-  TriangleMesh part = manifold_part(surface).mesh;
-  const std::size_t strayed = std::erase_if(part.triangles, [&](const Triangle& t) {
-    const std::array<Point, 3> corners = {part.vertices[t[0]], part.vertices[t[1]],
-                                          part.vertices[t[2]]};
-    const std::uint32_t near = back_->sight(corners[0]).triangle;
-    return near == kNoIndex || !back_->holds(corners, near);
-  });
-  if (part.triangles.empty()) throw Error("all of the surface strays from the reference");
-  if (strayed > 0) part = manifold_part(part).mesh;
-  FarPoints inserted = insert_far_points(part, kept_, far, nullptr, &*back_);
-  return cover_far_points(std::move(inserted.mesh), kept_, inserted.left_out, *back_,
-                          kInside * bound_.epsilon);
+  return reference_surface(surface, kept_, bound_.epsilon / 2).mesh;
 }
 
 TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
@@ -70,17 +59,28 @@ TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
   settings.flatness = values.at("bounded.flatness");
   const TriangleMesh& reference = two_sided() ? bound_.reference : start;
   TriangleMesh mesh = BoundedDecimator(reference, kept_).run(start, settings).mesh;
+  if (two_sided()) return mesh;
   return drop_needless_components(std::move(mesh), kept_, kInside * bound_.epsilon);
 }
 
-double BoundedStage::back_distance(const TriangleMesh& mesh) const {
-  if (!two_sided()) return 0;
-  return bounded_distance(mesh.view(), *exact_reference_, bound_.epsilon_back);
+SurfaceVerdict BoundedStage::judge(const TriangleMesh& mesh) const {
+  SurfaceVerdict verdict;
+  if (!two_sided() || equal(mesh, bound_.reference)) return verdict;
+  const MeshTopology topology = topology_of(mesh.view());
+  const auto difference = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
+  verdict.topology_difference = difference(topology.components, topology_.components) +
+                                difference(topology.border_loops, topology_.border_loops) +
+                                difference(topology.genus, topology_.genus);
+  verdict.back_distance = bounded_distance(mesh.view(), *exact_reference_, bound_.epsilon_back);
+  verdict.reference_distance =
+      bounded_distance(bound_.reference.view(), ExactMesh(mesh.view()), bound_.epsilon);
+  return verdict;
 }
 
-double BoundedStage::reference_distance(const TriangleMesh& mesh) const {
-  if (!two_sided()) return 0;
-  return bounded_distance(bound_.reference.view(), ExactMesh(mesh.view()), bound_.epsilon);
+bool BoundedStage::keeps_bounds(const SurfaceVerdict& verdict) const {
+  return !two_sided() ||
+         (verdict.topology_difference == 0 && verdict.back_distance <= bound_.epsilon_back &&
+          verdict.reference_distance <= bound_.epsilon);
 }
 
 }  // namespace emax

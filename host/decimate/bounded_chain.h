@@ -4,13 +4,22 @@
 #include <span>
 #include <vector>
 
-#include "host/decimate/back_bound.h"
 #include "host/decimate/bounded_decimation.h"
 #include "host/decimate/decimation_bound.h"
+#include "host/geometry/mesh_topology.h"
 #include "host/parameters/parameter_spec.h"
 #include "sw_model/surface_distance.h"
 
 namespace emax {
+
+// How far a surface is from keeping a two-sided bound; all 0 where the bound is one-sided.
+struct SurfaceVerdict {
+  // Components, border loops and handles more or fewer than the reference's, added up.
+  std::size_t topology_difference = 0;
+  // Certified: at most the bound where it is kept, and a lower end of the distance otherwise.
+  double back_distance = 0;       // of the surface from the reference
+  double reference_distance = 0;  // of the reference, the inside of its triangles too, from it
+};
 
 // The bounded decimator as the end of the chain, for the surfaces of one cloud.
 class BoundedStage {
@@ -25,29 +34,22 @@ class BoundedStage {
   // run fixed no bound.
   TriangleMesh without_needless(TriangleMesh surface) const;
 
-  // What decimation starts from: the surface as a manifold, under a two-sided bound without the
-  // triangles that stray from the reference, and with the points inserted that are far from it, or
-  // covered by pieces of the reference where that cannot be.
-  // Throws what reference_surface() throws under a one-sided bound, what manifold_part() throws
-  // under a two-sided one, and Error where all of it strays and where the run fixed no bound.
+  // What decimation starts from: the surface as a manifold, with the points inserted that are far
+  // from it. Throws what reference_surface() throws, and Error where the run fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;
 
-  // `values` holds P_D. Without the components that no point needs any more.
+  // `values` holds P_D. Keeps every bound that `start` keeps, and its topology; under a one-sided
+  // bound without the components that no point needs any more.
   TriangleMesh decimate(const TriangleMesh& start, const ParameterValues& values) const;
 
-  // A certified upper bound on the distance of the mesh from the reference where it keeps
-  // epsilon_back, and a lower one otherwise; 0 when the bound is one-sided.
-  double back_distance(const TriangleMesh& mesh) const;
-
-  // Likewise of the distance of the reference, the inside of its triangles included, from the mesh,
-  // whose bound is epsilon.
-  double reference_distance(const TriangleMesh& mesh) const;
+  SurfaceVerdict judge(const TriangleMesh& mesh) const;
+  bool keeps_bounds(const SurfaceVerdict& verdict) const;
 
  private:
   DecimationBound bound_;
   std::vector<Point> kept_;  // points that are no outliers
-  std::optional<BackBound> back_;
   std::optional<ExactMesh> exact_reference_;
+  MeshTopology topology_;  // of the reference
 };
 
 }  // namespace emax

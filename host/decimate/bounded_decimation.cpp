@@ -64,33 +64,86 @@ void require_belonging(const DecimationState& state) {
 }  // namespace
 
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                   double far, const std::function<bool()>& interrupted) {
+                                   double far, const std::function<bool()>& interrupted,
+                                   MadeManifold how) {
   if (cloud.empty()) throw Error("there is no point to keep a mesh close to; give a cloud");
-  ManifoldPart part = manifold_part(mesh);
-  if (part.mesh.triangles.empty()) {
+  ReferenceSurface surface;
+  if (how == MadeManifold::kByDropping) {
+    ManifoldPart part = manifold_part(mesh);
+    surface = {std::move(part.mesh), part.dropped, 0, 0, 0, 0, {}};
+  } else {
+    CutSurface cut = cut_to_manifold(mesh);
+    surface = {std::move(cut.mesh), cut.dropped, cut.split, cut.cut_edges, cut.cut_vertices, 0, {}};
+  }
+  if (surface.mesh.triangles.empty()) {
     throw Error("the mesh has no triangle of any area that could be decimated; reconstruct first");
   }
-  const double reach = std::max(far, kBelongs * bounds_of(part.mesh.vertices).width());
-  DecimationState state(part.mesh, cloud, nullptr, reach * reach, {}, interrupted);
-  if (!state.complete()) return {std::move(part.mesh), part.dropped, 0, {}};
+  const double reach = std::max(far, kBelongs * bounds_of(surface.mesh.vertices).width());
+  DecimationState state(surface.mesh, cloud, nullptr, reach * reach, {}, interrupted);
+  if (!state.complete()) return surface;
   require_belonging(state);
   FarPoints inserted = insert_far_points(state, far, interrupted);
-  return {std::move(inserted.mesh), part.dropped, inserted.inserted, std::move(inserted.left_out)};
+  surface.mesh = std::move(inserted.mesh);
+  surface.inserted = inserted.inserted;
+  surface.left_out = std::move(inserted.left_out);
+  return surface;
 }
 
-// What runs share: the cloud along a curve and the trees of the reference.
+// What runs share: points along a curve, the reference between them and its trees.
 struct BoundedDecimator::Prepared {
-  std::vector<std::uint32_t> order;
-  std::vector<Point> cloud;  // in that order
+  std::vector<std::uint32_t> order;  // of the cloud's points and, behind them, the reference's own
+  std::vector<Point> points;         // in that order
+  std::vector<Triangle> triangles;   // of the reference, between these points
   std::unique_ptr<BackBound> back;
 };
 
+namespace {
+
+using Coordinates = std::array<double, 3>;
+
+// The vertices of the reference as points: those of the cloud at the same place, else new ones
+// behind them.
+std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<Point>& points) {
+  std::vector<std::pair<Coordinates, std::uint32_t>> places;
+  places.reserve(points.size());
+  const auto at = [](const Point& p) { return Coordinates{p[0], p[1], p[2]}; };
+  for (std::uint32_t i = 0; i < points.size(); ++i) places.emplace_back(at(points[i]), i);
+  std::ranges::sort(places);
+  std::vector<std::uint32_t> point_of;
+  for (const Point& v : reference.vertices) {
+    const auto found = std::ranges::lower_bound(places, std::pair{at(v), 0u});
+    const bool known = found != places.end() && found->first == at(v);
+    point_of.push_back(known ? found->second : static_cast<std::uint32_t>(points.size()));
+    if (!known) points.push_back(v);
+  }
+  return point_of;
+}
+
+}  // namespace
+
 const BoundedDecimator::Prepared& BoundedDecimator::prepared(double back_limit) const {
-  if (prepared_ == nullptr) {
-    prepared_ = std::make_shared<Prepared>();
-    prepared_->order = spatial_order(cloud_);
-    prepared_->cloud.reserve(cloud_.size());
-    for (const std::uint32_t p : prepared_->order) prepared_->cloud.push_back(cloud_[p]);
+  if (prepared_ == nullptr) prepared_ = std::make_shared<Prepared>();
+  Prepared& made = *prepared_;
+  // Under a two-sided bound the vertices of the reference count as points too.
+  const bool covers = back_limit > 0;
+  if (made.points.empty() || covers == made.triangles.empty()) {
+    std::vector<Point> all(cloud_.begin(), cloud_.end());
+    std::vector<std::uint32_t> point_of;
+    if (covers) point_of = as_points(reference_, all);
+    made.order = spatial_order(all);
+    made.points.clear();
+    std::vector<std::uint32_t> place_of(all.size());
+    for (const std::uint32_t p : made.order) {
+      place_of[p] = static_cast<std::uint32_t>(made.points.size());
+      made.points.push_back(all[p]);
+    }
+    made.triangles.clear();
+    if (covers) {
+      for (const Triangle& t : reference_.triangles) {
+        made.triangles.push_back(
+            {place_of[point_of[t[0]]], place_of[point_of[t[1]]], place_of[point_of[t[2]]]});
+      }
+    }
   }
   if (back_limit > 0) {
     if (prepared_->back == nullptr) {
@@ -124,15 +177,17 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   guards.squared_reach = reach * reach;
   guards.skip_points = settings.fault == Fault::kSkipsPoints;
   guards.skip_back_bound = settings.fault == Fault::kSkipsBackBound;
+  guards.skip_reference = settings.fault == Fault::kSkipsReference;
   guards.skip_intersections = settings.fault == Fault::kSkipsIntersections;
   const TriangleMesh ordered = spatially_ordered(start);
-  DecimationState state(ordered, known.cloud, settings.two_sided ? known.back.get() : nullptr,
-                        limit * limit, guards, settings.interrupted);
+  DecimationState state(ordered, known.points, settings.two_sided ? known.back.get() : nullptr,
+                        limit * limit, guards, settings.interrupted, known.triangles);
 
   if (!state.complete()) return {start, {}, true};
 
   DecimatedMesh result;
-  for (std::uint32_t p = 0; p < known.cloud.size(); ++p) {
+  for (std::uint32_t p = 0; p < known.points.size(); ++p) {
+    if (known.order[p] >= cloud_.size()) continue;
     if (state.assigned().owner(p) == kNoIndex) result.left_out.push_back(known.order[p]);
   }
   std::ranges::sort(result.left_out);

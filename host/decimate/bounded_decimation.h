@@ -12,11 +12,17 @@
 
 namespace emax {
 
-// A surface that decimation may start from and be held to: manifold_part() of a mesh, with the far
+// How a mesh becomes manifold: by manifold_part() or by cut_to_manifold().
+enum class MadeManifold { kByDropping, kByCutting };
+
+// A surface that decimation may start from and be held to: a mesh made manifold, with the far
 // points of the cloud inserted.
 struct ReferenceSurface {
   TriangleMesh mesh;
-  std::size_t dropped = 0;              // triangles, by manifold_part()
+  std::size_t dropped = 0;    // triangles
+  std::size_t split = 0;      // at vertices on their sides
+  std::size_t cut_edges = 0;  // and where it was cut apart
+  std::size_t cut_vertices = 0;
   std::size_t inserted = 0;             // points that were farther than `far`
   std::vector<std::uint32_t> left_out;  // points that still are, and could not be inserted
 };
@@ -26,7 +32,8 @@ struct ReferenceSurface {
 // are farther from it than a tenth of its width. `interrupted` is polled now and then; true ends
 // the work with the mesh at hand.
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                   double far, const std::function<bool()>& interrupted = nullptr);
+                                   double far, const std::function<bool()>& interrupted = nullptr,
+                                   MadeManifold how = MadeManifold::kByDropping);
 
 struct DecimationSettings {
   double epsilon = 0;  // every point of the cloud stays within this of the mesh,
@@ -65,7 +72,7 @@ struct DecimationSettings {
   std::function<void(double, std::size_t)> advanced = nullptr;
 
   // Faults that the tests must catch.
-  enum class Fault { kNone, kSkipsPoints, kSkipsBackBound, kSkipsIntersections };
+  enum class Fault { kNone, kSkipsPoints, kSkipsBackBound, kSkipsReference, kSkipsIntersections };
   Fault fault = Fault::kNone;
 };
 

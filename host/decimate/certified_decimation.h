@@ -14,9 +14,6 @@ namespace emax {
 struct CertifiedDecimationSettings {
   DecimationSettings decimation;
   MeshFormat format = MeshFormat::kPly;  // what is judged is what such a file will hold
-  // Where the bound is two-sided: also every point of the reference, the inside of its triangles
-  // included, within epsilon of the mesh, and not only the cloud's.
-  bool whole_reference = false;
 };
 
 // A decimated mesh and what is proven of it. All of it is within the bounds.
@@ -25,15 +22,17 @@ struct CertifiedDecimation {
   CertifiedError points;  // excluded: too far at the start and farther than epsilon in the end
   MeshValidity validity;
   std::optional<SurfaceDistance> mesh_to_reference;  // two-sided
-  std::optional<SurfaceDistance> reference_to_mesh;  // and of the whole reference
+  std::optional<SurfaceDistance> reference_to_mesh;  // likewise
   bool interrupted = false;
-  int repairs = 0;  // how often a result missed a bound and was mended
+  int repairs = 0;  // how often a result missed a bound and was made again
 };
 
 // BoundedDecimator, judged by what shares no code with it: the certificate, the certified distances
-// of surfaces and exact validity, on the mesh as stored. A mesh that misses is mended: points of
-// the reference that are too far are inserted, or it is decimated again under smaller bounds; in
-// the end the reference stands for itself. Interrupted, it gives the mesh at hand, certified too.
+// of surfaces in both directions and exact validity, on the mesh as stored. The decimator keeps all
+// of it with every edit, so a miss is the storage format's rounding or a defect; the mesh is then
+// decimated again under smaller bounds, and in the end the reference stands for itself. Pairs of
+// triangles that meet are permitted up to the number that the reference has. Interrupted, it gives
+// the mesh at hand, certified too.
 // Throws Error as BoundedDecimator does and where the format cannot hold the mesh within epsilon.
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings);

@@ -88,10 +88,14 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
     TriangleMesh filled = surface
                               ? closed_surface(reconstruction.mesh, settings.parameters, bounded_)
                               : fill(reconstruction.mesh, settings.parameters);
-    if (settings.decimator == "bounded") filled = bounded_.start(filled);
+    SurfaceVerdict verdict;
+    if (settings.decimator == "bounded") {
+      filled = bounded_.start(filled);
+      verdict = bounded_.judge(filled);
+    }
     seconds.prepare = watch.lap();
     return Surface{std::move(filled), reconstruction.mesh.triangles.size(),
-                   reconstruction.unmeshed_points};
+                   reconstruction.unmeshed_points, verdict};
   });
 }
 
@@ -107,10 +111,14 @@ ChainResult Chain::run(const ChainSettings& settings) {
   result.unmeshed_points = start.unmeshed_points;
   Stopwatch watch;
   if (settings.decimator == "bounded") {
-    result.mesh = bounded_.decimate(start.mesh, settings.parameters);
+    // Decimation mends neither a bound nor the topology.
+    const bool hopeful = bounded_.keeps_bounds(start.verdict);
+    result.mesh = hopeful ? bounded_.decimate(start.mesh, settings.parameters) : start.mesh;
     result.seconds.decimate = watch.lap();
-    result.back_distance = bounded_.back_distance(result.mesh);
-    result.reference_distance = bounded_.reference_distance(result.mesh);
+    const SurfaceVerdict verdict = hopeful ? bounded_.judge(result.mesh) : start.verdict;
+    result.topology_difference = verdict.topology_difference;
+    result.back_distance = verdict.back_distance;
+    result.reference_distance = verdict.reference_distance;
     result.seconds.check = watch.lap();
   } else if (settings.decimator == kNoDecimator) {
     result.mesh = start.mesh;

@@ -43,6 +43,7 @@ class Chain {
   struct Surface {
     TriangleMesh mesh;
     std::size_t reconstruction_triangles, unmeshed_points;
+    SurfaceVerdict verdict;  // of the bounded decimator
     std::size_t size_in_bytes() const { return emax::size_in_bytes(mesh); }
   };
 

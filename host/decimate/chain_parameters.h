@@ -43,8 +43,11 @@ struct ChainResult {
   TriangleMesh mesh;
   std::size_t reconstruction_triangles = 0;  // before filling and decimation
   std::size_t unmeshed_points = 0;           // see Reconstruction
-  // Of the bounded decimator under a two-sided bound: how far the mesh strays from the reference,
-  // certified; more than epsilon_back exactly where it breaks the bound.
+  // Of the bounded decimator under a two-sided bound: components, border loops and handles more or
+  // fewer than the reference's, added up.
+  std::size_t topology_difference = 0;
+  // How far the mesh strays from the reference, certified; more than epsilon_back exactly where it
+  // breaks the bound.
   double back_distance = 0;
   // And how far any point of the reference is from the mesh; more than epsilon exactly where that
   // bound is broken.

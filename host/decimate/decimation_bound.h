@@ -17,10 +17,6 @@ struct DecimationBound {
   std::vector<std::uint32_t> outliers;  // ascending; points that count for nothing
 };
 
-// Whether the bounded decimator also keeps every point of the reference within epsilon of the mesh.
-// Where it does not, that distance of a search's result is measured and said, and bounds nothing.
-inline constexpr bool kReferenceIsKept = false;
-
 // The points that count; `outliers` ascending.
 inline std::vector<Point> points_without(std::span<const Point> points,
                                          std::span<const std::uint32_t> outliers) {

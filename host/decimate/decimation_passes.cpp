@@ -250,7 +250,7 @@ bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limi
   if (!search_.fit(state_.mesh().position(vertex), options, fit)) return false;
   if (!(fit.energy < before * (1 - kLeastGain))) return false;
   if (!search_.finish(fit, limit, edit_)) return false;
-  return state_.permits(edit_);
+  return state_.permits(edit_, !limit);
 }
 
 bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit) {
@@ -260,7 +260,7 @@ bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, boo
   if (!search_.evaluate(Point::Zero(), power, fit)) return false;
   if (!(fit.energy < before * (1 - kLeastGain))) return false;
   if (!search_.finish(fit, limit, edit_)) return false;
-  return state_.permits(edit_);
+  return state_.permits(edit_, !limit);
 }
 
 std::size_t DecimationPasses::relocate(int power) {
@@ -303,6 +303,13 @@ bool DecimationPasses::all_within(const std::vector<std::uint32_t>& points) cons
   });
 }
 
+// Whether a tried collapse, mended so far, breaks no limit.
+bool DecimationPasses::settled() {
+  return all_within(unsettled_) && std::ranges::all_of(uncovered_, [&](std::uint32_t triangle) {
+           return state_.prove(triangle);
+         });
+}
+
 void DecimationPasses::apply(bool keep_undo) {
   if (!keep_undo) {
     state_.apply(edit_);
@@ -313,6 +320,7 @@ void DecimationPasses::apply(bool keep_undo) {
   for (const MeshEdit::Answer& a : edit_.answers) {
     if (a.squared_distance > state_.squared_limit()) unsettled_.push_back(a.point);
   }
+  uncovered_.insert(uncovered_.end(), state_.given_up().begin(), state_.given_up().end());
 }
 
 bool DecimationPasses::mend(std::uint32_t vertex) {
@@ -339,11 +347,11 @@ bool DecimationPasses::mend(std::uint32_t vertex) {
     for (const auto& [a, b] : flips) {
       if (mesh.used(a) && mesh.used(b) && try_flip(a, b, 8, false)) apply(true);
     }
-    if (all_within(unsettled_)) return true;
+    if (settled()) return true;
     for (const std::uint32_t v : ring) {
       if (try_relocation(v, 8, false)) apply(true);
     }
-    if (all_within(unsettled_)) return true;
+    if (settled()) return true;
     if (undo_.size() == before) break;
   }
   return false;
@@ -391,12 +399,13 @@ std::size_t DecimationPasses::collapse_and_mend() {
     if (poll(0.25 + 0.75 * static_cast<double>(i) / static_cast<double>(trials.size()))) break;
     if (!mesh.used(trial.a) || !mesh.used(trial.b)) continue;
     if (!judge_trial(trial.a, trial.b, trial)) continue;
-    if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_)) continue;
+    if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_, true)) continue;
     undo_.clear();
     unsettled_.clear();
+    uncovered_.clear();
     mesh.neighbours(trial.b, of_b_);
     apply(true);
-    if (all_within(unsettled_) || mend(trial.a)) {
+    if (settled() || mend(trial.a)) {
       options_.features.collapsed(trial.a, trial.b, of_b_);
       ++collapses;
       continue;

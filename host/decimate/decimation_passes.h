@@ -66,6 +66,7 @@ class DecimationPasses {
   void push(std::uint32_t a, std::uint32_t b);
   bool try_plain_collapse(std::uint32_t a, std::uint32_t b, double most);
   bool apply_collapse(const Candidate& candidate);
+  bool settled();
   bool try_relocation(std::uint32_t vertex, int power, bool limit);
   bool try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
   void apply(bool keep_undo);
@@ -86,6 +87,7 @@ class DecimationPasses {
   std::vector<std::uint32_t> around_, of_a_, of_b_;  // scratch
   std::vector<EditUndo> undo_;
   std::vector<std::uint32_t> unsettled_;  // points beyond the limit
+  std::vector<std::uint32_t> uncovered_;  // triangles of the reference not known to be within it
 };
 
 }  // namespace emax

@@ -28,7 +28,8 @@ Point area_normal_of(const std::array<Point, 3>& c) { return (c[1] - c[0]).cross
 
 DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud,
                                  const BackBound* back, double squared_limit, const Guards& guards,
-                                 const Interrupted& interrupted)
+                                 const Interrupted& interrupted,
+                                 std::span<const Triangle> reference)
     : mesh_(mesh),
       cloud_(cloud),
       back_(back),
@@ -42,6 +43,10 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
     area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
   complete_ = reassign(interrupted);
+  if (complete_ && !reference.empty()) {
+    cover_.emplace(reference, cloud_, squared_limit_);
+    cover_->begin(mesh_, tree_);
+  }
   if (!complete_ || back_ == nullptr) return;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     sight_[v] = back_->sight(mesh.vertices[v], v == 0 ? kNoIndex : sight_[v - 1].triangle);
@@ -72,7 +77,7 @@ std::uint32_t DecimationState::add_vertex(const Point& at) {
   return mesh_.add_vertex(at);
 }
 
-bool DecimationState::permits(const MeshEdit& edit) {
+bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
   const Point before = edit.vertex == kNoIndex ? Point::Zero() : mesh_.position(edit.vertex);
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);
   const auto judge = [&] {
@@ -94,11 +99,42 @@ bool DecimationState::permits(const MeshEdit& edit) {
         if (!back_->holds(corners, near)) return false;
       }
     }
-    return guards_.skip_intersections || !(meets_itself(edit) || meets_another(edit));
+    if (cover_ && !cover_->permits(mesh_, assigned_, edit, tolerant || guards_.skip_reference)) {
+      return false;
+    }
+    return true;
   };
-  const bool permitted = judge();
+  const bool judged = judge();
+  const bool meets =
+      judged && !guards_.skip_intersections && (meets_itself(edit) || meets_another(edit));
+  const std::size_t after = meets ? crossings(edit.added, edit.removed) : 0;
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, before);
-  return permitted;
+  if (!meets) return judged;
+  removed_.clear();
+  for (const std::uint32_t slot : edit.removed) removed_.push_back(mesh_.triangle(slot));
+  return after <= crossings(removed_, edit.removed);
+}
+
+// Pairs that meet of the triangles, with each other and with those of the mesh that stay.
+std::size_t DecimationState::crossings(std::span<const Triangle> triangles,
+                                       std::span<const std::uint32_t> removed) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t j = i + 1; j < triangles.size(); ++j) {
+      if (intersect_beyond_shared({mesh_.positions(), triangles}, i, j)) ++count;
+    }
+    const std::array<Point, 3> corners = {mesh_.position(triangles[i][0]),
+                                          mesh_.position(triangles[i][1]),
+                                          mesh_.position(triangles[i][2])};
+    tree_.for_each_overlap(
+        tree_.rounded(bounds_of(corners)), [&](std::uint32_t slot, const SlotTree::Box&) {
+          const std::array<Triangle, 2> pair = {triangles[i], mesh_.triangle(slot)};
+          const bool stays = std::ranges::find(removed, slot) == removed.end();
+          if (stays && intersect_beyond_shared({mesh_.positions(), pair}, 0, 1)) ++count;
+          return true;
+        });
+  }
+  return count;
 }
 
 bool DecimationState::meets_itself(const MeshEdit& edit) const {
@@ -154,6 +190,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   if (undo != nullptr) {
     undo->slots.clear();
     undo->answers.clear();
+    undo->cover = {};
     undo->vertex = edit.vertex;
     for (const std::uint32_t slot : edit.removed) {
       undo->slots.push_back({slot, mesh_.triangle(slot)});
@@ -184,6 +221,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
     mesh_.set(slot, edit.added[i]);
     placed_.push_back(slot);
   }
+  if (cover_) cover_->apply(placed_, undo == nullptr ? nullptr : &undo->cover);
   assigned_.add_slots(mesh_.slots());
   for (const MeshEdit::Answer& a : edit.answers) {
     assigned_.assign(a.point, a.added == kNoIndex ? a.slot : placed_[a.added], a.squared_distance);
@@ -214,6 +252,7 @@ void DecimationState::undo(const EditUndo& undo) {
     assigned_.assign(a.point, a.slot, a.squared_distance);
   }
   for (const EditUndo::Slot& s : undo.slots) changed(s.slot);
+  if (cover_) cover_->undo(undo.cover);
 }
 
 }  // namespace emax

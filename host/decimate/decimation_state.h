@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,33 +10,11 @@
 #include "host/decimate/back_bound.h"
 #include "host/decimate/editable_mesh.h"
 #include "host/decimate/local_distance.h"
+#include "host/decimate/mesh_edit.h"
+#include "host/decimate/reference_cover.h"
 #include "host/decimate/slot_tree.h"
 
 namespace emax {
-
-// One edit: the triangles of `removed` give way to `added`, in which one vertex may have moved, and
-// the points that they answered for are answered for anew.
-struct MeshEdit {
-  struct Answer {
-    std::uint32_t point;
-    std::uint32_t added;  // index in `added`, or
-    std::uint32_t slot;   // where `added` is kNoIndex, a triangle that stays
-    double squared_distance;
-  };
-
-  std::uint32_t vertex = kNoIndex;  // which moves
-  Point position = Point::Zero();
-  std::vector<std::uint32_t> removed;
-  std::vector<Triangle> added;
-  std::vector<Answer> answers;
-
-  void clear() {
-    vertex = kNoIndex;
-    removed.clear();
-    added.clear();
-    answers.clear();
-  }
-};
 
 // What undoes an edit.
 struct EditUndo {
@@ -48,6 +27,7 @@ struct EditUndo {
   BackBound::Sight sight;
   std::vector<Slot> slots;
   std::vector<MeshEdit::Answer> answers;  // `slot` counts
+  ReferenceCover::Undo cover;
 };
 
 // The mesh, the points each triangle answers for, and the trees by which edits are judged; all of
@@ -60,16 +40,20 @@ class DecimationState {
     double squared_reach = 0;    // points up to this far have a triangle too, if it is more
     // Faults that the tests must catch.
     bool skip_intersections = false, skip_back_bound = false, skip_points = false;
+    bool skip_reference = false;
   };
 
-  // `mesh` is manifold and consistently oriented, without degenerate triangles; `back` may be null
-  // and outlives the state. Points farther than `squared_limit` from the mesh belong to no
-  // triangle.
-  // `interrupted` is polled now and then; true leaves the rest of the points without a triangle.
+  // `mesh` is manifold and consistently oriented, without degenerate triangles; where triangles
+  // meet, edits leave no more pairs of them. `back` may be null and outlives the state. Points
+  // farther than `squared_limit` from the mesh belong to no triangle. `reference`: triangles
+  // between points of the cloud that every edit keeps within the limit of the mesh, those that it
+  // is within at first. `interrupted` is polled now and then; true leaves the rest of the points
+  // without a triangle.
   using Interrupted = std::function<bool()>;
   DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud, const BackBound* back,
                   double squared_limit, const Guards& guards,
-                  const Interrupted& interrupted = nullptr);
+                  const Interrupted& interrupted = nullptr,
+                  std::span<const Triangle> reference = {});
 
   const EditableMesh& mesh() const { return mesh_; }
   const AssignedPoints& assigned() const { return assigned_; }
@@ -92,9 +76,19 @@ class DecimationState {
     return f.length * f.length13 * f.y13 > guards_.flatness * longest * longest;
   }
 
-  // Whether the added triangles keep the back bound and meet no other triangle nor each other.
-  // Points are not looked at.
-  bool permits(const MeshEdit& edit);
+  // Whether the added triangles keep the back bound, those of the reference stay within the limit
+  // and no more pairs of triangles meet than before. Points are not looked at. With `tolerant`
+  // triangles of the reference may go beyond the limit; they are given_up() then, until prove() has
+  // them back.
+  bool permits(const MeshEdit& edit, bool tolerant = false);
+  std::span<const std::uint32_t> given_up() const {
+    return cover_ ? cover_->given_up() : std::span<const std::uint32_t>{};
+  }
+  bool prove(std::uint32_t reference_triangle) {
+    return cover_->prove(reference_triangle, mesh_, tree_);
+  }
+  // Triangles of the reference that are not known to be within the limit.
+  std::size_t unproven() const { return cover_ ? cover_->unproven() : 0; }
 
   // The edit last permitted.
   void apply(const MeshEdit& edit, EditUndo* undo = nullptr);
@@ -114,6 +108,8 @@ class DecimationState {
   };
   bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
+  std::size_t crossings(std::span<const Triangle> triangles,
+                        std::span<const std::uint32_t> removed) const;
   void changed(std::uint32_t slot);
 
   EditableMesh mesh_;
@@ -123,12 +119,14 @@ class DecimationState {
   Guards guards_;
   AssignedPoints assigned_;
   SlotTree tree_;
+  std::optional<ReferenceCover> cover_;
   std::vector<Point> area_normals_;  // of each slot
   bool complete_ = false;
   std::vector<BackBound::Sight> sight_;  // of each vertex
   BackBound::Sight moved_;               // of the position of the edit last permitted
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
   std::vector<Shape> shapes_;
+  std::vector<Triangle> removed_;
 };
 
 }  // namespace emax

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-
-#include "host/decimate/decimation_state.h"
-#include "sw_model/exact_distance.h"
 
 namespace emax {
 namespace {
@@ -128,58 +124,7 @@ class Insertion {
   MeshEdit edit_;
 };
 
-// Of a piece, about the point on the reference that is nearest to the one that it covers, as a
-// share of what the mesh is farther away than that.
-constexpr double kPieceRadius = 0.25;
-constexpr double kLeastRoom = 0.1;  // of `far`, or storing could make the piece degenerate
-
-// Pieces by the point that each was made for, to which it lies nearer than `far`.
-class Pieces {
- public:
-  explicit Pieces(double far) : far_(far) {}
-
-  void add(const Point& p, const std::array<Point, 3>& piece) {
-    cells_[cell_of(p)].push_back(pieces_.size());
-    pieces_.push_back(piece);
-  }
-  bool cover(const Point& p) const {
-    const Cell at = cell_of(p);
-    for (const double x : {-1.0, 0.0, 1.0}) {
-      for (const double y : {-1.0, 0.0, 1.0}) {
-        for (const double z : {-1.0, 0.0, 1.0}) {
-          if (cell_covers({at[0] + x, at[1] + y, at[2] + z}, p)) return true;
-        }
-      }
-    }
-    return false;
-  }
-  const std::vector<std::array<Point, 3>>& all() const { return pieces_; }
-
- private:
-  using Cell = std::array<double, 3>;  // whole numbers
-  bool cell_covers(const Cell& cell, const Point& p) const {
-    const auto found = cells_.find(cell);
-    return found != cells_.end() && std::ranges::any_of(found->second, [&](std::size_t i) {
-             return squared_distance(p, pieces_[i]) <= far_ * far_;
-           });
-  }
-  Cell cell_of(const Point& p) const {
-    const auto along = [&](Eigen::Index axis) { return std::floor(p[axis] / (2 * far_)); };
-    return {along(0), along(1), along(2)};
-  }
-
-  double far_;
-  std::vector<std::array<Point, 3>> pieces_;
-  std::map<Cell, std::vector<std::size_t>> cells_;
-};
-
 }  // namespace
-
-FarPoints insert_far_points(const TriangleMesh& mesh, std::span<const Point> cloud, double far,
-                            const std::function<bool()>& interrupted, const BackBound* back) {
-  DecimationState state(mesh, cloud, back, far * far, {}, interrupted);
-  return insert_far_points(state, far, interrupted);
-}
 
 FarPoints insert_far_points(DecimationState& state, double far,
                             const std::function<bool()>& interrupted) {
@@ -203,35 +148,6 @@ FarPoints insert_far_points(DecimationState& state, double far,
   }
   result.mesh = state.mesh().compact();
   return result;
-}
-
-TriangleMesh cover_far_points(TriangleMesh mesh, std::span<const Point> cloud,
-                              std::span<const std::uint32_t> points, const BackBound& back,
-                              double far) {
-  if (points.empty()) return mesh;
-  const ExactMesh exact(mesh.view());
-  Pieces pieces(far);
-  for (const std::uint32_t point : points) {
-    const Point& p = cloud[point];
-    const std::uint32_t near = back.sight(p).triangle;
-    if (near == kNoIndex || exact.distance(p).upper <= far) continue;
-    if (pieces.cover(p)) continue;
-    const Point middle = p + back.toward(p, near);
-    const double room = far - (middle - p).norm();
-    if (room < kLeastRoom * far) continue;
-    std::array<Point, 3> piece = back.reference().corners(near);
-    double radius = 0;
-    for (const Point& corner : piece) radius = std::max(radius, (corner - middle).norm());
-    const double scale = std::min(1.0, kPieceRadius * room / radius);
-    for (Point& corner : piece) corner = middle + scale * (corner - middle);
-    pieces.add(p, piece);
-  }
-  for (const std::array<Point, 3>& piece : pieces.all()) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), piece.begin(), piece.end());
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-  return mesh;
 }
 
 }  // namespace emax

@@ -386,10 +386,12 @@ ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
 }
 
 double violation_of(const ChainResult& made, const MeasuredError& error,
-                    const DecimationBound& bound, bool keeps_reference) {
+                    const DecimationBound& bound) {
   if (!(bound.epsilon_back > 0)) return error.violation;
-  const double back = std::max(error.violation, made.back_distance / bound.epsilon_back - 1);
-  return keeps_reference ? std::max(back, made.reference_distance / bound.epsilon - 1) : back;
+  const auto difference = static_cast<double>(made.topology_difference);
+  return std::max({error.violation, made.back_distance / bound.epsilon_back - 1,
+                   made.reference_distance / bound.epsilon - 1,
+                   difference > 0 ? difference / (1 + difference) : -1});
 }
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,

@@ -71,6 +71,7 @@ json to_json(const MeshMessage& m) {
           {"triangles", to_binary(m.result.mesh.triangles)},
           {"reconstruction_triangles", m.result.reconstruction_triangles},
           {"unmeshed_points", m.result.unmeshed_points},
+          {"topology_difference", m.result.topology_difference},
           {"back_distance", m.result.back_distance},
           {"reference_distance", m.result.reference_distance},
           {"seconds", {t.reconstruct, t.prepare, t.decimate, t.check}}};
@@ -120,6 +121,7 @@ Message mesh_from_json(const json& j) {
   m.result.mesh = mesh_from_binary(j.at("vertices"), j.at("triangles"));
   m.result.reconstruction_triangles = count_from(j.at("reconstruction_triangles"));
   m.result.unmeshed_points = count_from(j.at("unmeshed_points"));
+  m.result.topology_difference = count_from(j.at("topology_difference"));
   m.result.back_distance = distance_from(j.at("back_distance"));
   m.result.reference_distance = distance_from(j.at("reference_distance"));
   const json& seconds = j.at("seconds");

@@ -236,17 +236,48 @@ TEST_F(DecimateCommand, ABrokenMeshEndsInAValidOne) {
   write_mesh(folder_ / "broken.ply", broken);
   const ProgramRun run = decimate("out.ply", {"--effort", "quick"}, "broken.ply");
   ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
-  EXPECT_NE(run.output.find(" triangles removed that are degenerate"), std::string::npos)
-      << run.output;
+  // The fin is cut off, and stays.
+  EXPECT_NE(run.output.find("1 non-manifold edge cut apart"), std::string::npos) << run.output;
   const json c = certificate("out.ply");
   EXPECT_EQ(c.at("reference").at("file"), "out.ply.reference.ply");
-  EXPECT_EQ(c.at("validity").at("components"), 2);
-  EXPECT_EQ(c.at("topology").at("components"), 2);
+  EXPECT_EQ(c.at("validity").at("components"), 3);
+  EXPECT_EQ(c.at("topology").at("components"), 3);
   EXPECT_EQ(c.at("topology").at("genus"), 0);
   EXPECT_GT(c.at("topology").at("border_loops"), 0);
   EXPECT_GT(c.at("validity").at("boundary_edges"), 0);
   EXPECT_EQ(c.at("valid"), true);
   EXPECT_EQ(verify("out.ply"), 0);
+
+  const ProgramRun repaired =
+      decimate("repaired.ply", {"--effort", "quick", "--repair"}, "broken.ply");
+  ASSERT_EQ(repaired.exit_code, 0) << repaired.output << repaired.errors;
+  EXPECT_NE(repaired.output.find("2 triangles removed"), std::string::npos) << repaired.output;
+  EXPECT_EQ(certificate("repaired.ply").at("topology").at("components"), 2);
+}
+
+// Two spheres through each other: kept as they are, or without what intersects on demand.
+TEST_F(DecimateCommand, KeepsTrianglesThatIntersectUnlessToRepairThem) {
+  TriangleMesh crossing = mesh_;
+  const auto vertices = static_cast<std::uint32_t>(mesh_.vertices.size());
+  for (const Point& p : mesh_.vertices) crossing.vertices.push_back(p + Point(0.7, 0.1, 0.2));
+  for (const Triangle& t : mesh_.triangles) {
+    crossing.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+  }
+  write_mesh(folder_ / "crossing.ply", crossing);
+  const ProgramRun kept = decimate("out.ply", {"--effort", "quick"}, "crossing.ply");
+  ASSERT_EQ(kept.exit_code, 0) << kept.output << kept.errors;
+  const json c = certificate("out.ply");
+  EXPECT_GT(c.at("validity").at("self_intersections"), 0);
+  EXPECT_EQ(c.at("topology").at("border_loops"), 0);
+  EXPECT_EQ(c.at("topology").at("components"), 2);
+  EXPECT_EQ(verify("out.ply"), 0);
+
+  const ProgramRun repaired =
+      decimate("repaired.ply", {"--effort", "quick", "--repair"}, "crossing.ply");
+  ASSERT_EQ(repaired.exit_code, 0) << repaired.output << repaired.errors;
+  EXPECT_EQ(certificate("repaired.ply").at("validity").at("self_intersections"), 0);
+  EXPECT_NE(repaired.output.find("repaired  "), std::string::npos) << repaired.output;
+  EXPECT_EQ(verify("repaired.ply"), 0);
 }
 
 // Stray vertices, which no triangle with an area uses, change neither the task nor the result.

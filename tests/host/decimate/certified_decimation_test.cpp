@@ -14,7 +14,6 @@ CertifiedDecimationSettings with(double epsilon, MeshFormat format = MeshFormat:
   settings.decimation.epsilon = epsilon;
   settings.decimation.effort = DecimationSettings::Effort::kCollapse;
   settings.format = format;
-  settings.whole_reference = true;
   return settings;
 }
 
@@ -48,10 +47,9 @@ TEST(CertifiedDecimation, BoundsBothSurfacesAsStored) {
   }
 }
 
-// Few vertices far apart: the inside of the reference is what is missed.
-TEST(CertifiedDecimation, MendsWhatIsMissedBetweenThePoints) {
+// Few vertices far apart: the inside of the reference would be missed between the points.
+TEST(CertifiedDecimation, KeepsWhatLiesBetweenThePointsWithoutRepair) {
   CertifiedDecimationSettings settings = with(0.02);
-  int repairs = 0;
   for (const double epsilon : {0.01, 0.02, 0.05, 0.1}) {
     for (const TriangleMesh& mesh : {bumpy(12, 18), sheet(10, 0.4), bumpy(8, 12)}) {
       settings.decimation.epsilon = epsilon;
@@ -62,27 +60,44 @@ TEST(CertifiedDecimation, MendsWhatIsMissedBetweenThePoints) {
       EXPECT_TRUE(result.mesh_to_reference->within(4 * epsilon));
       EXPECT_TRUE(result.reference_to_mesh->within(epsilon));
       EXPECT_LE(result.mesh.triangles.size(), mesh.triangles.size());
-      repairs += result.repairs;
+      EXPECT_EQ(result.repairs, 0);
     }
   }
-  EXPECT_GT(repairs, 0);
+}
+
+// Two spheres through each other: the pairs of triangles that meet stay, and become no more.
+TEST(CertifiedDecimation, KeepsASurfaceThatIntersectsItself) {
+  const TriangleMesh crossing = joined(bumpy(16, 24), bumpy(16, 24), {0.7, 0.1, 0.2});
+  const MeshValidity before = check_mesh(crossing.view());
+  ASSERT_GT(before.self_intersections, 20u);
+  const CertifiedDecimation result = decimate_certified(crossing, crossing.vertices, with(0.05));
+  EXPECT_EQ(result.repairs, 0);
+  EXPECT_LT(result.mesh.triangles.size(), crossing.triangles.size() / 2);
+  EXPECT_LE(result.validity.self_intersections, before.self_intersections);
+  EXPECT_EQ(result.validity.components, 2u);
+  EXPECT_EQ(result.validity.boundary_edges, 0u);
+  EXPECT_TRUE(result.reference_to_mesh->within(0.05));
 }
 
 TEST(CertifiedDecimation, NeverHandsOutWhatAFaultyDecimatorMade) {
   const TriangleMesh sheets = joined(sheet(16, 0.4), sheet(16, 0.4), {0, 0, 0.02});
   const TriangleMesh sphere = bumpy(16, 24);
-  const auto run = [](const TriangleMesh& mesh, Fault fault) {
+  const auto run = [](const TriangleMesh& mesh, Fault fault, double back = 0.05) {
     CertifiedDecimationSettings settings = with(0.05);
+    settings.decimation.epsilon_back = back;
     settings.decimation.fault = fault;
     settings.decimation.normal_cosine = -1;
     const CertifiedDecimation result = decimate_certified(mesh, mesh.vertices, settings);
-    expect_certified(result, mesh, settings);
+    if (back == 0.05) expect_certified(result, mesh, settings);
+    EXPECT_TRUE(result.reference_to_mesh->within(0.05));
     return result.repairs;
   };
   EXPECT_EQ(run(sheets, Fault::kNone), 0);
   EXPECT_GT(run(sheets, Fault::kSkipsIntersections), 0);
   EXPECT_GT(run(sheets, Fault::kSkipsBackBound), 0);
-  EXPECT_GT(run(sphere, Fault::kSkipsPoints), 0);
+  // Few vertices far apart, and room for the mesh between them.
+  EXPECT_EQ(run(bumpy(8, 12), Fault::kNone, 0.2), 0);
+  EXPECT_GT(run(bumpy(8, 12), Fault::kSkipsReference, 0.2), 0);
 }
 
 TEST(CertifiedDecimation, IsCertifiedWhereverItIsInterrupted) {
@@ -103,7 +118,6 @@ TEST(CertifiedDecimation, NamesThePointsThatTheReferenceMisses) {
   std::vector<Point> cloud = mesh.vertices;
   cloud.push_back({5, 0, 0});
   CertifiedDecimationSettings settings = with(0.05);
-  settings.whole_reference = false;
   const CertifiedDecimation result = decimate_certified(mesh, cloud, settings);
   EXPECT_EQ(result.points.excluded,
             std::vector<std::uint32_t>{static_cast<std::uint32_t>(cloud.size() - 1)});

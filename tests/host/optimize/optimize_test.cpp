@@ -419,16 +419,19 @@ TEST(Violation, IsThatOfTheWorstBound) {
   error.violation = -0.5;
   ChainResult made;
   made.back_distance = made.reference_distance = 1;
-  EXPECT_EQ(violation_of(made, error, bound, true), -0.5);
+  EXPECT_EQ(violation_of(made, error, bound), -0.5);
   made.reference_distance = 3;
-  EXPECT_EQ(violation_of(made, error, bound, true), 0.5);
-  EXPECT_EQ(violation_of(made, error, bound, false), -0.5);
+  EXPECT_EQ(violation_of(made, error, bound), 0.5);
   made.reference_distance = 1;
   made.back_distance = 8;
-  EXPECT_EQ(violation_of(made, error, bound, true), 1);
-  EXPECT_EQ(violation_of(made, error, {2, 0, {}, {}}, true), -0.5);  // one-sided
+  EXPECT_EQ(violation_of(made, error, bound), 1);
+  EXPECT_EQ(violation_of(made, error, {2, 0, {}, {}}), -0.5);  // one-sided
   error.violation = 1.5;
-  EXPECT_EQ(violation_of(made, error, bound, true), 1.5);
+  EXPECT_EQ(violation_of(made, error, bound), 1.5);
+  made.topology_difference = 3;
+  error.violation = -0.5;
+  made.back_distance = 1;
+  EXPECT_EQ(violation_of(made, error, bound), 0.75);
 }
 
 }  // namespace

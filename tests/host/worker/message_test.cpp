@@ -65,10 +65,12 @@ TEST(Message, CarriesSettings) {
 
 TEST(Message, CarriesAMesh) {
   MeshMessage sent = tetrahedron();
+  sent.result.topology_difference = 7;
   sent.result.back_distance = 0.1;
   sent.result.reference_distance = 0.2;
   sent.result.seconds = {1, 2, 3, 4.5};
   const MeshMessage got = round_trip(sent);
+  EXPECT_EQ(got.result.topology_difference, 7u);
   EXPECT_EQ(got.result.back_distance, 0.1);
   EXPECT_EQ(got.result.reference_distance, 0.2);
   EXPECT_EQ(got.result.seconds.prepare, 2);

@@ -1,0 +1,449 @@
+#include "host/decimate/reference_cover.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/decimate/local_distance.h"
+
+namespace emax {
+namespace {
+
+constexpr int kMostCuts = 48;  // of one triangle of the reference
+// A cut by secants leaves this share of a side on either end.
+constexpr double kLeastPart = 1.0 / 16;
+
+// A triangle of the mesh: a slot, or with this bit the index of one that an edit adds.
+constexpr std::uint32_t kAdded = 1u << 31;
+
+}  // namespace
+
+// The mesh as it is or as an edit leaves it; what SheetWalk follows.
+class ReferenceCover::Around {
+ public:
+  explicit Around(double squared_limit)
+      : squared_limit_(squared_limit), limit_(std::sqrt(squared_limit)) {}
+
+  void look_at(const EditableMesh& mesh, const SlotTree& tree) {
+    mesh_ = &mesh;
+    tree_ = &tree;
+    edit_ = nullptr;
+  }
+  // `mesh` has the vertex of the edit in its new place.
+  void look_at(const EditableMesh& mesh, const MeshEdit& edit) {
+    mesh_ = &mesh;
+    edit_ = &edit;
+    nearby_.clear();
+    if (removed_.size() < mesh.slots()) removed_.resize(mesh.slots(), 0);
+    ++edits_;
+    for (const std::uint32_t slot : edit.removed) removed_[slot] = edits_;
+    joined_.clear();
+  }
+
+  const MeshEdit& edit() const { return *edit_; }
+  const Triangle& corners(std::uint32_t id) const {
+    return (id & kAdded) != 0 ? edit_->added[id & ~kAdded] : mesh_->triangle(id);
+  }
+  const Point& position(std::uint32_t vertex) const { return mesh_->position(vertex); }
+  std::array<Point, 3> points(std::uint32_t id) const {
+    const Triangle& t = corners(id);
+    return {position(t[0]), position(t[1]), position(t[2])};
+  }
+  double squared_distance_to(const Point& p, std::uint32_t id) const {
+    return squared_distance(p, points(id));
+  }
+
+  std::uint32_t neighbour(std::uint32_t id, std::size_t side) const {
+    if ((id & kAdded) != 0) {
+      if (joined_.empty()) join();
+      return joined_[id & ~kAdded][side];
+    }
+    const Triangle& t = mesh_->triangle(id);
+    return across(id, t[side], t[(side + 1) % 3]);
+  }
+
+  void begin_visits() { visited_.clear(); }
+  bool visit(std::uint32_t id) {
+    if (std::ranges::find(visited_, id) != visited_.end()) return false;
+    visited_.push_back(id);
+    return true;
+  }
+  std::span<const std::uint32_t> visited() const { return visited_; }
+  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                   std::uint32_t id) const {
+    return std::ranges::all_of(part, [&](const PlanarCorner& c) {
+      return std::abs(c.height) <= limit_ ||
+             squared_distance_to(plane.lift(c), id) <= squared_limit_;
+    });
+  }
+  double limit() const { return limit_; }
+
+  std::uint32_t nearest(const Point& p) {
+    if (edit_ == nullptr) return tree_->nearest(*mesh_, p, squared_limit_).slot;
+    if (nearby_.empty()) gather();
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t nearest = kNoIndex;
+    for (const std::uint32_t id : nearby_) {
+      const double squared = squared_distance_to(p, id);
+      if (squared >= least) continue;
+      least = squared;
+      nearest = id;
+    }
+    return nearest;
+  }
+
+ private:
+  bool removed(std::uint32_t slot) const { return edit_ != nullptr && removed_[slot] == edits_; }
+
+  // The triangle on the other side of an edge of `id`.
+  std::uint32_t across(std::uint32_t id, std::uint32_t from, std::uint32_t to) const {
+    for (const std::uint32_t slot : mesh_->slots_at_edge(from, to)) {
+      if (slot != kNoIndex && slot != id && !removed(slot)) return slot;
+    }
+    if (edit_ == nullptr) return kNoIndex;
+    for (std::uint32_t i = 0; i < edit_->added.size(); ++i) {
+      if ((kAdded | i) != id && has(edit_->added[i], from) && has(edit_->added[i], to)) {
+        return kAdded | i;
+      }
+    }
+    return kNoIndex;
+  }
+
+  void join() const {
+    for (std::uint32_t i = 0; i < edit_->added.size(); ++i) {
+      const Triangle& t = edit_->added[i];
+      joined_.push_back({across(kAdded | i, t[0], t[1]), across(kAdded | i, t[1], t[2]),
+                         across(kAdded | i, t[2], t[0])});
+    }
+  }
+
+  // What the edit adds and what touches it.
+  void gather() {
+    for (std::uint32_t i = 0; i < edit_->added.size(); ++i) nearby_.push_back(kAdded | i);
+    for (const Triangle& t : edit_->added) {
+      for (const std::uint32_t v : t) {
+        if (v == edit_->vertex) continue;
+        mesh_->for_each_slot_at(v, [&](std::uint32_t slot) {
+          if (!removed(slot)) nearby_.push_back(slot);
+        });
+      }
+    }
+    std::sort(nearby_.begin(), nearby_.end());
+    nearby_.erase(std::unique(nearby_.begin(), nearby_.end()), nearby_.end());
+  }
+
+  double squared_limit_, limit_;
+  const EditableMesh* mesh_ = nullptr;
+  const SlotTree* tree_ = nullptr;
+  const MeshEdit* edit_ = nullptr;
+  std::vector<std::uint32_t> removed_;  // the last edit that removed each slot
+  std::uint32_t edits_ = 0;
+  std::vector<std::uint32_t> nearby_, visited_;
+  mutable std::vector<std::array<std::uint32_t, 3>> joined_;  // neighbours of the added triangles
+};
+
+ReferenceCover::~ReferenceCover() = default;
+
+ReferenceCover::ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
+                               double squared_limit)
+    : triangles_(triangles),
+      points_(points),
+      squared_limit_(squared_limit),
+      first_of_(triangles.size(), kNoIndex),
+      unproven_(triangles.size()),
+      around_(std::make_unique<Around>(squared_limit)),
+      answer_of_(points.size(), kNoIndex),
+      seen_(triangles.size(), 0) {}
+
+void ReferenceCover::begin(const EditableMesh& mesh, const SlotTree& tree) {
+  first_at_.assign(mesh.slots(), kNoIndex);
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) prove(t, mesh, tree);
+}
+
+bool ReferenceCover::prove(std::uint32_t triangle, const EditableMesh& mesh, const SlotTree& tree) {
+  if (proven(triangle)) return true;
+  if (first_at_.size() < mesh.slots()) first_at_.resize(mesh.slots(), kNoIndex);
+  Around& around = *around_;
+  around.look_at(mesh, tree);
+  Piece whole;
+  for (std::size_t i = 0; i < 3; ++i) whole[i] = {points_[triangles_[triangle][i]], kNoIndex};
+  used_.clear();
+  const std::uint32_t middle = around.nearest((whole[0].at + whole[1].at + whole[2].at) / 3);
+  if (middle == kNoIndex) return false;
+  if (rests_on(whole, middle, around)) {
+    use(middle);
+  } else {
+    for (Corner& corner : whole) {
+      corner.near = around.nearest(corner.at);
+      if (corner.near == kNoIndex) return false;
+    }
+    if (!prove_piece(whole, around)) return false;
+  }
+  for (const std::uint32_t slot : used_) add_support(triangle, slot);
+  --unproven_;
+  return true;
+}
+
+bool ReferenceCover::permits(const EditableMesh& mesh, const AssignedPoints& assigned,
+                             const MeshEdit& edit, bool tolerant) {
+  affected_.clear();
+  given_up_.clear();
+  anew_.clear();
+  ++search_;
+  for (const std::uint32_t slot : edit.removed) {
+    if (slot >= first_at_.size()) continue;
+    for (std::uint32_t s = first_at_[slot]; s != kNoIndex; s = supports_[s].next_of_slot) {
+      const std::uint32_t t = supports_[s].triangle;
+      if (std::exchange(seen_[t], search_) != search_) affected_.push_back(t);
+    }
+  }
+  for (std::uint32_t i = 0; i < edit.answers.size(); ++i) answer_of_[edit.answers[i].point] = i;
+  around_->look_at(mesh, edit);
+  bool permitted = true;
+  for (const std::uint32_t t : affected_) {
+    used_.clear();
+    if (prove_after(t, assigned, *around_)) {
+      for (const std::uint32_t id : used_) anew_.emplace_back(t, id);
+    } else if (tolerant) {
+      given_up_.push_back(t);
+    } else {
+      permitted = false;
+      break;
+    }
+  }
+  for (const MeshEdit::Answer& a : edit.answers) answer_of_[a.point] = kNoIndex;
+  return permitted;
+}
+
+bool ReferenceCover::prove_after(std::uint32_t triangle, const AssignedPoints& assigned,
+                                 Around& around) {
+  Piece whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t p = triangles_[triangle][i];
+    const std::uint32_t a = answer_of_[p];
+    double squared = 0;
+    if (a == kNoIndex) {
+      whole[i].near = assigned.owner(p);
+      squared = assigned.squared_distance(p);
+    } else {
+      const MeshEdit::Answer& answer = around.edit().answers[a];
+      whole[i].near = answer.added == kNoIndex ? answer.slot : kAdded | answer.added;
+      squared = answer.squared_distance;
+    }
+    if (whole[i].near == kNoIndex || squared > squared_limit_) return false;
+    whole[i].at = points_[p];
+  }
+  if (whole[0].near == whole[1].near && whole[1].near == whole[2].near) {
+    use(whole[0].near);
+    return true;
+  }
+  return prove_piece(whole, around);
+}
+
+bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
+  // The triangle of two corners, if there is one.
+  const std::uint32_t likely = whole[1].near == whole[2].near ? whole[1].near : whole[0].near;
+  if (rests_on(whole, likely, around)) {
+    use(likely);
+    return true;
+  }
+  const TrianglePlane plane({whole[0].at, whole[1].at, whole[2].at});
+  around.begin_visits();
+  const std::uint32_t start = walk_.under_centroid(plane, likely, around);
+  if (start != kNoIndex &&
+      walk_.follow_covering(plane, start, around.limit(), around) == Sheet::kWithin) {
+    used_.assign(around.visited().begin(), around.visited().end());
+    return true;
+  }
+  // At folds and borders.
+  return cover(whole, around);
+}
+
+bool ReferenceCover::rests_on(const Piece& piece, std::uint32_t id, const Around& around) const {
+  return std::ranges::all_of(piece, [&](const Corner& corner) {
+    return corner.near == id || around.squared_distance_to(corner.at, id) <= squared_limit_;
+  });
+}
+
+void ReferenceCover::use(std::uint32_t id) {
+  if (std::ranges::find(used_, id) == used_.end()) used_.push_back(id);
+}
+
+// Cuts the piece until each part rests on one triangle.
+bool ReferenceCover::cover(const Piece& whole, Around& around) {
+  pieces_.assign(1, whole);
+  for (int cuts = 0; !pieces_.empty();) {
+    const Piece piece = pieces_.back();
+    pieces_.pop_back();
+    const std::uint32_t a = piece[0].near, b = piece[1].near, c = piece[2].near;
+    // Of the triangle of two corners first.
+    const std::array<std::uint32_t, 3> likely = {b == c ? b : a, b == c ? a : b, c};
+    bool rests = false;
+    for (std::size_t i = 0; i < 3 && !rests; ++i) {
+      if ((i > 0 && likely[i] == likely[0]) || (i == 2 && likely[2] == likely[1])) continue;
+      rests = rests_on(piece, likely[i], around);
+      if (rests) use(likely[i]);
+    }
+    if (rests) continue;
+    if (++cuts > kMostCuts || !cut(piece, around)) return false;
+  }
+  return true;
+}
+
+// Between two triangles of the mesh that its corners are near to: along the plane that halves the
+// angle between them where they share an edge, else where they are equally far.
+bool ReferenceCover::cut(const Piece& piece, Around& around) {
+  std::uint32_t one = kNoIndex, other = kNoIndex;
+  std::array<std::uint32_t, 2> edge{};
+  bool adjacent = false;
+  for (std::size_t i = 0; i < 3 && !adjacent; ++i) {
+    const std::uint32_t s = piece[i].near, t = piece[(i + 1) % 3].near;
+    if (s == t) continue;
+    one = s;
+    other = t;
+    std::size_t shared = 0;
+    for (const std::uint32_t v : around.corners(s)) {
+      if (has(around.corners(t), v) && shared < 2) edge[shared++] = v;
+    }
+    adjacent = shared == 2;
+  }
+  std::array<double, 3> side;  // positive nearer to `other`
+  bool by_plane = false;
+  if (adjacent) {
+    const std::array<Point, 3> s = around.points(one), t = around.points(other);
+    const Point normals = (s[1] - s[0]).cross(s[2] - s[0]).normalized() +
+                          (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+    const auto place = [&](std::uint32_t id, std::uint32_t v) {
+      const Triangle& triangle = around.corners(id);
+      const auto at = static_cast<std::size_t>(std::ranges::find(triangle, v) - triangle.begin());
+      return (id == one ? s : t)[at];
+    };
+    const Point from = place(one, edge[0]);
+    Point across = (place(one, edge[1]) - from).cross(normals);
+    const Point apex = place(other, opposite(around.corners(other), edge[0], edge[1])) - from;
+    if (across.dot(apex) < 0) across = -across;
+    for (std::size_t i = 0; i < 3; ++i) side[i] = across.dot(piece[i].at - from);
+    by_plane = normals.squaredNorm() > 0.01;
+  }
+  if (!by_plane) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      side[i] = std::sqrt(around.squared_distance_to(piece[i].at, one)) -
+                std::sqrt(around.squared_distance_to(piece[i].at, other));
+    }
+  }
+  std::size_t lone = 0;
+  while (lone < 3 && ((side[lone] > 0) == (side[(lone + 1) % 3] > 0) ||
+                      (side[lone] > 0) == (side[(lone + 2) % 3] > 0))) {
+    ++lone;
+  }
+  const auto between = [&](std::size_t i, std::size_t j, double share) {
+    return Point(piece[i].at + share * (piece[j].at - piece[i].at));
+  };
+  // The triangle within the limit that a new corner of a part is near to.
+  const auto labelled = [&](const Point& at, std::uint32_t first, std::uint32_t second) {
+    for (const std::uint32_t id : {first, second}) {
+      if (around.squared_distance_to(at, id) <= squared_limit_) return Corner{at, id};
+    }
+    const std::uint32_t id = around.nearest(at);
+    const bool within = id != kNoIndex && around.squared_distance_to(at, id) <= squared_limit_;
+    return Corner{at, within ? id : kNoIndex};
+  };
+  if (lone == 3) {
+    std::size_t longest = 0;
+    double length = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double squared = (piece[(i + 1) % 3].at - piece[i].at).squaredNorm();
+      if (squared <= length) continue;
+      length = squared;
+      longest = i;
+    }
+    const Corner &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
+    const Corner middle = labelled(0.5 * (a.at + b.at), a.near, b.near);
+    if (middle.near == kNoIndex) return false;
+    pieces_.push_back({a, middle, c});
+    pieces_.push_back({middle, b, c});
+    return true;
+  }
+  const std::size_t i = (lone + 1) % 3, j = (lone + 2) % 3;
+  const auto share = [&](std::size_t k) {
+    const double at = side[lone] / (side[lone] - side[k]);
+    return by_plane ? std::clamp(at, 0.0, 1.0) : std::clamp(at, kLeastPart, 1 - kLeastPart);
+  };
+  const Point x = between(lone, i, share(i)), y = between(lone, j, share(j));
+  const bool lone_is_other = side[lone] > 0;
+  const std::uint32_t here = lone_is_other ? other : one, there = lone_is_other ? one : other;
+  const Corner x_here = labelled(x, here, there), y_here = labelled(y, here, there);
+  const Corner x_there = labelled(x, there, here), y_there = labelled(y, there, here);
+  if (x_here.near == kNoIndex || y_here.near == kNoIndex) return false;
+  pieces_.push_back({piece[lone], x_here, y_here});
+  if ((x - piece[j].at).squaredNorm() < (y - piece[i].at).squaredNorm()) {
+    pieces_.push_back({x_there, piece[i], piece[j]});
+    pieces_.push_back({x_there, piece[j], y_there});
+  } else {
+    pieces_.push_back({x_there, piece[i], y_there});
+    pieces_.push_back({y_there, piece[i], piece[j]});
+  }
+  return true;
+}
+
+void ReferenceCover::add_support(std::uint32_t triangle, std::uint32_t slot) {
+  std::uint32_t s = free_;
+  if (s == kNoIndex) {
+    s = static_cast<std::uint32_t>(supports_.size());
+    supports_.emplace_back();
+  } else {
+    free_ = supports_[s].next_of_triangle;
+  }
+  supports_[s] = {triangle, slot, first_of_[triangle], first_at_[slot], kNoIndex};
+  if (first_at_[slot] != kNoIndex) supports_[first_at_[slot]].previous_of_slot = s;
+  first_at_[slot] = s;
+  first_of_[triangle] = s;
+}
+
+void ReferenceCover::drop_supports(std::uint32_t triangle) {
+  for (std::uint32_t s = first_of_[triangle]; s != kNoIndex;) {
+    Support& support = supports_[s];
+    (support.previous_of_slot == kNoIndex ? first_at_[support.slot]
+                                          : supports_[support.previous_of_slot].next_of_slot) =
+        support.next_of_slot;
+    if (support.next_of_slot != kNoIndex) {
+      supports_[support.next_of_slot].previous_of_slot = support.previous_of_slot;
+    }
+    const std::uint32_t next = support.next_of_triangle;
+    support.next_of_triangle = free_;
+    free_ = s;
+    s = next;
+  }
+  first_of_[triangle] = kNoIndex;
+}
+
+void ReferenceCover::apply(std::span<const std::uint32_t> placed, Undo* undo) {
+  for (const std::uint32_t t : affected_) {
+    if (undo != nullptr) {
+      undo->triangles.push_back(t);
+      for (std::uint32_t s = first_of_[t]; s != kNoIndex; s = supports_[s].next_of_triangle) {
+        undo->supports.emplace_back(t, supports_[s].slot);
+      }
+    }
+    drop_supports(t);
+  }
+  for (const auto& [t, id] : anew_) {
+    const std::uint32_t slot = (id & kAdded) != 0 ? placed[id & ~kAdded] : id;
+    if (slot >= first_at_.size()) first_at_.resize(slot + 1, kNoIndex);
+    add_support(t, slot);
+  }
+  unproven_ += given_up_.size();
+  affected_.clear();
+  anew_.clear();
+}
+
+void ReferenceCover::undo(const Undo& undo) {
+  for (const std::uint32_t t : undo.triangles) {
+    if (!proven(t)) --unproven_;
+    drop_supports(t);
+  }
+  for (const auto& [t, slot] : undo.supports) add_support(t, slot);
+}
+
+}  // namespace emax

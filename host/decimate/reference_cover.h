@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "host/decimate/assigned_points.h"
+#include "host/decimate/mesh_edit.h"
+#include "host/decimate/slot_tree.h"
+#include "host/decimate/triangle_sheet.h"
+
+namespace emax {
+
+// Keeps every point of a reference surface, the inside of its triangles included, within a limit of
+// a mesh while that one is edited (docs/numerics.md, "The reference within ε of the mesh").
+//
+// The distance to one triangle of the mesh is convex, so a part of a reference triangle whose
+// corners lie within the limit of one triangle of the mesh lies within it altogether. Each triangle
+// of the reference is cut into such parts: along the sides of the mesh's triangles where these lie
+// over it as a sheet, else between the triangles that its corners are near to. The triangles of the
+// mesh that it rests on are kept with it. An edit is permitted where every triangle of the
+// reference that rests on a removed one can be proven anew from the triangles around the edit.
+// "Yes" is proven but for roundings of a few units in the last place of the coordinates, which the
+// caller takes off the limit; "no" may be the budget's.
+//
+// O(1) for most triangles of the reference that rest on what an edit removes, else about linear in
+// the triangles of the mesh that lie over them. Not for concurrent
+// use.
+class ReferenceCover {
+ public:
+  // Corners of `triangles` are indices into `points`, which outlive the cover.
+  ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
+                 double squared_limit);
+  ~ReferenceCover();
+
+  // Proves what can be proven of the mesh as it is. O(log n) a triangle.
+  void begin(const EditableMesh& mesh, const SlotTree& tree);
+
+  // How many triangles of the reference are not proven: edits leave those alone.
+  std::size_t unproven() const { return unproven_; }
+  bool proven(std::uint32_t triangle) const { return first_of_[triangle] != kNoIndex; }
+
+  // `mesh` has the vertex of the edit in its new place already. With `tolerant` whatever cannot be
+  // proven becomes unproven, and the edit is permitted all the same.
+  bool permits(const EditableMesh& mesh, const AssignedPoints& assigned, const MeshEdit& edit,
+               bool tolerant);
+
+  // What undoes an edit.
+  struct Undo {
+    std::vector<std::uint32_t> triangles;                           // of the reference
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> supports;  // and what they rested on
+  };
+
+  // The edit last permitted; `placed` holds the slots of its added triangles.
+  void apply(std::span<const std::uint32_t> placed, Undo* undo);
+  void undo(const Undo& undo);
+  // Of the edit last permitted, tolerantly: the triangles that it leaves unproven.
+  std::span<const std::uint32_t> given_up() const { return given_up_; }
+  // Proves a triangle of the reference again, by the whole mesh.
+  bool prove(std::uint32_t triangle, const EditableMesh& mesh, const SlotTree& tree);
+
+ private:
+  // That a triangle of the reference rests on one of the mesh, in the lists of both.
+  struct Support {
+    std::uint32_t triangle, slot;
+    std::uint32_t next_of_triangle;
+    std::uint32_t next_of_slot, previous_of_slot;
+  };
+  struct Corner {
+    Point at;
+    std::uint32_t near;  // a triangle of the mesh within the limit
+  };
+  using Piece = std::array<Corner, 3>;
+  class Around;
+
+  bool prove_after(std::uint32_t triangle, const AssignedPoints& assigned, Around& around);
+  bool prove_piece(const Piece& whole, Around& around);
+  bool rests_on(const Piece& piece, std::uint32_t id, const Around& around) const;
+  bool cover(const Piece& whole, Around& around);
+  bool cut(const Piece& piece, Around& around);
+  void use(std::uint32_t id);
+  void add_support(std::uint32_t triangle, std::uint32_t slot);
+  void drop_supports(std::uint32_t triangle);
+
+  std::span<const Triangle> triangles_;
+  std::span<const Point> points_;
+  double squared_limit_;
+  std::vector<Support> supports_;
+  std::uint32_t free_ = kNoIndex;        // a list through next_of_triangle
+  std::vector<std::uint32_t> first_of_;  // of each triangle of the reference
+  std::vector<std::uint32_t> first_at_;  // of each slot
+  std::size_t unproven_ = 0;
+
+  // Of the edit last permitted.
+  std::vector<std::uint32_t> affected_, given_up_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> anew_;  // triangle and id
+
+  // Scratch.
+  std::unique_ptr<Around> around_;
+  SheetWalk<Around> walk_;
+  std::vector<std::uint32_t> used_;
+  std::vector<Piece> pieces_;
+  std::vector<std::uint32_t> answer_of_;  // of each point, in the edit; kNoIndex
+  std::vector<std::uint32_t> seen_;       // the edit that last looked at each triangle
+  std::uint32_t search_ = 0;
+};
+
+}  // namespace emax

@@ -1,0 +1,185 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "host/decimate/editable_mesh.h"
+
+namespace emax {
+
+// A corner in the plane of a triangle T, and its height over it.
+struct PlanarCorner {
+  double y, z, height;
+};
+
+// The plane of a triangle T, its corners in it and its sides as lines that are positive inside.
+struct TrianglePlane {
+  explicit TrianglePlane(const std::array<Point, 3>& c);
+
+  // y along the first side, z across it.
+  PlanarCorner project(const Point& p) const {
+    const Point q = p - origin;
+    return {along.dot(q), across.dot(q), normal.dot(q)};
+  }
+  Point lift(const PlanarCorner& c) const { return origin + c.y * along + c.z * across; }
+  double inside(std::size_t side, const PlanarCorner& c) const {
+    return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
+  }
+  // The sides that a corner is beyond, a bit each.
+  unsigned beyond(const PlanarCorner& c) const {
+    unsigned sides = 0;
+    for (unsigned side = 0; side < 3; ++side) {
+      if (inside(side, c) < 0) sides |= 1u << side;
+    }
+    return sides;
+  }
+  // Whether T reaches to the right of the line from a to b.
+  bool reaches_over(const PlanarCorner& a, const PlanarCorner& b) const {
+    for (const PlanarCorner& c : corners) {
+      if ((b.y - a.y) * (c.z - a.z) < (b.z - a.z) * (c.y - a.y)) return true;
+    }
+    return false;
+  }
+
+  Point origin, along, across, normal;
+  std::array<PlanarCorner, 3> corners;
+  double area, longest = 0;
+  std::array<std::array<double, 3>, 3> line;
+};
+
+// The part of a triangle r that is over T; empty where there is none. `beyond`: of each corner of
+// r.
+class PartOverTriangle {
+ public:
+  void clip(const TrianglePlane& plane, const std::array<PlanarCorner, 3>& r,
+            const std::array<unsigned, 3>& beyond);
+  const std::vector<PlanarCorner>& corners() const { return part_; }
+
+ private:
+  std::vector<PlanarCorner> part_, clipped_;
+};
+
+// How a sheet of triangles that faces T lies over it.
+enum class Sheet { kWithin, kBeyond, kNoSheet };
+
+// Follows a sheet of triangles over T. `Faces` tells of the sheet:
+//   corners(t): the vertices of triangle t; position(v): of a vertex
+//   neighbour(t, i): the triangle through the side that begins at corner i, or kNoIndex
+//   visit(t): whether the search comes to t for the first time
+//   part_within(plane, part, t): whether the part of T under `part` of t is within the limit of t
+template <class Faces>
+class SheetWalk {
+ public:
+  // Over the side beyond which the middle of T lies, until the triangle is under it; kNoIndex where
+  // the sheet ends or turns before.
+  static std::uint32_t under_centroid(const TrianglePlane& plane, std::uint32_t from,
+                                      const Faces& faces);
+
+  // From a triangle of the sheet under T over every side that T reaches over. Where all of these
+  // face the way T does and the sheet does not end, a way in T from the first triangle to any point
+  // passes from one of them to the next, so they cover T; kNoSheet where they do not. A triangle
+  // whose corners are all at most `flat` from the plane of T needs no clipping.
+  Sheet follow_covering(const TrianglePlane& plane, std::uint32_t start, double flat, Faces& faces);
+
+ private:
+  struct Covering {
+    std::uint32_t triangle;
+    std::array<PlanarCorner, 3> corners;
+    std::array<unsigned, 3> beyond;  // the sides of T that each corner is beyond
+  };
+  std::vector<Covering> covering_;
+  PartOverTriangle part_;
+};
+
+// A triangle faces T where twice its area in the projection is more than this share of the squares
+// of its sides.
+inline constexpr double kSteep = 1e-12;
+
+inline bool faces_plane(const std::array<PlanarCorner, 3>& r) {
+  const double u = r[1].y - r[0].y, v = r[1].z - r[0].z;
+  const double x = r[2].y - r[0].y, y = r[2].z - r[0].z;
+  return u * y - v * x > kSteep * (u * u + v * v + x * x + y * y);
+}
+
+template <class Faces>
+std::uint32_t SheetWalk<Faces>::under_centroid(const TrianglePlane& plane, std::uint32_t from,
+                                               const Faces& faces) {
+  constexpr int kMostSteps = 64;
+  const double y = (plane.corners[1].y + plane.corners[2].y) / 3;
+  const double z = plane.corners[2].z / 3;
+  for (int step = 0; step < kMostSteps && from != kNoIndex; ++step) {
+    std::array<PlanarCorner, 3> r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      r[i] = plane.project(faces.position(faces.corners(from)[i]));
+    }
+    double least = 0;
+    std::size_t side = 3;
+    double area = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const PlanarCorner& a = r[i];
+      const PlanarCorner& b = r[(i + 1) % 3];
+      const double turn = (a.y - y) * (b.z - z) - (a.z - z) * (b.y - y);
+      area += turn;
+      if (turn < least) {
+        least = turn;
+        side = i;
+      }
+    }
+    if (!(area > 0)) return kNoIndex;
+    if (side == 3) return from;
+    from = faces.neighbour(from, side);
+  }
+  return kNoIndex;
+}
+
+template <class Faces>
+Sheet SheetWalk<Faces>::follow_covering(const TrianglePlane& plane, std::uint32_t start,
+                                        double flat, Faces& faces) {
+  faces.visit(start);
+  covering_.clear();
+  covering_.push_back({start, {}, {}});
+  const auto project = [&](std::uint32_t vertex, Covering& at, std::size_t i) {
+    at.corners[i] = plane.project(faces.position(vertex));
+    at.beyond[i] = plane.beyond(at.corners[i]);
+  };
+  for (std::size_t i = 0; i < 3; ++i) project(faces.corners(start)[i], covering_.back(), i);
+  while (!covering_.empty()) {
+    const Covering at = covering_.back();
+    covering_.pop_back();
+    const std::array<PlanarCorner, 3>& r = at.corners;
+    const bool facing = faces_plane(r);
+    const bool near = std::abs(r[0].height) <= flat && std::abs(r[1].height) <= flat &&
+                      std::abs(r[2].height) <= flat;
+    if (!facing || !near) {
+      part_.clip(plane, r, at.beyond);
+      if (part_.corners().empty()) continue;
+      if (!facing) return Sheet::kNoSheet;
+      if (!faces.part_within(plane, part_.corners(), at.triangle)) return Sheet::kBeyond;
+    }
+    const Triangle& corners = faces.corners(at.triangle);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if ((at.beyond[i] & at.beyond[j]) != 0 || !plane.reaches_over(r[i], r[j])) continue;
+      const std::uint32_t next = faces.neighbour(at.triangle, i);
+      if (next == kNoIndex) return Sheet::kNoSheet;
+      if (!faces.visit(next)) continue;
+      Covering& over = covering_.emplace_back();
+      over.triangle = next;
+      const Triangle& t = faces.corners(next);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t[k] == corners[i] || t[k] == corners[j]) {
+          const std::size_t same = t[k] == corners[i] ? i : j;
+          over.corners[k] = r[same];
+          over.beyond[k] = at.beyond[same];
+        } else {
+          project(t[k], over, k);
+        }
+      }
+    }
+  }
+  return Sheet::kWithin;
+}
+
+}  // namespace emax

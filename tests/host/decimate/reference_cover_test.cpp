@@ -1,0 +1,161 @@
+#include "host/decimate/reference_cover.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "host/decimate/decimation_state.h"
+#include "host/decimate/local_search.h"
+#include "surfaces.h"
+#include "sw_model/surface_distance.h"
+#include "tests/support/stimuli.h"
+
+namespace emax::test {
+namespace {
+
+// The greatest distance from the mesh of points spread over a triangle, by every triangle.
+double sampled_distance(const std::array<Point, 3>& triangle, const TriangleMesh& mesh) {
+  constexpr int kSteps = 6;
+  double greatest = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; i + j <= kSteps; ++j) {
+      const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+      const Point p =
+          triangle[0] + u * (triangle[1] - triangle[0]) + v * (triangle[2] - triangle[0]);
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        least = std::min(least, squared_distance(p, mesh.view().corners(t)));
+      }
+      greatest = std::max(greatest, std::sqrt(least));
+    }
+  }
+  return greatest;
+}
+
+// How many triangles of the reference have a point farther than the limit from the mesh.
+std::size_t beyond(const TriangleMesh& reference, const TriangleMesh& mesh, double limit) {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < reference.triangles.size(); ++t) {
+    if (sampled_distance(reference.view().corners(t), mesh) > limit) ++count;
+  }
+  return count;
+}
+
+struct Edits {
+  std::size_t made = 0, refused = 0;
+};
+
+// Collapses at random, with vertices anywhere near, of which only the cover permits or not.
+Edits random_collapses(DecimationState& state, Random& random, int tries, double jitter,
+                       std::vector<EditUndo>* undo = nullptr) {
+  LocalSearch search(state);
+  MeshEdit edit;
+  Edits edits;
+  const auto vertices = static_cast<std::uint32_t>(state.mesh().vertex_slots());
+  for (int i = 0; i < tries; ++i) {
+    const std::uint32_t a = random.below(vertices);
+    if (!state.mesh().used(a)) continue;
+    std::vector<std::uint32_t> ring;
+    state.mesh().neighbours(a, ring);
+    const std::uint32_t b = ring[random.below(static_cast<std::uint32_t>(ring.size()))];
+    if (!search.prepare_collapse(a, b)) continue;
+    const Point at =
+        0.5 * (state.mesh().position(a) + state.mesh().position(b)) +
+        jitter * Point(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    Fit fit;
+    if (!search.evaluate(at, 4, fit) || !search.finish(fit, true, edit)) continue;
+    if (!state.permits(edit)) {
+      ++edits.refused;
+      continue;
+    }
+    if (undo != nullptr) undo->emplace_back();
+    state.apply(edit, undo == nullptr ? nullptr : &undo->back());
+    ++edits.made;
+  }
+  return edits;
+}
+
+DecimationState::Guards cover_alone() {
+  DecimationState::Guards guards;
+  guards.skip_intersections = true;
+  guards.normal_cosine = -1;
+  return guards;
+}
+
+// Few large triangles, so that corners say little of the inside.
+std::vector<TriangleMesh> references() {
+  return {bumpy(8, 12), sheet(7, 0.5), cube(2), joined(cube(1), sheet(5, 0.2), {3, 0, 0})};
+}
+
+TEST(ReferenceCover, WhatItPermitsKeepsEveryPointOfTheReference) {
+  constexpr std::uint64_t kSeed = 91;
+  std::size_t refused = 0;
+  for (const TriangleMesh& reference : references()) {
+    for (const double limit : {0.02, 0.1, 0.3}) {
+      SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", limit " << limit);
+      Random random(kSeed);
+      DecimationState state(reference, reference.vertices, nullptr, limit * limit, cover_alone(),
+                            nullptr, reference.triangles);
+      ASSERT_EQ(state.unproven(), 0u);
+      for (int round = 0; round < 10; ++round) {
+        refused += random_collapses(state, random, 40, 0.5 * limit).refused;
+        EXPECT_EQ(state.unproven(), 0u);
+        EXPECT_EQ(beyond(reference, state.mesh().compact(), limit), 0u);
+      }
+      const TriangleMesh mesh = state.mesh().compact();
+      EXPECT_TRUE(decided_distance(reference.view(), ExactMesh(mesh.view()), limit * (1 + 1e-9))
+                      .within(limit * (1 + 1e-9)));
+    }
+  }
+  EXPECT_GT(refused, 50u);
+}
+
+// The deliberate fault: without the cover the same edits lead beyond the limit between the points.
+TEST(ReferenceCover, WithoutItTheInsideOfTheReferenceIsLost) {
+  constexpr double kLimit = 0.1;
+  std::size_t lost = 0;
+  for (const TriangleMesh& reference : references()) {
+    Random random(92);
+    DecimationState::Guards guards = cover_alone();
+    guards.skip_reference = true;
+    DecimationState state(reference, reference.vertices, nullptr, kLimit * kLimit, guards, nullptr,
+                          reference.triangles);
+    random_collapses(state, random, 400, 0.5 * kLimit);
+    lost += beyond(reference, state.mesh().compact(), kLimit);
+  }
+  EXPECT_GT(lost, 10u);
+}
+
+TEST(ReferenceCover, UndoneEditsLeaveItAsItWas) {
+  constexpr double kLimit = 0.2;
+  const TriangleMesh reference = sheet(9, 0.4);
+  const auto state_of = [&] {
+    return DecimationState(reference, reference.vertices, nullptr, kLimit * kLimit, cover_alone(),
+                           nullptr, reference.triangles);
+  };
+  DecimationState untouched = state_of(), edited = state_of();
+  Random first(93);
+  std::vector<EditUndo> undo;
+  ASSERT_GT(random_collapses(edited, first, 300, 0.1, &undo).made, 20u);
+  for (; !undo.empty(); undo.pop_back()) edited.undo(undo.back());
+  EXPECT_EQ(edited.unproven(), 0u);
+  // What may be done now is what might have been done at first.
+  Random one(94), other(94);
+  const Edits expected = random_collapses(untouched, one, 300, 0.1);
+  const Edits found = random_collapses(edited, other, 300, 0.1);
+  EXPECT_EQ(found.made, expected.made);
+  EXPECT_EQ(found.refused, expected.refused);
+  EXPECT_TRUE(same_bytes(edited.mesh().compact(), untouched.mesh().compact()));
+}
+
+// A mesh that is not the reference: what is beyond the limit at first is not proven, the rest is.
+TEST(ReferenceCover, SaysWhatIsNotProvenAtFirst) {
+  const TriangleMesh reference = joined(sheet(9, 0), sheet(3, 0), {0, 0, 5});
+  const TriangleMesh mesh = sheet(4, 0);
+  const DecimationState state(mesh, reference.vertices, nullptr, 0.01, cover_alone(), nullptr,
+                              reference.triangles);
+  EXPECT_EQ(state.unproven(), 8u);
+}
+
+}  // namespace
+}  // namespace emax::test
