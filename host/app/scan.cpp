@@ -15,6 +15,7 @@
 #include "host/geometry/mesh_file.h"
 #include "host/report/certificate_file.h"
 #include "sw_model/error.h"
+#include "sw_model/parallel.h"
 
 namespace emax {
 
@@ -47,8 +48,8 @@ Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh) {
 
 EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded) {
   const PreparedCloud cloud(scan.cloud.points);
-  const PreparedMesh prepared(mesh, cloud.normalization());
-  ErrorEngine engine(cloud, {.interrupted = nullptr});
+  ErrorEngine engine(cloud, {.threads = processor_threads(), .interrupted = nullptr});
+  const PreparedMesh prepared(mesh, cloud.normalization(), engine.target(), processor_threads());
   std::vector<std::uint32_t> bits = engine.squared_distances(prepared);
   for (const std::uint32_t i : excluded) bits[i] = 0;
   EmaxResult worst = worst_of(bits);

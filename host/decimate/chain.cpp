@@ -7,6 +7,7 @@
 #include "host/decimate/fill_holes_smoothly.h"
 #include "host/decimate/manifold_part.h"
 #include "host/reconstruct/moving_least_squares.h"
+#include "host/reconstruct/outward.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -93,6 +94,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
       filled = bounded_.start(filled);
       verdict = bounded_.judge(filled);
     }
+    if (surface) orient_outward(filled);
     seconds.prepare = watch.lap();
     return Surface{std::move(filled), reconstruction.mesh.triangles.size(),
                    reconstruction.unmeshed_points, verdict};

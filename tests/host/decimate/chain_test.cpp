@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
 #include "host/decimate/far_points.h"
 #include "host/decimate/manifold_part.h"
+#include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/reconstruct/reconstruction_parameters.h"
 #include "surfaces.h"
@@ -184,6 +186,17 @@ TEST(BoundedStage, DropsPiecesThatNoPointNeeds) {
       stage.decimate(start, standard_values(decimation_parameters("bounded")));
   EXPECT_EQ(components(mesh), 2u);
   EXPECT_LE(certify(surface.vertices, mesh.view()).e_max_upper, bound.epsilon);
+}
+
+// A ball and its cavity: the reconstruction turns both outward, the chain the inner one inward.
+TEST(RunChain, ClosedComponentsBoundASolid) {
+  std::vector<Point> cloud = sphere_cloud(2000);
+  for (const Point& p : sphere_cloud(600)) cloud.push_back(0.4 * p);
+  ChainSettings standards = bounded();
+  standards.decimator = kNoDecimator;
+  const TriangleMesh mesh = Chain(cloud).run(standards).mesh;
+  EXPECT_EQ(topology_of(mesh.view()), (MeshTopology{2, 0, 0}));
+  EXPECT_NEAR(signed_volume(mesh), 4 * std::numbers::pi / 3 * (1 - 0.064), 0.1);
 }
 
 TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
