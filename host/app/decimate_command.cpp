@@ -92,21 +92,21 @@ class DecimateCommand {
       result_.points = certify(scan_.cloud.points, result_.mesh.view(), excluded);
     }
     progress.finish();
-    feasible_ = result_.points.excluded.size() <= excludable();
+    feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     kernel_ = kernel_error(scan_, result_.mesh.view(), result_.points.excluded);
     if (feasible_) {
       keep();
     } else {
       refuse();
     }
-    fmt::print("decimation     {:.1f} s{}{}\n", progress.seconds(),
-               result_.repairs > 0
-                   ? fmt::format("; {} earlier results missed the bound and were corrected",
-                                 grouped(static_cast<std::uint64_t>(result_.repairs)))
-                   : "",
-               was_interrupted()     ? "; interrupted"
-               : result_.interrupted ? "; out of time"
-                                     : "");
+    fmt::print(
+        "decimation     {:.1f} s{}{}\n", progress.seconds(),
+        result_.repairs > 0
+            ? fmt::format("; results that missed the bound and were corrected: {}", result_.repairs)
+            : "",
+        was_interrupted()     ? "; interrupted"
+        : result_.interrupted ? "; out of time"
+                              : "");
     write_json();
     if (was_interrupted()) return kExitInterrupted;
     return feasible_ ? kExitOk : kExitNo;
@@ -115,6 +115,8 @@ class DecimateCommand {
  private:
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
+  // The vertices of triangles that were removed are no part of the surface that is left.
+  bool may_leave_out_own_vertices() const { return own_cloud_ && reference_.dropped > 0; }
   // Those that may be excluded, in order.
   std::vector<std::uint32_t> farthest_beyond() const {
     if (excludable() == 0) return {};
@@ -269,7 +271,14 @@ class DecimateCommand {
         "the mesh\n",
         result_.points.e_max_upper, epsilon_, percent(result_.points.e_max_upper));
     if (reference_bound_) print(*reference_bound_, epsilon_, scan_.width, reference_file());
-    print_excluded(result_.points, excludable());
+    if (!may_leave_out_own_vertices()) {
+      print_excluded(result_.points, excludable());
+    } else if (!result_.points.excluded.empty()) {
+      fmt::print(
+          "left out       vertices of removed triangles: {}, up to {:.9g} from the result; the "
+          "certificate names them\n",
+          grouped(result_.points.excluded.size()), result_.points.e_max_upper_all);
+    }
     fmt::print("kernel         e_max^2 bits 0x{:08x} at point {}\n", kernel_.squared_bits,
                kernel_.worst_point);
     fmt::print("certificate    {}\n", certificate_path(options_.output).string());
@@ -279,10 +288,10 @@ class DecimateCommand {
     const CertifiedError& points = result_.points;
     const double farthest = std::ranges::max(points.excluded_distances);
     fmt::print(
-        "result         infeasible: {} of {} points are farther than {:.9g} from the mesh and "
-        "no triangles can be added that reach them, the farthest {:.9g} (point {}); nothing is "
+        "result         infeasible: farther than {:.9g} from the mesh, out of reach of triangles "
+        "that could be added: {} of {} points, the farthest {:.9g} (point {}); nothing is "
         "written\n",
-        grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), epsilon_, farthest,
+        epsilon_, grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), farthest,
         scan_.cloud.index_in_file(points.excluded[static_cast<std::size_t>(
             std::ranges::max_element(points.excluded_distances) -
             points.excluded_distances.begin())]));

@@ -41,7 +41,9 @@ std::string DecimationProgress::line(double share, std::size_t triangles) const 
     const double until = std::max(0.0, time_->count() - seconds());
     left = left < 0 ? until : std::min(left, until);
   }
-  std::string text = fmt::format("{:.0f}%, {} triangles, ", 100 * share, grouped(triangles));
+  // Rounded down: a hundred would say that the work is done.
+  std::string text =
+      fmt::format("{:.0f}%, {} triangles, ", std::floor(100 * share), grouped(triangles));
   if (left < 0) return text + "estimating the time left";
   const long whole = std::lround(left);
   return text + fmt::format("about {}:{:02} left", whole / 60, whole % 60);

@@ -203,10 +203,12 @@ struct Findings {
       return !surface.distance.within(*errors.limit);
     };
     const std::optional<ReferenceErrors>& reference = errors.reference;
-    if (!certified.within(*errors.limit)) return "by the points";
-    if (reference && beyond(reference->from_mesh)) return "by the mesh, seen from the reference";
+    if (!certified.within(*errors.limit)) return "points are farther than that from the mesh";
+    if (reference && beyond(reference->from_mesh)) {
+      return "parts of the mesh are farther than that from the reference";
+    }
     if (reference && reference->to_mesh && beyond(*reference->to_mesh)) {
-      return "by the reference, seen from the mesh";
+      return "parts of the reference are farther than that from the mesh";
     }
     return "";
   }
@@ -225,7 +227,7 @@ void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
   print_excluded(f.certified, excludable);
   if (f.tolerance) {
     fmt::print("tolerance      {}: {}\n", to_text(*f.tolerance, scan.width),
-               f.feasible() ? "kept" : fmt::format("exceeded {}", f.exceeding()));
+               f.feasible() ? "kept" : fmt::format("exceeded: {}", f.exceeding()));
   }
   fmt::print("worst point    {}\n", f.measured.kept.worst_point);
   fmt::print("kernel         e_max^2 bits 0x{:08x}\n", f.measured.kept.squared_bits);

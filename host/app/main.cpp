@@ -41,7 +41,8 @@ void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& s
   add_json(command, json);
   command
       .add_option("--exclude-outliers", excluded_share,
-                  "share of the points (N or N%) that may lie beyond the tolerance; they are named")
+                  "share of the points (N or N%) that may lie farther than the tolerance; the "
+                  "certificate lists them")
       ->capture_default_str();
   command.add_flag("--skip-invalid", skip_invalid,
                    "leave out points with NaN or infinite coordinates");
@@ -54,7 +55,8 @@ void add_common(CLI::App& command, CommonOptions& options) {
   command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
       ->capture_default_str();
   add_points_and_json(command, options.excluded_share, options.skip_invalid, options.json);
-  command.add_flag("--brute-force", options.brute_force, "evaluate all pairs instead of searching");
+  command.add_flag("--brute-force", options.brute_force,
+                   "compare every point with every triangle: slow, with the same result");
 }
 
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
@@ -64,8 +66,8 @@ void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
   command
       .add_option(
           "--decimator", decimator,
-          "decimation: under the bound itself, or the paper's, whose error is measured after; "
-          "auto: the search chooses, under a one-sided bound")
+          "bounded: every edit keeps the bound; schroeder: the paper's decimation, whose error is "
+          "measured afterwards; auto: the search chooses, under a one-sided bound")
       ->check(CLI::IsMember({"bounded", "schroeder", "auto"}))
       ->capture_default_str();
 }
@@ -87,7 +89,9 @@ int run(int argc, char** argv) {
 
   OptimizeOptions optimize;
   CLI::App& optimize_command =
-      *app.add_subcommand("optimize", "search the parameters of reconstruction and decimation");
+      *app.add_subcommand("optimize",
+                          "make a mesh of a scan, searching for the reconstruction and the "
+                          "decimation that give the fewest triangles");
   add_common(optimize_command, optimize.common);
   optimize_command
       .add_option("--max-error", optimize.max_error,
@@ -147,11 +151,11 @@ int run(int argc, char** argv) {
 
   DecimateOptions decimate;
   CLI::App& decimate_command = *app.add_subcommand(
-      "decimate", "the fewest triangles within a certified bound of a mesh or of its cloud");
+      "decimate", "reduce a mesh to as few triangles as a certified bound allows");
   decimate_command.add_option("MESH", decimate.mesh, "mesh: .ply .obj .stl .off")->required();
   decimate_command.add_option(
       "--cloud", decimate.cloud,
-      "its points have to lie within the tolerance of the result (default: "
+      "point cloud whose points have to lie within the tolerance of the result (default: "
       "the vertices of MESH, and with a two-sided bound all of its surface)");
   decimate_command
       .add_option("--max-error", decimate.max_error,
@@ -171,7 +175,8 @@ int run(int argc, char** argv) {
       ->required();
   decimate_command
       .add_option("--effort", decimate.effort,
-                  "quick: collapses alone; deep: until nothing is gained")
+                  "how long to look for fewer triangles: quick only collapses edges, deep goes on "
+                  "until nothing is gained")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
   decimate_command.add_flag("--repair", decimate.repair,
@@ -179,8 +184,8 @@ int run(int argc, char** argv) {
                             "the holes that leaves in a closed mesh (default: kept, cut apart)");
   decimate_command
       .add_option("--feature-angle", decimate.feature_angle,
-                  "keep edges over which the surface turns by more than this many degrees, and "
-                  "their corners, sharp; 40 suits machine parts, noise asks for none")
+                  "keep edges sharp over which the surface turns by more than this many degrees, "
+                  "and their corners; 40 suits machine parts; leave it out for noisy scans")
       ->check(within(1, 180));
   add_points_and_json(decimate_command, decimate.excluded_share, decimate.skip_invalid,
                       decimate.json);
@@ -202,9 +207,10 @@ int run(int argc, char** argv) {
       *app.add_subcommand("error", "measure and certify the maximum error of a mesh");
   add_common(error_command, error.common);
   error_command.add_option("MESH", error.mesh, "mesh: .ply .obj .stl .off")->required();
-  error_command.add_option("--max-error", error.max_error,
-                           "tolerance, N or N%: how many points exceed it; exit code 2 when it is "
-                           "not kept");
+  error_command.add_option(
+      "--max-error", error.max_error,
+      "tolerance, N or N%: the output counts the points that are farther; exit "
+      "code 2 when the tolerance is exceeded");
   error_command.add_flag("--two-sided", error.two_sided,
                          "also bound the distance of the whole mesh from the reference");
   error_command
@@ -232,13 +238,16 @@ int run(int argc, char** argv) {
   VerifyOptions verify;
   CLI::App& verify_command = *app.add_subcommand(
       "verify", "recompute what a certificate says; exit code 0 for yes, 2 for no");
-  verify_command.add_option("CERTIFICATE", verify.certificate)->required();
-  verify_command.add_option("--cloud", verify.cloud,
-                            "the cloud, if it is neither beside the certificate nor here");
+  verify_command
+      .add_option("CERTIFICATE", verify.certificate, "MESH.certificate.json, written beside a mesh")
+      ->required();
+  verify_command.add_option(
+      "--cloud", verify.cloud,
+      "the cloud, if it lies neither beside the certificate nor in the current folder");
   verify_command.add_option("--mesh", verify.mesh, "the mesh, if it is not beside the certificate");
   verify_command.add_option("--reference", verify.reference,
-                            "the reference of a two-sided bound, if it is neither beside the "
-                            "certificate nor here");
+                            "the reference of a two-sided bound, if it lies neither beside the "
+                            "certificate nor in the current folder");
   add_json(verify_command, verify.json);
   verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
 

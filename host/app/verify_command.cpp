@@ -102,9 +102,10 @@ class Verification {
     std::vector<std::uint32_t> sorted = excluded;
     std::ranges::sort(sorted);
     require(sorted.empty() || sorted.back() < scan.cloud.points.size(),
-            "it excludes a point that the cloud does not have");
-    require(std::ranges::adjacent_find(sorted) == sorted.end(), "it excludes a point twice");
-    require(sorted.size() < scan.cloud.points.size(), "it excludes every point");
+            "the certificate excludes a point that the cloud does not have");
+    require(std::ranges::adjacent_find(sorted) == sorted.end(),
+            "the certificate excludes a point twice");
+    require(sorted.size() < scan.cloud.points.size(), "the certificate excludes every point");
     if (!reasons_.empty()) return report();
     check_error(mesh, scan, excluded);
     check_kernel(mesh, scan, excluded);
@@ -116,7 +117,7 @@ class Verification {
     const Normalization transform = normalization_of(scan.cloud.points);
     require(transform.origin == certificate_.transform.origin &&
                 transform.scale == certificate_.transform.scale,
-            "its transform is not that of the cloud");
+            "the certificate's transform is not that of the cloud");
     return report();
   }
 
@@ -127,8 +128,8 @@ class Verification {
 
   void check_topology(const char* what, const MeshTopology& claimed, const TriangleMesh& mesh) {
     const MeshTopology found = topology_of(mesh.view());
-    require(claimed == found, fmt::format("it claims {} for {}, which has {}", describe(claimed),
-                                          what, describe(found)));
+    require(claimed == found, fmt::format("the certificate claims {} for {}, which has {}",
+                                          describe(claimed), what, describe(found)));
   }
 
   void check_error(const TriangleMesh& mesh, const Scan& scan,
@@ -141,19 +142,21 @@ class Verification {
         fmt::format("e_max is {:.9g}, more than {:.9g}", error.e_max_upper, certificate_.epsilon));
     // Another build may round the last bit otherwise; a claim below the exact value is false.
     require(claimed.e_max_upper >= error.e_max_lower && claimed.e_max_upper <= certificate_.epsilon,
-            fmt::format("it claims e_max {:.9g}, but it is {:.9g}", claimed.e_max_upper,
-                        error.e_max_upper));
+            fmt::format("the certificate claims e_max {:.9g}, but it is {:.9g}",
+                        claimed.e_max_upper, error.e_max_upper));
     require(claimed.points == error.points,
-            fmt::format("it counts {} points, but {} are kept", claimed.points, error.points));
+            fmt::format("the certificate counts {} points, but {} are kept", claimed.points,
+                        error.points));
     for (std::size_t i = 0; i < excluded.size(); ++i) {
-      require(agree(claimed.excluded_distances[i], error.excluded_distances[i]),
-              fmt::format("it claims {:.9g} for the distance of the excluded point {}, which is "
-                          "{:.9g}",
-                          claimed.excluded_distances[i], claimed.excluded[i],
-                          error.excluded_distances[i]));
+      require(
+          agree(claimed.excluded_distances[i], error.excluded_distances[i]),
+          fmt::format(
+              "the certificate claims {:.9g} for the distance of the excluded point {}, which is "
+              "{:.9g}",
+              claimed.excluded_distances[i], claimed.excluded[i], error.excluded_distances[i]));
     }
     require(agree(claimed.e_max_upper_all, error.e_max_upper_all),
-            fmt::format("it claims e_max {:.9g} over all points, but it is {:.9g}",
+            fmt::format("the certificate claims e_max {:.9g} over all points, but it is {:.9g}",
                         claimed.e_max_upper_all, error.e_max_upper_all));
     e_max_ = error.e_max_upper;
   }
@@ -178,13 +181,15 @@ class Verification {
     const auto check = [&](const char* what, MeshView from, const TriangleMesh& to, double claim,
                            double limit) {
       require(claim >= 0 && claim <= limit,
-              fmt::format("it claims {:.9g} for {}, not within 0 and {:.9g}", claim, what, limit));
+              fmt::format("the certificate claims {:.9g} for {}, not within 0 and {:.9g}", claim,
+                          what, limit));
       if (!(claim >= 0)) return;
       const SurfaceDistance found = decided_distance(from, ExactMesh(to.view()), claim);
       // Roundings may leave a claim that holds undecided.
-      require(found.lower <= claim && found.within(limit),
-              fmt::format("it claims {:.9g} for {}, which lies within {:.9g} and {:.9g}", claim,
-                          what, found.lower, found.upper));
+      require(
+          found.lower <= claim && found.within(limit),
+          fmt::format("the certificate claims {:.9g} for {}, which lies within {:.9g} and {:.9g}",
+                      claim, what, found.lower, found.upper));
     };
     check("the distance of the mesh to the reference", mesh.view(), reference,
           claimed.mesh_to_reference, claimed.epsilon_back);
@@ -193,10 +198,12 @@ class Verification {
     check_topology("the reference", claimed.topology, reference);
     const CertifiedError own =
         certify(scan.cloud.points, reference.view(), excluded, processor_threads());
-    require(claimed.points_to_reference >= own.e_max_lower,
-            fmt::format("it claims {:.9g} for the distance of the points to the reference, which "
-                        "is {:.9g}",
-                        claimed.points_to_reference, own.e_max_upper));
+    require(
+        claimed.points_to_reference >= own.e_max_lower,
+        fmt::format(
+            "the certificate claims {:.9g} for the distance of the points to the reference, which "
+            "is {:.9g}",
+            claimed.points_to_reference, own.e_max_upper));
   }
 
   bool report() const {
@@ -212,14 +219,16 @@ class Verification {
       }
       if (certificate_.reference) {
         const ReferenceBound& reference = *certificate_.reference;
-        fmt::print("yes: all of it lies within {:.9g} of {} (at most {:.9g})\n",
-                   reference.epsilon_back, reference_path_.string(), reference.mesh_to_reference);
+        fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
+                   mesh_path_.string(), reference.epsilon_back, reference_path_.string(),
+                   reference.mesh_to_reference);
         if (reference.reference_to_mesh <= certificate_.epsilon) {
-          fmt::print("yes: all of {} lies within {:.9g} of it (at most {:.9g})\n",
-                     reference_path_.string(), certificate_.epsilon, reference.reference_to_mesh);
+          fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
+                     reference_path_.string(), certificate_.epsilon, mesh_path_.string(),
+                     reference.reference_to_mesh);
         } else {
-          fmt::print("     all of {} lies within {:.9g} of it, which is not bounded\n",
-                     reference_path_.string(), reference.reference_to_mesh);
+          fmt::print("     all of {} lies within {:.9g} of {}, which the certificate leaves open\n",
+                     reference_path_.string(), reference.reference_to_mesh, mesh_path_.string());
         }
       }
       fmt::print("yes: topology  {}\n",

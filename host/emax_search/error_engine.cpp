@@ -7,8 +7,8 @@
 
 #include "host/emax_search/emax_search.h"
 #include "host/emax_search/nearest_rank.h"
-#include "sw_model/parallel.h"
 #include "sw_model/flush_mode.h"
+#include "sw_model/parallel.h"
 
 namespace emax {
 namespace {

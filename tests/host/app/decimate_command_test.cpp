@@ -303,6 +303,31 @@ TEST_F(DecimateCommand, VerticesOfNoTriangleAreNoPartOfTheMesh) {
   EXPECT_EQ(read_mesh(folder_ / "colours.ply").vertices.size(), mesh_.vertices.size() + 1);
 }
 
+// A third triangle at an edge, with a vertex far away: the mesh as given does not make the task
+// infeasible. Where the triangle is no part of the reference, its vertex is named.
+TEST_F(DecimateCommand, IsNeverInfeasibleForAVertexOfItsOwnMesh) {
+  TriangleMesh finned = mesh_;
+  finned.vertices.push_back({500, 0, 0});
+  finned.triangles.push_back({mesh_.triangles[99][0], mesh_.triangles[99][1],
+                              static_cast<std::uint32_t>(finned.vertices.size() - 1)});
+  write_mesh(folder_ / "finned.off", finned);
+  const ProgramRun run = decimate("out.ply", {"--effort", "quick"}, "finned.off", "0.06");
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  const json c = certificate("out.ply");
+  const TriangleMesh result = read_mesh(folder_ / "out.ply");
+  const ExactMesh out(result.view());
+  std::vector<std::uint32_t> beyond, named;
+  for (std::uint32_t v = 0; v < finned.vertices.size(); ++v) {
+    if (out.distance(finned.vertices[v]).lower > 0.06) beyond.push_back(v);
+  }
+  for (const json& point : c.at("excluded")) named.push_back(point.at("point"));
+  EXPECT_EQ(beyond, named);
+  EXPECT_EQ(run.output.find("left out       vertices of removed triangles: ") != std::string::npos,
+            !named.empty())
+      << run.output;
+  EXPECT_EQ(verify("out.ply"), 0);
+}
+
 TEST_F(DecimateCommand, NamesTheAttributesThatTheResultLacks) {
   std::string obj = "mtllib a.mtl\nvt 0 0\n";
   for (const Point& p : mesh_.vertices)

@@ -198,11 +198,19 @@ TEST_F(ErrorCommand, EachDirectionCatchesTheFaultThatItAloneSees) {
   const struct {
     const char *cloud, *mesh, *said;
     Beyond beyond;
-  } cases[] = {
-      {"points.xyz", "cube.off", ": kept", {false, false, false}},
-      {"stray.xyz", "cube.off", "exceeded by the points", {true, false, false}},
-      {"points.xyz", "sheet.off", "by the mesh, seen from the reference", {false, true, false}},
-      {"points.xyz", "holed.off", "by the reference, seen from the mesh", {false, false, true}}};
+  } cases[] = {{"points.xyz", "cube.off", ": kept", {false, false, false}},
+               {"stray.xyz",
+                "cube.off",
+                "exceeded: points are farther than that from the mesh",
+                {true, false, false}},
+               {"points.xyz",
+                "sheet.off",
+                "parts of the mesh are farther than that from the reference",
+                {false, true, false}},
+               {"points.xyz",
+                "holed.off",
+                "parts of the reference are farther than that from the mesh",
+                {false, false, true}}};
   for (const auto& c : cases) {
     const ProgramRun run = judge(c.cloud, c.mesh);
     EXPECT_EQ(run.exit_code, c.beyond == Beyond{} ? 0 : 2) << c.said << run.errors;
