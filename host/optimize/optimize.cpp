@@ -65,6 +65,7 @@ class Run {
       }
       enter_in_order();
       state_.evaluations = genocop_.asked() - in_work_.size();
+      if (pool_->outstanding() > 0) load_best();
       observe_(state_);
     }
     // What is in work is given up: its workers end with the pool.
@@ -305,14 +306,29 @@ class Run {
     if (settings_.log != nullptr && !entering_the_rest_) settings_.log->drop_mesh(index);
   }
 
+  // A best mesh that the folder has is there for the observer, too.
+  void load_best() {
+    if (!state_.best || !state_.best->mesh.triangles.empty() || settings_.log == nullptr) return;
+    if (looked_for_ == state_.best->index) return;
+    looked_for_ = state_.best->index;
+    std::optional<TriangleMesh> mesh = settings_.log->mesh(*settings_.log->find(*looked_for_));
+    if (!mesh) return;
+    state_.best->mesh = std::move(*mesh);
+    check_restored(*state_.best);
+  }
+
   // The mesh of an evaluation that an earlier process made: from the folder, or made again.
   void restore(BestMesh& best) {
     const LoggedEvaluation& known = *settings_.log->find(best.index);
     std::optional<TriangleMesh> mesh = settings_.log->mesh(known);
     best.mesh = mesh ? std::move(*mesh) : make_again(known);
+    check_restored(best);
+  }
+
+  void check_restored(BestMesh& best) {
     best.error = constraint_.measure(best.mesh.view());
-    if (best.mesh.triangles.size() != known.triangles ||
-        best.error.kept.squared_bits != known.squared_bits) {
+    if (best.mesh.triangles.size() != best.triangles ||
+        best.error.kept.squared_bits != best.squared_bits) {
       throw Error(settings_.log->folder().string() + ": the mesh of evaluation " +
                   std::to_string(best.index) +
                   " is lost, and made again it is another; run the search anew");
@@ -349,6 +365,7 @@ class Run {
   std::map<std::uint64_t, Genes> in_work_;
   std::map<std::uint64_t, Result> results_;  // not entered yet
   std::uint64_t next_ = 0;                   // to enter
+  std::optional<std::uint64_t> looked_for_;  // the last best whose mesh was asked of the folder
   std::uint64_t improved_ = 0;               // behind the evaluation that was the last better one
   bool entering_the_rest_ = false;
 };

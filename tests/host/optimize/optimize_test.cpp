@@ -393,6 +393,22 @@ TEST_F(OptimizeTest, AFailedDeviceIsNotLogged) {
   expect_same(run(&log), whole);
 }
 
+TEST(SearchBudget, FollowsEffortAndPoints) {
+  using enum SearchEffort;
+  EXPECT_EQ(search_budget(kQuick, 1'000'000, false, {}), 1u);
+  EXPECT_EQ(search_budget(kQuick, 1'000, false, 77), 1u);
+  EXPECT_GT(search_budget(kQuick, 1'000, true, {}), 1u);
+  EXPECT_EQ(search_budget(kNormal, 1'000, false, 77), 77u);
+  EXPECT_EQ(search_budget(kDeep, 1'000'000, false, 77), 308u);
+  for (const bool decimation : {false, true}) {
+    const std::uint64_t normal = search_budget(kNormal, 100'000, decimation, {});
+    EXPECT_EQ(search_budget(kNormal, 3, decimation, {}), normal);
+    EXPECT_EQ(search_budget(kDeep, 3, decimation, {}), 4 * normal);
+    EXPECT_EQ(search_budget(kNormal, 200'000, decimation, {}), normal / 2);
+    EXPECT_EQ(search_budget(kNormal, 100'000'000, decimation, {}), normal / 5);
+  }
+}
+
 TEST(EvaluationLimits, GrowWithTheCloud) {
   EXPECT_EQ(standard_limits(1000).time, 10min);
   EXPECT_EQ(standard_limits(1'000'000).time, 2000s);
