@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/phase_progress.h"
 #include "host/app/progress.h"
 #include "host/app/reference_text.h"
 #include "host/app/result_files.h"
@@ -43,7 +45,6 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
   settings.config =
       options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
   settings.seed = options.seed;
-  if (options.seconds) settings.time = std::chrono::duration<double>(*options.seconds);
   const unsigned jobs =
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   // No more candidates than that are ever out.
@@ -92,6 +93,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kLeastPause{2};
 constexpr int kPauses = 20;
 
+constexpr std::uint64_t kReferenceIndex = ~std::uint64_t{0};  // it is no evaluation's mesh
+
+double seconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
 class OptimizeCommand {
  public:
   explicit OptimizeCommand(const OptimizeOptions& options)
@@ -114,8 +121,12 @@ class OptimizeCommand {
                    {options.common.cloud, options.config});
     const std::string folder = options.resume.empty() ? options.output + ".run" : options.resume;
     check_outside({options.output, certificate_path(options.output), options.common.json}, folder);
+    settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
+    phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
     cloud_sha256_ = sha256_of_file(scan_.path);
+    phase_.end();
+    reading_ended_ = Clock::now();
     epsilon_ = below_width(tolerance, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
@@ -128,6 +139,7 @@ class OptimizeCommand {
     }
     log_.emplace(folder, run_settings(options, settings_, cloud_sha256_, epsilon_));
     settings_.log = &*log_;
+    settings_.config.search.earlier_budgets = log_->give_budget(budget);
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), scan_.width);
@@ -164,7 +176,7 @@ class OptimizeCommand {
       };
     }
     {
-      Progress progress(*constraint_, settings_.time);
+      Progress progress(*constraint_, settings_.seconds_left);
       state_ = optimize(scan_.cloud.points, *constraint_, device_.get(), settings_,
                         [&](const OptimizeState& state) {
                           progress.show(state);
@@ -179,20 +191,27 @@ class OptimizeCommand {
       if (state_.interrupted) throw Interrupted{};
       if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
       if (state_.out_of_time && state_.evaluations == 0) {
-        throw Error("--time ended before the first evaluation; allow for more");
+        throw Error(
+            fmt::format("--time ended before the first evaluation: reading took {:.1f} s, the "
+                        "evaluation {:.1f} "
+                        "s so far; allow for more",
+                        seconds(begun_, reading_ended_), seconds(reading_ended_, Clock::now())));
       }
       throw Error(fmt::format("{}: no mesh could be made of it in {} evaluations{}",
                               scan_.path.string(), state_.evaluations, describe_failures(state_)));
     }
     const BestMesh& shown = best != nullptr ? *best : *state_.least_error;
+    phase_.begin("certifying the mesh", writing_seconds_);
     if (best != nullptr) {
       proven_ = files_->write(*best, state_.evaluations);
+      phase_.end();
       print_result(*best);
     } else {
       proven_.validity = check_mesh(shown.mesh.view());
       proven_.topology = topology_of(shown.mesh.view());
       proven_.points =
           certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded, processor_threads());
+      phase_.end();
       refuse(shown);
     }
     print_common(shown, took.count());
@@ -218,17 +237,18 @@ class OptimizeCommand {
     if (!state.best || state.best->mesh.triangles.empty() || state.best->index == written_) return;
     if (reference_ && reference_->triangles < state.best->triangles) return;
     const Clock::time_point start = Clock::now();
-    if (start < next_write_) return;
+    if (start < next_write_ || seconds_left() < 3 * writing_seconds_) return;
     if (written_ || !files_->hold_fewer_than(state.best->triangles)) {
       files_->write(*state.best, state.evaluations);
     }
     written_ = state.best->index;
     const Clock::time_point end = Clock::now();
+    writing_seconds_ = seconds(start, end);
     next_write_ = end + std::max<Clock::duration>(kLeastPause, kPauses * (end - start));
   }
 
   void fix_bound() {
-    settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, settings_);
+    make_bound();
     if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(
@@ -246,9 +266,31 @@ class OptimizeCommand {
     std::fflush(stdout);
   }
 
+  void make_bound() {
+    OptimizeSettings limited = settings_;
+    limited.interrupted = [this] { return was_interrupted() || seconds_left() <= 0; };
+    phase_.begin("making the reference surface", reference_seconds(scan_.cloud.points.size()));
+    try {
+      settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, limited);
+    } catch (const Interrupted&) {
+      if (was_interrupted()) throw;
+      throw Error(
+          fmt::format("--time ended while the reference surface was made, so there is no mesh yet: "
+                      "reading took "
+                      "{:.1f} s, the reference {:.1f} s so far; allow for more",
+                      seconds(begun_, reading_ended_), seconds(reading_ended_, Clock::now())));
+    }
+    phase_.end();
+  }
+
+  double seconds_left() const {
+    return options_.seconds ? *options_.seconds - seconds(begun_, Clock::now()) : HUGE_VAL;
+  }
+
   // The reference is the first result, as it is, if the points allow it.
   std::string write_reference() {
     BestMesh whole = {};
+    whole.index = kReferenceIndex;
     whole.chain = {settings_.method, kNoDecimator, {}};
     whole.mesh = as_stored(settings_.bound.reference, mesh_format(settings_.output));
     whole.triangles = whole.mesh.triangles.size();
@@ -260,7 +302,11 @@ class OptimizeCommand {
     }
     reference_ = std::move(whole);
     if (files_->hold_fewer_than(reference_->triangles)) return "";
+    const Clock::time_point start = Clock::now();
+    phase_.begin("certifying the reference surface", certifying_seconds(scan_.cloud.points.size()));
     files_->write(*reference_, 0);
+    phase_.end();
+    writing_seconds_ = seconds(start, Clock::now());
     return fmt::format(", certified and written to {} as it is", options_.output);
   }
 
@@ -329,7 +375,11 @@ class OptimizeCommand {
                  grouped(shown.reconstruction_triangles), grouped(shown.unmeshed_points));
     }
     fmt::print("kernel         e_max^2 bits 0x{:08x}\n", shown.error.kept.squared_bits);
-    fmt::print("evaluations    {} in {:.0f} s{}{}\n", state_.evaluations, seconds,
+    const std::string stopped =
+        state_.stopped > 0
+            ? fmt::format(", {} more cut short with the mesh at hand", state_.stopped)
+            : "";
+    fmt::print("evaluations    {} in {:.0f} s{}{}{}\n", state_.evaluations, seconds, stopped,
                describe_failures(state_),
                state_.interrupted      ? "; interrupted"
                : state_.out_of_time    ? "; out of time"
@@ -337,11 +387,12 @@ class OptimizeCommand {
                : state_.stagnated      ? "; no better mesh for long"
                                        : "");
     if (state_.polished) {
-      fmt::print(
-          "polished       {}\n",
-          shown.triangles < *state_.polished
-              ? grouped(*state_.polished) + " triangles before the best mesh was decimated deep"
-              : "the best mesh decimated deep has no fewer triangles");
+      fmt::print("polished       {}\n",
+                 shown.triangles < *state_.polished
+                     ? grouped(*state_.polished) +
+                           " triangles before the best mesh was decimated deep" +
+                           (state_.polish_stopped ? ", as far as the time allowed" : "")
+                     : "the best mesh decimated deep has no fewer triangles");
     }
     print_shares(seconds);
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
@@ -389,6 +440,8 @@ class OptimizeCommand {
     emax::write_json(options_.common.json, to_json_text(report));
   }
 
+  const Clock::time_point begun_ = Clock::now();
+  PhaseProgress phase_;
   const OptimizeOptions& options_;
   OptimizeSettings settings_;
   DeviceAddress address_;
@@ -405,6 +458,8 @@ class OptimizeCommand {
   std::optional<BestMesh> reference_;  // the reference as a result, where it is one
   ProvenMesh proven_;                  // of the mesh that is shown
   std::optional<ResultFiles> files_;
+  Clock::time_point reading_ended_;
+  double writing_seconds_ = 0;            // what certifying and writing took the last time
   std::optional<std::uint64_t> written_;  // index of the evaluation whose mesh is there
   Clock::time_point next_write_;
 };

@@ -10,6 +10,7 @@
 #include "host/geometry/mesh_file.h"
 #include "host/geometry/sha256.h"
 #include "sw_model/error.h"
+#include "sw_model/parallel.h"
 #include "sw_model/surface_distance.h"
 
 namespace emax {
@@ -61,7 +62,7 @@ ReferenceBound ResultFiles::bound_of_reference(const BestMesh& best) {
   return bound;
 }
 
-ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {
+ProvenMesh ResultFiles::prove(const BestMesh& best) {
   ProvenMesh proven;
   proven.validity = check_mesh(best.mesh.view());
   proven.topology = topology_of(best.mesh.view());
@@ -70,6 +71,15 @@ ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {
   if (!proven.points.within(constraint_.epsilon())) {
     contradict("the kernel's e_max", proven.points.e_max_upper);
   }
+  if (settings_.epsilon_back) proven.reference = bound_of_reference(best);
+  return proven;
+}
+
+ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {
+  const std::tuple mesh(best.index, best.triangles, best.error.kept.squared_bits);
+  if (!proven_ || proven_mesh_ != mesh) proven_ = prove(best);
+  proven_mesh_ = mesh;
+  const ProvenMesh& proven = *proven_;
   std::string bytes = mesh_bytes(best.mesh, mesh_format(settings_.output));
   Certificate certificate;
   certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
@@ -90,7 +100,7 @@ ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {
   certificate.evaluations = evaluations;
   std::vector<OutputFile> files;
   if (settings_.epsilon_back) {
-    certificate.reference = proven.reference = bound_of_reference(best);
+    certificate.reference = proven.reference;
     if (!reference_.bytes.empty()) files.push_back(reference_);
   }
   files.push_back({options_.output, std::move(bytes)});

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "host/app/commands.h"
 #include "host/app/scan.h"
@@ -34,8 +35,9 @@ class ResultFiles {
         cloud_sha256_(cloud_sha256),
         constraint_(constraint) {}
 
-  // Certifies the mesh and writes the files. Throws Error when they cannot be written, and where
-  // the certificate contradicts what kernel or decimator said.
+  // Certifies the mesh, unless that of its evaluation was the last to be written, and writes the
+  // files. Throws Error when they cannot be written, and where the certificate contradicts what
+  // kernel or decimator said.
   ProvenMesh write(const BestMesh& best, std::uint64_t evaluations);
 
   // Writes the reference of a two-sided bound alone.
@@ -46,6 +48,7 @@ class ResultFiles {
   bool hold_fewer_than(std::size_t triangles);
 
  private:
+  ProvenMesh prove(const BestMesh& best);
   const OutputFile& reference_file();
   ReferenceBound bound_of_reference(const BestMesh& best);
 
@@ -57,6 +60,9 @@ class ResultFiles {
   OutputFile reference_;          // its bytes until they are written
   std::string reference_sha256_;  // empty until it is first needed
   std::optional<CertifiedError> points_to_reference_;
+  // Of what was written last, which its evaluation and these numbers tell.
+  std::tuple<std::uint64_t, std::size_t, std::uint32_t> proven_mesh_;
+  std::optional<ProvenMesh> proven_;
 };
 
 }  // namespace emax

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,8 +40,10 @@ class BoundedStage {
   TriangleMesh start(const TriangleMesh& surface) const;
 
   // `values` holds P_D. Keeps every bound that `start` keeps, and its topology; under a one-sided
-  // bound without the components that no point needs any more.
-  TriangleMesh decimate(const TriangleMesh& start, const ParameterValues& values) const;
+  // bound without the components that no point needs any more. `stopped` is polled now and then;
+  // true ends the work with the mesh at hand, of which the same holds.
+  DecimatedMesh decimate(const TriangleMesh& start, const ParameterValues& values,
+                         const std::function<bool()>& stopped = nullptr) const;
 
   SurfaceVerdict judge(const TriangleMesh& mesh) const;
   bool keeps_bounds(const SurfaceVerdict& verdict) const;

@@ -101,7 +101,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
   });
 }
 
-ChainResult Chain::run(const ChainSettings& settings) {
+ChainResult Chain::run(const ChainSettings& settings, const std::function<bool()>& stopped) {
   for (const ParameterSpec& spec : required_parameters(settings)) {
     if (!settings.parameters.contains(spec.name)) {
       throw Error("the parameter " + spec.name + " has no value");
@@ -115,7 +115,12 @@ ChainResult Chain::run(const ChainSettings& settings) {
   if (settings.decimator == "bounded") {
     // Decimation mends neither a bound nor the topology.
     const bool hopeful = bounded_.keeps_bounds(start.verdict);
-    result.mesh = hopeful ? bounded_.decimate(start.mesh, settings.parameters) : start.mesh;
+    result.mesh = start.mesh;
+    if (hopeful) {
+      DecimatedMesh decimated = bounded_.decimate(start.mesh, settings.parameters, stopped);
+      result.mesh = std::move(decimated.mesh);
+      result.stopped = decimated.interrupted;
+    }
     result.seconds.decimate = watch.lap();
     const SurfaceVerdict verdict = hopeful ? bounded_.judge(result.mesh) : start.verdict;
     result.topology_difference = verdict.topology_difference;

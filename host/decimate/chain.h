@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,9 +24,10 @@ class Chain {
   explicit Chain(std::vector<Point> points, DecimationBound bound = {},
                  std::size_t cache_bytes = kStageCacheBytes);
 
-  // A pure function of points, bound and settings. Throws Error when a stage leaves nothing or a
-  // parameter has no value.
-  ChainResult run(const ChainSettings& settings);
+  // A pure function of points, bound and settings, unless `stopped` becomes true while the bounded
+  // decimator works, which then gives the mesh at hand. Throws Error when a stage leaves nothing or
+  // a parameter has no value.
+  ChainResult run(const ChainSettings& settings, const std::function<bool()>& stopped = nullptr);
 
   std::size_t clouds() const { return clouds_.made(); }
   std::size_t reconstructions() const { return reconstructions_.made(); }

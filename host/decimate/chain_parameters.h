@@ -52,6 +52,7 @@ struct ChainResult {
   // And how far any point of the reference is from the mesh; more than epsilon exactly where that
   // bound is broken.
   double reference_distance = 0;
+  bool stopped = false;  // the decimation was, before its end: the mesh is the one at hand
   StageSeconds seconds = {};
 };
 

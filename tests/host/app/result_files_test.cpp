@@ -23,6 +23,7 @@ class ResultFilesTest : public testing::Test {
   ResultFiles files() { return {options_, settings_, scan_, cloud_sha256_, constraint_}; }
   BestMesh best(std::size_t triangles) {
     BestMesh best = {};
+    best.index = index_++;
     best.mesh = settings_.bound.reference;
     best.mesh.triangles.resize(triangles);
     best.triangles = triangles;
@@ -32,6 +33,7 @@ class ResultFilesTest : public testing::Test {
   std::size_t all() const { return sphere_.triangles.size(); }
   bool exists(const std::string& name) { return std::filesystem::exists(folder_ / name); }
 
+  std::uint64_t index_ = 0;
   static constexpr double kEpsilon = 0.5;
   const Stimulus sphere_ = bumpy_sphere(8, 12, 300, 1);
   TemporaryFolder folder_;

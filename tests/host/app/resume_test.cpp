@@ -68,6 +68,32 @@ TEST_F(Resume, AFolderIsCreatedAndContinued) {
   EXPECT_EQ(result(), expected);
 }
 
+// The evaluations that are there serve a larger budget, and the end is the same however often and
+// wherever the run was cut on its way, as the budgets one after the other decide it.
+TEST_F(Resume, ALargerBudgetGoesOnFromTheFolder) {
+  const auto with = [this](const std::string& budget, const std::string& folder) {
+    const ProgramRun run =
+        test::run_emax(command({"--resume", folder}, "mesh.ply", budget), folder_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    return run;
+  };
+  with("20", "night");
+  const ProgramRun more = with("40", "night");
+  EXPECT_EQ(first_line(more), "run            continues in night: 20 of 40 evaluations are there");
+  const std::string expected = result();
+
+  test::EmaxProcess process(command({"--resume", "day"}, "mesh.ply", "20"), folder_.path());
+  await("day/evaluations.log", 1000);
+  process.signal(SIGKILL);
+  process.wait();
+  with("40", "day");
+  EXPECT_EQ(result(), expected);
+  // What is there already is more than enough for a smaller one.
+  EXPECT_NE(with("10", "day").output.find("evaluations    10 in"), std::string::npos);
+  with("40", "day");
+  EXPECT_EQ(result(), expected);
+}
+
 TEST_F(Resume, WhatDiffersIsNamed) {
   ASSERT_EQ(optimize({"--resume", "night"}).exit_code, 0);
   const std::string expected = result();
