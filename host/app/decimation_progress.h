@@ -3,8 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
-
-#include "host/app/phase_progress.h"
+#include <string>
 
 namespace emax {
 
@@ -26,29 +25,33 @@ class RisingShare {
   bool began_again_ = false;
 };
 
-// The progress of a decimation on standard error, from its beginning with the reading of files, and
-// the time that it may take in all.
+// Shows a decimation on standard error: one line rewritten in place on a terminal, a line every ten
+// seconds in a pipe.
 class DecimationProgress {
  public:
-  explicit DecimationProgress(std::optional<std::chrono::duration<double>> time) : time_(time) {}
+  explicit DecimationProgress(std::optional<std::chrono::duration<double>> time);
+  ~DecimationProgress() { finish(); }
 
-  // See PhaseProgress.
-  void begin(const char* phase, double seconds);
-  // `share`: of the decimation's work, as it is guessed; may fall.
+  // `share`: of the work, as it is guessed; may fall.
   void show(double share, std::size_t triangles);
-  void finish() { phase_.end(); }
+  void finish();  // leaves the terminal on a fresh line
 
-  bool out_of_time() const { return time_ && seconds() > time_->count(); }
+  bool out_of_time() const { return time_ && Clock::now() - start_ > *time_; }
   double seconds() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  std::string line(double share, std::size_t triangles) const;
+  static double seconds_since(Clock::time_point begun);
+
   std::optional<std::chrono::duration<double>> time_;
-  const Clock::time_point start_ = Clock::now();
-  bool decimating_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point work_begun_ = start_;  // when the guess fell for the last time
   RisingShare share_;
-  PhaseProgress phase_;
+  Clock::time_point shown_ = start_;
+  bool terminal_;
+  bool open_line_ = false;
 };
 
 }  // namespace emax

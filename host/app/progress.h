@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -11,12 +10,10 @@
 namespace emax {
 
 // Shows an optimization on standard error: one line rewritten in place on a terminal, plain lines
-// in a pipe (every improvement, every tenth of the budget and every half minute). The evaluations
-// that are shown never become fewer.
+// in a pipe (every improvement and every tenth of the budget).
 class Progress {
  public:
-  // `seconds_left`: of limited time; infinite otherwise.
-  Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left);
+  Progress(const ErrorConstraint& constraint, std::optional<std::chrono::duration<double>> time);
   ~Progress() { finish(); }
 
   void show(const OptimizeState& state);
@@ -27,17 +24,16 @@ class Progress {
 
   std::string line(const OptimizeState& state) const;
   std::string time_left(const OptimizeState& state) const;
-  std::string polishing_time(const OptimizeState& state) const;
+  std::string polishing_time() const;
 
   const ErrorConstraint& constraint_;
-  std::function<double()> seconds_left_;
+  std::optional<std::chrono::duration<double>> time_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = start_;
+  Clock::time_point shown_;
   bool terminal_;
   bool open_line_ = false;
   std::optional<std::size_t> best_triangles_;
   std::uint64_t tenth_ = 0;
-  std::uint64_t evaluations_ = 0;               // that were shown
   std::optional<Clock::time_point> polishing_;  // since when
 };
 
