@@ -16,12 +16,13 @@ struct OptimizeOptions {
   CommonOptions common;
   std::string max_error;
   std::string output;
-  std::string method = "fit";
+  std::string method = "gp3";
   std::string decimator = "bounded";
   std::string bound;  // empty: two-sided where the decimator can hold it
   std::string config;
   std::uint64_t seed = 1;
-  std::optional<std::uint64_t> budget;  // of the configuration, if not given
+  std::string effort = "normal";        // quick or deep: see search_budget()
+  std::optional<std::uint64_t> budget;  // of the effort, if not given
   std::optional<double> seconds;
   unsigned jobs = 0;   // 0: one per processor
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended

@@ -33,7 +33,9 @@ constexpr double kAnyHole = 1;  // as wide as the mesh
 class DecimateCommand {
  public:
   explicit DecimateCommand(const DecimateOptions& options)
-      : options_(options),
+      : progress_(options.seconds ? std::optional<std::chrono::duration<double>>(*options.seconds)
+                                  : std::nullopt),
+        options_(options),
         own_cloud_(options.cloud.empty()),
         share_(parse_share(options.excluded_share)),
         tolerance_(parse_tolerance(options.max_error)) {
@@ -43,6 +45,8 @@ class DecimateCommand {
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
     check_distinct({options.output, certificate_path(options.output), options.json},
                    {options.mesh, options.cloud});
+    progress_.begin("reading", reading_seconds(options.mesh) +
+                                   (own_cloud_ ? 0 : reading_seconds(options.cloud)));
     MeshFile file = read_mesh_file(options.mesh);
     given_ = std::move(file.mesh);
     lost_attributes_ = std::move(file.attributes);
@@ -63,10 +67,10 @@ class DecimateCommand {
   }
 
   int run() {
+    progress_.finish();
     print_task();
-    DecimationProgress progress(
-        options_.seconds ? std::optional<std::chrono::duration<double>>(*options_.seconds)
-                         : std::nullopt);
+    const std::size_t points = scan_.cloud.points.size();
+    progress_.begin("making the reference surface", joining_seconds(points));
     const std::vector<std::uint32_t> outliers = farthest_beyond();
     std::vector<Point> kept;
     std::vector<std::uint32_t> index;  // of the kept points in the cloud
@@ -80,10 +84,11 @@ class DecimateCommand {
     if (options_.two_sided && !given_is_reference()) {
       check_distinct({reference_file(), options_.json}, {options_.mesh, options_.cloud});
     }
-    settings_.decimation.interrupted = [&] { return progress.out_of_time() || was_interrupted(); };
+    settings_.decimation.interrupted = [&] { return progress_.out_of_time() || was_interrupted(); };
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
-      progress.show(share, triangles);
+      progress_.show(share, triangles);
     };
+    progress_.begin("assigning the points", joining_seconds(points));
     result_ = decimate_certified(reference_.mesh, kept, settings_);
     if (!outliers.empty()) {
       std::vector<std::uint32_t> excluded = outliers;
@@ -91,16 +96,17 @@ class DecimateCommand {
       std::ranges::sort(excluded);
       result_.points = certify(scan_.cloud.points, result_.mesh.view(), excluded);
     }
-    progress.finish();
+    progress_.begin("certifying the result", certifying_seconds(points));
     feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     kernel_ = kernel_error(scan_, result_.mesh.view(), result_.points.excluded);
     if (feasible_) {
       keep();
     } else {
+      progress_.finish();
       refuse();
     }
     fmt::print(
-        "decimation     {:.1f} s{}{}\n", progress.seconds(),
+        "decimation     {:.1f} s{}{}\n", progress_.seconds(),
         result_.repairs > 0
             ? fmt::format("; results that missed the bound and were corrected: {}", result_.repairs)
             : "",
@@ -241,6 +247,7 @@ class DecimateCommand {
     files.push_back({options_.output, bytes});
     files.push_back({certificate_path(options_.output), to_json_text(certificate)});
     write_together(files);
+    progress_.finish();
     print_result();
   }
 
@@ -318,6 +325,7 @@ class DecimateCommand {
     emax::write_json(options_.json, to_json_text(report));
   }
 
+  DecimationProgress progress_;
   const DecimateOptions& options_;
   bool own_cloud_;
   double share_;

@@ -3,7 +3,8 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
-#include <string>
+
+#include "host/app/phase_progress.h"
 
 namespace emax {
 
@@ -25,33 +26,29 @@ class RisingShare {
   bool began_again_ = false;
 };
 
-// Shows a decimation on standard error: one line rewritten in place on a terminal, a line every ten
-// seconds in a pipe.
+// The progress of a decimation on standard error, from its beginning with the reading of files, and
+// the time that it may take in all.
 class DecimationProgress {
  public:
-  explicit DecimationProgress(std::optional<std::chrono::duration<double>> time);
-  ~DecimationProgress() { finish(); }
+  explicit DecimationProgress(std::optional<std::chrono::duration<double>> time) : time_(time) {}
 
-  // `share`: of the work, as it is guessed; may fall.
+  // See PhaseProgress.
+  void begin(const char* phase, double seconds);
+  // `share`: of the decimation's work, as it is guessed; may fall.
   void show(double share, std::size_t triangles);
-  void finish();  // leaves the terminal on a fresh line
+  void finish() { phase_.end(); }
 
-  bool out_of_time() const { return time_ && Clock::now() - start_ > *time_; }
+  bool out_of_time() const { return time_ && seconds() > time_->count(); }
   double seconds() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string line(double share, std::size_t triangles) const;
-  static double seconds_since(Clock::time_point begun);
-
   std::optional<std::chrono::duration<double>> time_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point work_begun_ = start_;  // when the guess fell for the last time
+  const Clock::time_point start_ = Clock::now();
+  bool decimating_ = false;
   RisingShare share_;
-  Clock::time_point shown_ = start_;
-  bool terminal_;
-  bool open_line_ = false;
+  PhaseProgress phase_;
 };
 
 }  // namespace emax

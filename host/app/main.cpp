@@ -60,10 +60,8 @@ void add_common(CLI::App& command, CommonOptions& options) {
 }
 
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
-  command
-      .add_option("--method", method,
-                  "reconstruction; fit: the one that fits the scan best; auto: the search chooses")
-      ->check(CLI::IsMember({"fit", "gp3", "poisson", "hoppe", "imls", "auto"}))
+  command.add_option("--method", method, "reconstruction; auto: the search chooses")
+      ->check(CLI::IsMember({"gp3", "poisson", "hoppe", "auto"}))
       ->capture_default_str();
   command
       .add_option(
@@ -112,7 +110,15 @@ int run(int argc, char** argv) {
   optimize_command.add_option("--seed", optimize.seed, "seed of every random choice")
       ->check(whole())
       ->capture_default_str();
-  optimize_command.add_option("--budget", optimize.budget, "evaluations (default: as configured)")
+  optimize_command
+      .add_option("--effort", optimize.effort,
+                  "quick: one good candidate; deep: four times as many as normal")
+      ->check(CLI::IsMember({"quick", "normal", "deep"}))
+      ->capture_default_str();
+  optimize_command
+      .add_option("--budget", optimize.budget,
+                  "evaluations (default: by --effort; normal are those of --config, or without it "
+                  "40, with the paper's decimation 150, fewer for more than 100,000 points)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   optimize_command
       .add_option("--time", optimize.seconds, "stop the search after this many seconds")
@@ -130,9 +136,10 @@ int run(int argc, char** argv) {
       .add_option("--stagnation", optimize.stagnation,
                   "stop after so many evaluations without a better mesh")
       ->check(positive("evaluations"));
-  optimize_command.add_flag("--polish,!--no-polish", optimize.polish,
-                            "decimate the best mesh once more in the end, deep (default; only "
-                            "of the bounded decimator)");
+  CLI::Option& polish = *optimize_command.add_flag(
+      "--polish,!--no-polish", optimize.polish,
+      "decimate the best mesh once more in the end, deep (default unless "
+      "--effort is quick; only of the bounded decimator)");
   optimize_command.add_option("--resume", optimize.resume,
                               "folder that keeps the run: created when missing, continued when "
                               "there (default: MESH.run, removed when the run has ended)");
@@ -149,7 +156,10 @@ int run(int argc, char** argv) {
       ->transform(not_negative());  // before the other
   optimize_command.add_option("--config", optimize.config,
                               "settings and domains; `emax config` prints the defaults");
-  optimize_command.callback([&] { chosen = [&optimize] { return run_optimize(optimize); }; });
+  optimize_command.callback([&] {
+    if (polish.count() == 0) optimize.polish = optimize.effort != "quick";
+    chosen = [&optimize] { return run_optimize(optimize); };
+  });
 
   DecimateOptions decimate;
   CLI::App& decimate_command = *app.add_subcommand(
@@ -253,14 +263,13 @@ int run(int argc, char** argv) {
   add_json(verify_command, verify.json);
   verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
 
-  std::string config_method = kFitMethod, config_decimator = "bounded";
+  std::string config_method = "gp3", config_decimator = "bounded";
   CLI::App& config_command =
       *app.add_subcommand("config", "print the default settings and domains, commented");
   add_chain(config_command, config_method, config_decimator);
   config_command.callback([&] {
     chosen = [&] {
-      fmt::print("{}", default_config_text(chain_parameters(
-                           method_for(config_method, config_decimator), config_decimator)));
+      fmt::print("{}", default_config_text(chain_parameters(config_method, config_decimator)));
       return kExitOk;
     };
   });

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/phase_progress.h"
 #include "host/app/progress.h"
 #include "host/app/reference_text.h"
+#include "host/app/result_files.h"
 #include "host/app/run_identity.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
@@ -36,14 +39,12 @@ std::string describe_failures(const OptimizeState& state) {
 
 OptimizeSettings make_settings(const OptimizeOptions& options) {
   OptimizeSettings settings;
-  settings.method = method_for(options.method, options.decimator);
+  settings.method = options.method;
   settings.decimator = options.decimator;
-  const auto parameters = chain_parameters(settings.method, options.decimator);
+  const auto parameters = chain_parameters(options.method, options.decimator);
   settings.config =
       options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
-  if (options.budget) settings.config.search.budget = *options.budget;
   settings.seed = options.seed;
-  if (options.seconds) settings.time = std::chrono::duration<double>(*options.seconds);
   const unsigned jobs =
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   // No more candidates than that are ever out.
@@ -57,6 +58,16 @@ OptimizeSettings make_settings(const OptimizeOptions& options) {
   return settings;
 }
 
+std::uint64_t budget_of(const OptimizeOptions& options, std::uint64_t configured,
+                        std::size_t points) {
+  if (options.budget) return *options.budget;
+  const SearchEffort effort = options.effort == "quick"  ? SearchEffort::kQuick
+                              : options.effort == "deep" ? SearchEffort::kDeep
+                                                         : SearchEffort::kNormal;
+  return search_budget(effort, points, options.decimator != "bounded",
+                       options.config.empty() ? std::nullopt : std::optional(configured));
+}
+
 EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t points) {
   EvaluationLimits limits = standard_limits(points);
   if (options.evaluation_seconds) {
@@ -67,30 +78,6 @@ EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t p
   return limits;
 }
 
-// What the scan is like and what surface was made of it; nothing where none was.
-void print_fit(const ReferenceFit& fit, double epsilon) {
-  if (fit.tried.empty()) return;
-  fmt::print(
-      "scan           points {:.3g} apart ({:.3g} of the tolerance), noise {:.2g} ({:.2g})\n",
-      fit.scan.spacing, fit.scan.spacing / epsilon, fit.scan.noise, fit.scan.noise / epsilon);
-  for (const TriedSurface& tried : fit.tried) {
-    const bool taken = &tried == &fit.best();
-    fmt::print("{:<14} {}: {}\n", taken ? "surface" : "not taken", tried.chain.method,
-               tried.failure.empty() ? describe(tried) : tried.failure);
-  }
-  if (fit.surface.dropped_triangles + fit.surface.dropped_pieces + fit.surface.closed_cracks > 0) {
-    fmt::print(
-        "mended         {} cracks closed, {} needless pieces of {:.3g} area and {} triangles "
-        "dropped\n",
-        grouped(fit.surface.closed_cracks), grouped(fit.surface.dropped_pieces),
-        fit.surface.dropped_area, grouped(fit.surface.dropped_triangles));
-  }
-  if (fit.joined + fit.left_out > 0) {
-    fmt::print("far points     {} farther than {:.3g} joined to it, {} left out\n",
-               grouped(fit.joined), fit.joined_beyond, grouped(fit.left_out));
-  }
-}
-
 std::string_view ended_by(const OptimizeState& state) {
   if (state.interrupted) return "interrupt";
   if (!state.device_failure.empty()) return "device";
@@ -99,9 +86,17 @@ std::string_view ended_by(const OptimizeState& state) {
   return state.stagnated ? "stagnation" : "budget";
 }
 
-EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud) {
-  result.worst_point = cloud.index_in_file(result.worst_point);
-  return result;
+using Clock = std::chrono::steady_clock;
+
+// Between two meshes that are written during the search: so long, and so many times what writing
+// the last one took.
+constexpr std::chrono::seconds kLeastPause{2};
+constexpr int kPauses = 20;
+
+constexpr std::uint64_t kReferenceIndex = ~std::uint64_t{0};  // it is no evaluation's mesh
+
+double seconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
 }
 
 class OptimizeCommand {
@@ -126,17 +121,25 @@ class OptimizeCommand {
                    {options.common.cloud, options.config});
     const std::string folder = options.resume.empty() ? options.output + ".run" : options.resume;
     check_outside({options.output, certificate_path(options.output), options.common.json}, folder);
+    settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
+    phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
     cloud_sha256_ = sha256_of_file(scan_.path);
+    phase_.end();
+    reading_ended_ = Clock::now();
     epsilon_ = below_width(tolerance, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
+    files_.emplace(options_, settings_, scan_, cloud_sha256_, *constraint_);
+    std::size_t& budget = settings_.config.search.budget;
+    budget = budget_of(options, budget, scan_.cloud.points.size());
     settings_.limits = evaluation_limits(options, scan_.cloud.points.size());
     if (options.jobs == 0) {
       settings_.jobs = std::min(settings_.jobs, jobs_in_memory(*settings_.limits));
     }
     log_.emplace(folder, run_settings(options, settings_, cloud_sha256_, epsilon_));
     settings_.log = &*log_;
+    settings_.config.search.earlier_budgets = log_->give_budget(budget);
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), scan_.width);
@@ -173,31 +176,43 @@ class OptimizeCommand {
       };
     }
     {
-      Progress progress(*constraint_, settings_.time);
+      Progress progress(*constraint_, settings_.seconds_left);
       state_ = optimize(scan_.cloud.points, *constraint_, device_.get(), settings_,
-                        [&progress](const OptimizeState& state) { progress.show(state); });
+                        [&](const OptimizeState& state) {
+                          progress.show(state);
+                          write_better(state);
+                        });
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (device_) counters_ = device_->counters();
-    if (!state_.best && !state_.least_error) {
+    const BestMesh* best = best_mesh();
+    if (best == nullptr && !state_.least_error) {
       end_run();
       if (state_.interrupted) throw Interrupted{};
       if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
       if (state_.out_of_time && state_.evaluations == 0) {
-        throw Error("--time ended before the first evaluation; allow for more");
+        throw Error(
+            fmt::format("--time ended before the first evaluation: reading took {:.1f} s, the "
+                        "evaluation {:.1f} "
+                        "s so far; allow for more",
+                        seconds(begun_, reading_ended_), seconds(reading_ended_, Clock::now())));
       }
       throw Error(fmt::format("{}: no mesh could be made of it in {} evaluations{}",
                               scan_.path.string(), state_.evaluations, describe_failures(state_)));
     }
-    const BestMesh& shown = state_.best ? *state_.best : *state_.least_error;
-    validity_ = check_mesh(shown.mesh.view());
-    topology_ = topology_of(shown.mesh.view());
-    certified_ =
-        certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded, processor_threads());
-    if (state_.best) {
-      keep(*state_.best);
+    const BestMesh& shown = best != nullptr ? *best : *state_.least_error;
+    phase_.begin("certifying the mesh", writing_seconds_);
+    if (best != nullptr) {
+      proven_ = files_->write(*best, state_.evaluations);
+      phase_.end();
+      print_result(*best);
     } else {
-      refuse(*state_.least_error);
+      proven_.validity = check_mesh(shown.mesh.view());
+      proven_.topology = topology_of(shown.mesh.view());
+      proven_.points =
+          certify(scan_.cloud.points, shown.mesh.view(), shown.error.excluded, processor_threads());
+      phase_.end();
+      refuse(shown);
     }
     print_common(shown, took.count());
     write_json(shown);
@@ -207,13 +222,33 @@ class OptimizeCommand {
       throw DeviceFailure(state_.device_failure +
                           "; the search ended there, with the result above");
     }
-    return state_.best ? kExitOk : kExitNo;
+    return best != nullptr ? kExitOk : kExitNo;
+  }
+
+  const BestMesh* best_mesh() const {
+    const bool searched =
+        state_.best && !(reference_ && reference_->triangles < state_.best->triangles);
+    if (searched) return &*state_.best;
+    return reference_ ? &*reference_ : nullptr;
+  }
+
+  // The best so far, for whoever looks or kills. Now and then: certifying takes time, too.
+  void write_better(const OptimizeState& state) {
+    if (!state.best || state.best->mesh.triangles.empty() || state.best->index == written_) return;
+    if (reference_ && reference_->triangles < state.best->triangles) return;
+    const Clock::time_point start = Clock::now();
+    if (start < next_write_ || seconds_left() < 3 * writing_seconds_) return;
+    if (written_ || !files_->hold_fewer_than(state.best->triangles)) {
+      files_->write(*state.best, state.evaluations);
+    }
+    written_ = state.best->index;
+    const Clock::time_point end = Clock::now();
+    writing_seconds_ = seconds(start, end);
+    next_write_ = end + std::max<Clock::duration>(kLeastPause, kPauses * (end - start));
   }
 
   void fix_bound() {
-    ReferenceFit fit;
-    settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, settings_, &fit);
-    print_fit(fit, epsilon_);
+    make_bound();
     if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(
@@ -222,11 +257,57 @@ class OptimizeCommand {
           grouped(settings_.bound.outliers.size()));
     }
     if (settings_.epsilon_back) {
-      fmt::print("reference      {} triangles; {}\n",
+      const std::string written = write_reference();
+      fmt::print("reference      {}: {} triangles; {}{}\n",
+                 reference_path(options_.output).string(),
                  grouped(settings_.bound.reference.triangles.size()),
-                 describe(topology_of(settings_.bound.reference.view())));
+                 describe(topology_of(settings_.bound.reference.view())), written);
     }
     std::fflush(stdout);
+  }
+
+  void make_bound() {
+    OptimizeSettings limited = settings_;
+    limited.interrupted = [this] { return was_interrupted() || seconds_left() <= 0; };
+    phase_.begin("making the reference surface", reference_seconds(scan_.cloud.points.size()));
+    try {
+      settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, limited);
+    } catch (const Interrupted&) {
+      if (was_interrupted()) throw;
+      throw Error(
+          fmt::format("--time ended while the reference surface was made, so there is no mesh yet: "
+                      "reading took "
+                      "{:.1f} s, the reference {:.1f} s so far; allow for more",
+                      seconds(begun_, reading_ended_), seconds(reading_ended_, Clock::now())));
+    }
+    phase_.end();
+  }
+
+  double seconds_left() const {
+    return options_.seconds ? *options_.seconds - seconds(begun_, Clock::now()) : HUGE_VAL;
+  }
+
+  // The reference is the first result, as it is, if the points allow it.
+  std::string write_reference() {
+    BestMesh whole = {};
+    whole.index = kReferenceIndex;
+    whole.chain = {settings_.method, kNoDecimator, {}};
+    whole.mesh = as_stored(settings_.bound.reference, mesh_format(settings_.output));
+    whole.triangles = whole.mesh.triangles.size();
+    whole.error = constraint_->measure(whole.mesh.view(), was_interrupted);
+    if (!whole.error.feasible) {
+      files_->write_reference();
+      return fmt::format("; points are up to {:.4g} away",
+                         constraint_->in_file_units(whole.error.kept.squared_bits));
+    }
+    reference_ = std::move(whole);
+    if (files_->hold_fewer_than(reference_->triangles)) return "";
+    const Clock::time_point start = Clock::now();
+    phase_.begin("certifying the reference surface", certifying_seconds(scan_.cloud.points.size()));
+    files_->write(*reference_, 0);
+    phase_.end();
+    writing_seconds_ = seconds(start, Clock::now());
+    return fmt::format(", certified and written to {} as it is", options_.output);
   }
 
   // A run that was cut short may go on; one that ended has left what was asked for.
@@ -244,90 +325,34 @@ class OptimizeCommand {
     fmt::print("run            kept in {}{}\n", log_->folder().string(), what_next);
   }
 
-  void keep(const BestMesh& best) {
-    if (!certified_.within(epsilon_)) {
-      throw Error(
-          fmt::format("the certificate ({:.9g}) contradicts the kernel's e_max: nothing is "
-                      "written; this is a defect of the program, please report it",
-                      certified_.e_max_upper));
-    }
-    const std::string bytes = mesh_bytes(best.mesh, mesh_format(settings_.output));
-    Certificate certificate;
-    certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
-    certificate.mesh_sha256 = sha256(bytes);
-    certificate.cloud_file = scan_.path.filename().string();
-    certificate.cloud_sha256 = cloud_sha256_;
-    certificate.skip_invalid = options_.common.skip_invalid;
-    certificate.epsilon = epsilon_;
-    certificate.error = in_file_indices(certified_, scan_.cloud);
-    certificate.kernel = in_file_indices(best.error.kept, scan_.cloud);
-    certificate.vertices = best.mesh.vertices.size();
-    certificate.triangles = best.mesh.triangles.size();
-    certificate.validity = validity_;
-    certificate.topology = topology_;
-    certificate.transform = constraint_->cloud().normalization();
-    certificate.chain = best.chain;
-    certificate.seed = settings_.seed;
-    certificate.evaluations = state_.evaluations;
-    std::vector<OutputFile> files;
-    if (settings_.epsilon_back) {
-      files.push_back({reference_path(options_.output),
-                       mesh_bytes(settings_.bound.reference, MeshFormat::kPly)});
-      certificate.reference = certified_reference(best, files.back());
-    }
-    files.push_back({options_.output, bytes});
-    files.push_back({certificate_path(options_.output), to_json_text(certificate)});
-    write_together(files);
-    fmt::print("result         {}: {} triangles; {}\n", options_.output,
-               grouped(best.mesh.triangles.size()), describe(validity_));
+  // Of the mesh that the search found, or of the reference where that is what there is.
+  void print_result(const BestMesh& best) const {
+    fmt::print("result         {}: {} triangles{}; {}\n", options_.output,
+               grouped(best.mesh.triangles.size()),
+               is_reference(best) ? ", the reference surface as it is" : "",
+               describe(proven_.validity));
     fmt::print(
         "topology       {}\n",
-        describe(topology_, certificate.reference ? std::optional(certificate.reference->topology)
-                                                  : std::nullopt));
+        describe(proven_.topology,
+                 proven_.reference ? std::optional(proven_.reference->topology) : std::nullopt));
     fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",
-               certified_.e_max_upper, epsilon_, 100 * certified_.e_max_upper / scan_.width);
-    if (certificate.reference) {
-      print(*certificate.reference, epsilon_, scan_.width, files.front().path);
+               proven_.points.e_max_upper, epsilon_,
+               100 * proven_.points.e_max_upper / scan_.width);
+    if (proven_.reference) {
+      print(*proven_.reference, epsilon_, scan_.width, reference_path(options_.output));
     }
     fmt::print("certificate    {}\n", certificate_path(options_.output).string());
-    reference_ = certificate.reference;
   }
 
-  ReferenceBound certified_reference(const BestMesh& best, const OutputFile& file) const {
-    const SurfaceDistance back = decided_distance(
-        best.mesh.view(), ExactMesh(settings_.bound.reference.view()), *settings_.epsilon_back);
-    if (!back.within(*settings_.epsilon_back)) {
-      throw Error(
-          fmt::format("the certificate ({:.9g}) contradicts the decimator's bound on the distance "
-                      "of the mesh to the reference: nothing is written; this is a defect of the "
-                      "program, please report it",
-                      back.upper));
-    }
-    ReferenceBound bound;
-    bound.reference_to_mesh = reference_to_mesh(settings_.bound.reference, best.mesh, epsilon_);
-    if (bound.reference_to_mesh > epsilon_) {
-      throw Error(
-          fmt::format("the certificate ({:.9g}) contradicts the decimator's bound on the distance "
-                      "of the reference to the mesh: nothing is written; this is a defect of the "
-                      "program, please report it",
-                      bound.reference_to_mesh));
-    }
-    bound.topology = topology_of(settings_.bound.reference.view());
-    bound.file = file.path.filename().string();
-    bound.sha256 = sha256(file.bytes);
-    bound.triangles = settings_.bound.reference.triangles.size();
-    bound.epsilon_back = *settings_.epsilon_back;
-    bound.mesh_to_reference = back.upper;
-    bound.points_to_reference = certify(scan_.cloud.points, settings_.bound.reference.view(),
-                                        best.error.excluded, processor_threads())
-                                    .e_max_upper;
-    return bound;
-  }
+  bool is_reference(const BestMesh& best) const { return reference_ && &best == &*reference_; }
 
   void refuse(const BestMesh& least) const {
-    fmt::print("result         infeasible: no mesh within {:.9g} was found, none is written\n",
-               epsilon_);
-    if (certified_.within(epsilon_)) {
+    fmt::print("result         infeasible: no mesh within {:.9g} was found, none is written{}\n",
+               epsilon_,
+               settings_.epsilon_back ? fmt::format("; the reference surface is in {}",
+                                                    reference_path(options_.output).string())
+                                      : "");
+    if (proven_.points.within(epsilon_)) {
       fmt::print(
           "reference      {:.4g} times the bound is the least distance found between mesh and "
           "reference, with {} triangles; raise --max-error, raise --budget or take --bound "
@@ -338,17 +363,23 @@ class OptimizeCommand {
     fmt::print(
         "e_max          {:.9g} is the least found ({:.4g}% of the width), with {} "
         "triangles; raise --max-error, raise --budget or exclude outliers\n",
-        certified_.e_max_upper, 100 * certified_.e_max_upper / scan_.width,
+        proven_.points.e_max_upper, 100 * proven_.points.e_max_upper / scan_.width,
         grouped(least.mesh.triangles.size()));
   }
 
   void print_common(const BestMesh& shown, double seconds) const {
-    print_excluded(certified_, constraint_->excludable());
+    print_excluded(proven_.points, constraint_->excludable());
     fmt::print("worst point    {}\n", scan_.cloud.index_in_file(shown.error.kept.worst_point));
-    fmt::print("reconstruction {} triangles, {} points left unmeshed\n",
-               grouped(shown.reconstruction_triangles), grouped(shown.unmeshed_points));
+    if (!is_reference(shown)) {
+      fmt::print("reconstruction {} triangles, {} points left unmeshed\n",
+                 grouped(shown.reconstruction_triangles), grouped(shown.unmeshed_points));
+    }
     fmt::print("kernel         e_max^2 bits 0x{:08x}\n", shown.error.kept.squared_bits);
-    fmt::print("evaluations    {} in {:.0f} s{}{}\n", state_.evaluations, seconds,
+    const std::string stopped =
+        state_.stopped > 0
+            ? fmt::format(", {} more cut short with the mesh at hand", state_.stopped)
+            : "";
+    fmt::print("evaluations    {} in {:.0f} s{}{}{}\n", state_.evaluations, seconds, stopped,
                describe_failures(state_),
                state_.interrupted      ? "; interrupted"
                : state_.out_of_time    ? "; out of time"
@@ -356,11 +387,12 @@ class OptimizeCommand {
                : state_.stagnated      ? "; no better mesh for long"
                                        : "");
     if (state_.polished) {
-      fmt::print(
-          "polished       {}\n",
-          shown.triangles < *state_.polished
-              ? grouped(*state_.polished) + " triangles before the best mesh was decimated deep"
-              : "the best mesh decimated deep has no fewer triangles");
+      fmt::print("polished       {}\n",
+                 shown.triangles < *state_.polished
+                     ? grouped(*state_.polished) +
+                           " triangles before the best mesh was decimated deep" +
+                           (state_.polish_stopped ? ", as far as the time allowed" : "")
+                     : "the best mesh decimated deep has no fewer triangles");
     }
     print_shares(seconds);
     fmt::print("device {:<7} {}\n", options_.common.device, describe_counters(counters_));
@@ -382,12 +414,12 @@ class OptimizeCommand {
   void write_json(const BestMesh& shown) const {
     if (!json_is_wanted(options_.common.json)) return;
     ResultReport report;
-    report.feasible = state_.best.has_value();
-    report.validity = validity_;
-    report.topology = topology_;
+    report.feasible = best_mesh() != nullptr;
+    report.validity = proven_.validity;
+    report.topology = proven_.topology;
     report.triangles = shown.mesh.triangles.size();
     report.epsilon = epsilon_;
-    report.certified = in_file_indices(certified_, scan_.cloud);
+    report.certified = in_file_indices(proven_.points, scan_.cloud);
     report.kernel = in_file_indices(shown.error.kept, scan_.cloud);
     report.points = scan_.cloud.points.size();
     report.transform = constraint_->cloud().normalization();
@@ -395,17 +427,21 @@ class OptimizeCommand {
     report.failures = state_.failures;
     report.ended_by = ended_by(state_);
     report.seed = settings_.seed;
-    report.reconstruction_triangles = shown.reconstruction_triangles;
-    report.unmeshed_points = shown.unmeshed_points;
+    if (!is_reference(shown)) {
+      report.reconstruction_triangles = shown.reconstruction_triangles;
+      report.unmeshed_points = shown.unmeshed_points;
+    }
     report.device = options_.common.device;
     report.counters = counters_;
     report.board = address_.board;
     report.two_sided = settings_.epsilon_back.has_value();
-    report.reference = reference_;
+    report.reference = proven_.reference;
     if (cpu_) report.cpu_seconds = cpu_->seconds();
     emax::write_json(options_.common.json, to_json_text(report));
   }
 
+  const Clock::time_point begun_ = Clock::now();
+  PhaseProgress phase_;
   const OptimizeOptions& options_;
   OptimizeSettings settings_;
   DeviceAddress address_;
@@ -418,11 +454,14 @@ class OptimizeCommand {
   bool said_what_is_kept_ = false;
   OptimizeState state_;
   std::optional<DeviceCounters> counters_;
-  std::optional<CpuTwin> cpu_;               // with a board to compare with
-  std::optional<ReferenceBound> reference_;  // of the mesh that was written
-  MeshValidity validity_;
-  MeshTopology topology_;
-  CertifiedError certified_;
+  std::optional<CpuTwin> cpu_;         // with a board to compare with
+  std::optional<BestMesh> reference_;  // the reference as a result, where it is one
+  ProvenMesh proven_;                  // of the mesh that is shown
+  std::optional<ResultFiles> files_;
+  Clock::time_point reading_ended_;
+  double writing_seconds_ = 0;            // what certifying and writing took the last time
+  std::optional<std::uint64_t> written_;  // index of the evaluation whose mesh is there
+  Clock::time_point next_write_;
 };
 
 }  // namespace

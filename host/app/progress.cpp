@@ -4,23 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "host/app/phase_progress.h"
 #include "host/app/scan.h"
 #include "host/app/standard_streams.h"
 
 namespace emax {
 namespace {
 
-std::string minutes(std::chrono::duration<double> time) {
-  const long seconds = std::lround(time.count());
-  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
-}
+constexpr std::chrono::milliseconds kOnTerminal{100};
+constexpr std::chrono::seconds kInPipe{30};  // without anything new
 
 }  // namespace
 
-Progress::Progress(const ErrorConstraint& constraint,
-                   std::optional<std::chrono::duration<double>> time)
-    : constraint_(constraint), time_(time), terminal_(standard_error_is_terminal()) {}
+Progress::Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left)
+    : constraint_(constraint),
+      seconds_left_(std::move(seconds_left)),
+      terminal_(standard_error_is_terminal()) {}
 
 std::string Progress::time_left(const OptimizeState& state) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
@@ -29,12 +30,11 @@ std::string Progress::time_left(const OptimizeState& state) const {
     left = elapsed.count() * static_cast<double>(state.budget - state.evaluations) /
            static_cast<double>(state.evaluations - state.from_log);
   }
-  if (time_) {
-    const double until = std::max(0.0, (*time_ - elapsed).count());
+  if (const double until = std::max(0.0, seconds_left_()); std::isfinite(until)) {
     left = left < 0 ? until : std::min(left, until);
   }
   if (left < 0) return "estimating the time left";
-  return minutes(std::chrono::duration<double>(left)) + " left";
+  return minutes(left) + " left";
 }
 
 std::string Progress::line(const OptimizeState& state) const {
@@ -46,31 +46,38 @@ std::string Progress::line(const OptimizeState& state) const {
     best = fmt::format("none within {:.4g} yet, least e_max {:.4g}", constraint_.epsilon(),
                        constraint_.in_file_units(state.least_error->squared_bits));
   }
-  return fmt::format("{}/{} evaluations, {}, {}", state.evaluations, state.budget, best,
-                     polishing_ ? "decimating it deep" + polishing_time() : time_left(state));
+  return fmt::format("{}/{} evaluations, {}, {}", evaluations_, state.budget, best,
+                     polishing_ ? "decimating it deep" + polishing_time(state) : time_left(state));
 }
 
-std::string Progress::polishing_time() const {
-  return terminal_ ? " for " + minutes(Clock::now() - *polishing_) : std::string();
+std::string Progress::polishing_time(const OptimizeState& state) const {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - *polishing_).count();
+  const double share = expected_share(elapsed, state.polish_seconds);
+  double left = share > 0 ? elapsed * (1 - share) / share : state.polish_seconds;
+  left = std::min(left, std::max(0.0, seconds_left_()));
+  return fmt::format(" for {}, about {} left", minutes(elapsed), minutes(left));
 }
 
 void Progress::show(const OptimizeState& state) {
   const auto now = Clock::now();
+  evaluations_ = std::max(evaluations_, state.evaluations);
   const bool begins_polishing = state.polishing && !polishing_;
   if (begins_polishing) polishing_ = now;
   const std::optional<std::size_t> triangles =
       state.best ? std::optional(state.best->triangles) : std::nullopt;
   if (terminal_) {
-    if (now - shown_ < std::chrono::milliseconds(100)) return;
+    if (now - shown_ < kOnTerminal) return;
     to_standard_error("\r\033[K" + fit_terminal(line(state)));
     open_line_ = true;
     shown_ = now;
     return;
   }
   const std::uint64_t tenth = 10 * state.evaluations / std::max<std::uint64_t>(state.budget, 1);
-  if (triangles == best_triangles_ && tenth == tenth_ && !begins_polishing) return;
+  const bool news = triangles != best_triangles_ || tenth != tenth_ || begins_polishing;
+  if (!news && now - shown_ < kInPipe) return;
   best_triangles_ = triangles;
   tenth_ = tenth;
+  shown_ = now;
   to_standard_error(line(state) + "\n");
 }
 

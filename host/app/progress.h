@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,10 +11,12 @@
 namespace emax {
 
 // Shows an optimization on standard error: one line rewritten in place on a terminal, plain lines
-// in a pipe (every improvement and every tenth of the budget).
+// in a pipe (every improvement, every tenth of the budget and every half minute). The evaluations
+// that are shown never become fewer.
 class Progress {
  public:
-  Progress(const ErrorConstraint& constraint, std::optional<std::chrono::duration<double>> time);
+  // `seconds_left`: of limited time; infinite otherwise.
+  Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left);
   ~Progress() { finish(); }
 
   void show(const OptimizeState& state);
@@ -24,16 +27,17 @@ class Progress {
 
   std::string line(const OptimizeState& state) const;
   std::string time_left(const OptimizeState& state) const;
-  std::string polishing_time() const;
+  std::string polishing_time(const OptimizeState& state) const;
 
   const ErrorConstraint& constraint_;
-  std::optional<std::chrono::duration<double>> time_;
+  std::function<double()> seconds_left_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_;
+  Clock::time_point shown_ = start_;
   bool terminal_;
   bool open_line_ = false;
   std::optional<std::size_t> best_triangles_;
   std::uint64_t tenth_ = 0;
+  std::uint64_t evaluations_ = 0;               // that were shown
   std::optional<Clock::time_point> polishing_;  // since when
 };
 

@@ -45,7 +45,9 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"seed", fmt::format("{}", settings.seed)},
   };
   if (settings.decimator != "schroeder") run.emplace_back(kBoundSetting, "");
-  for (auto& value : named_values(settings.config)) run.push_back(std::move(value));
+  for (auto& value : named_values(settings.config)) {
+    if (value.first != "search.budget") run.push_back(std::move(value));  // which may grow
+  }
   run.emplace_back("emax", EMAX_VERSION);
   run.emplace_back("kernel", fmt::format("{}", kKernelVersion));
   run.emplace_back("libraries", EMAX_WORKER_LIBRARIES);

@@ -10,7 +10,8 @@ namespace emax {
 
 // What the bytes of a result depend on: program, libraries and the processor's arithmetic in
 // libraries, the cloud's bytes, the problem and the search. Neither jobs nor device, which change
-// nothing, nor what ends a run, which another command may choose anew.
+// nothing, nor what ends a run, which another command may choose anew; of the budget, on which the
+// search depends too, RunLog::give_budget() keeps count.
 RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings& settings,
                          const std::string& cloud_sha256, double epsilon);
 

@@ -92,6 +92,11 @@ CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud) {
   return error;
 }
 
+EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud) {
+  result.worst_point = cloud.index_in_file(result.worst_point);
+  return result;
+}
+
 std::string grouped(std::uint64_t number) {
   std::string text = std::to_string(number);
   for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ',');

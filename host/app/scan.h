@@ -58,6 +58,7 @@ double parse_share(std::string_view text);
 
 // Indices of the file instead of the cloud's, where points were skipped.
 CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud);
+EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud);
 
 // 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);

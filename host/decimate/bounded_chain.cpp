@@ -46,8 +46,8 @@ TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   return reference_surface(surface, kept_, bound_.epsilon / 2).mesh;
 }
 
-TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
-                                    const ParameterValues& values) const {
+DecimatedMesh BoundedStage::decimate(const TriangleMesh& start, const ParameterValues& values,
+                                     const std::function<bool()>& stopped) const {
   DecimationSettings settings;
   settings.epsilon = bound_.epsilon;
   settings.epsilon_back = bound_.epsilon_back;
@@ -57,10 +57,12 @@ TriangleMesh BoundedStage::decimate(const TriangleMesh& start,
   settings.effort = static_cast<DecimationSettings::Effort>(values.at(kBoundedEffort));
   settings.normal_cosine = values.at("bounded.normal_cosine");
   settings.flatness = values.at("bounded.flatness");
+  settings.interrupted = stopped;
   const TriangleMesh& reference = two_sided() ? bound_.reference : start;
-  TriangleMesh mesh = BoundedDecimator(reference, kept_).run(start, settings).mesh;
-  if (two_sided()) return mesh;
-  return drop_needless_components(std::move(mesh), kept_, kInside * bound_.epsilon);
+  DecimatedMesh made = BoundedDecimator(reference, kept_).run(start, settings);
+  if (two_sided()) return made;
+  made.mesh = drop_needless_components(std::move(made.mesh), kept_, kInside * bound_.epsilon);
+  return made;
 }
 
 SurfaceVerdict BoundedStage::judge(const TriangleMesh& mesh) const {

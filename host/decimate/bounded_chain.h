@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,12 +31,6 @@ class BoundedStage {
 
   bool two_sided() const { return bound_.epsilon_back > 0; }
 
-  const TriangleMesh& reference() const { return bound_.reference; }
-  std::span<const Point> kept() const { return kept_; }  // points that are no outliers
-  // Farther than that from a surface a point needs a piece of its own: half of epsilon, which
-  // leaves decimation room; 0 where the run fixed no bound.
-  double far() const { return bound_.epsilon / 2; }
-
   // drop_needless_components() at half of epsilon, which leaves decimation room; as it is where the
   // run fixed no bound.
   TriangleMesh without_needless(TriangleMesh surface) const;
@@ -45,8 +40,10 @@ class BoundedStage {
   TriangleMesh start(const TriangleMesh& surface) const;
 
   // `values` holds P_D. Keeps every bound that `start` keeps, and its topology; under a one-sided
-  // bound without the components that no point needs any more.
-  TriangleMesh decimate(const TriangleMesh& start, const ParameterValues& values) const;
+  // bound without the components that no point needs any more. `stopped` is polled now and then;
+  // true ends the work with the mesh at hand, of which the same holds.
+  DecimatedMesh decimate(const TriangleMesh& start, const ParameterValues& values,
+                         const std::function<bool()>& stopped = nullptr) const;
 
   SurfaceVerdict judge(const TriangleMesh& mesh) const;
   bool keeps_bounds(const SurfaceVerdict& verdict) const;

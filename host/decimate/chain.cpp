@@ -2,13 +2,12 @@
 
 #include <chrono>
 
-#include "host/decimate/crack_free.h"
+#include "host/decimate/close_holes.h"
 #include "host/decimate/decimate.h"
 #include "host/decimate/fill_holes_smoothly.h"
 #include "host/decimate/manifold_part.h"
 #include "host/reconstruct/moving_least_squares.h"
 #include "host/reconstruct/outward.h"
-#include "host/reconstruct/scan_estimate.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -40,16 +39,17 @@ TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
   return method == FillMethod::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
 }
 
-// A surface, with the cracks closed that reconstruction leaves and making it a surface; a hole of
-// the scan stays.
+// A surface, with the holes closed that making it one leaves. Pieces that no point needs would be
+// in the patches' way.
 TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values,
-                            const BoundedStage& bounded, double spacing) {
+                            const BoundedStage& bounded) {
   const FillMethod method = fill_method(values);
   if (method == FillMethod::kNone) return bounded.without_needless(manifold_part(mesh).mesh);
   const double size = values.at("fill.size");
-  return crack_free_surface(method == FillMethod::kSmooth ? fill_holes_smoothly(mesh, size) : mesh,
-                            bounded.kept(), bounded.far(), size, kCrackSpacings * spacing)
-      .mesh;
+  const bool smooth = method == FillMethod::kSmooth;
+  TriangleMesh surface =
+      bounded.without_needless(manifold_part(smooth ? fill_holes_smoothly(mesh, size) : mesh).mesh);
+  return bounded.without_needless(close_holes(std::move(surface), size).mesh);
 }
 
 }  // namespace
@@ -81,23 +81,14 @@ const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSec
   });
 }
 
-double Chain::spacing() {
-  if (!spacing_) spacing_ = estimate_scan(points_).spacing;
-  return *spacing_;
-}
-
 const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds) {
   return surfaces_.get({surface_key(settings), settings.decimator}, [&] {
-    if (settings.method == kFitMethod) {
-      const TriangleMesh& reference = bounded_.reference();
-      return Surface{reference, reference.triangles.size(), 0, {}};
-    }
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
     const bool surface = settings.decimator != "schroeder";
-    TriangleMesh filled =
-        surface ? closed_surface(reconstruction.mesh, settings.parameters, bounded_, spacing())
-                : fill(reconstruction.mesh, settings.parameters);
+    TriangleMesh filled = surface
+                              ? closed_surface(reconstruction.mesh, settings.parameters, bounded_)
+                              : fill(reconstruction.mesh, settings.parameters);
     SurfaceVerdict verdict;
     if (settings.decimator == "bounded") {
       filled = bounded_.start(filled);
@@ -110,7 +101,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
   });
 }
 
-ChainResult Chain::run(const ChainSettings& settings) {
+ChainResult Chain::run(const ChainSettings& settings, const std::function<bool()>& stopped) {
   for (const ParameterSpec& spec : required_parameters(settings)) {
     if (!settings.parameters.contains(spec.name)) {
       throw Error("the parameter " + spec.name + " has no value");
@@ -124,7 +115,12 @@ ChainResult Chain::run(const ChainSettings& settings) {
   if (settings.decimator == "bounded") {
     // Decimation mends neither a bound nor the topology.
     const bool hopeful = bounded_.keeps_bounds(start.verdict);
-    result.mesh = hopeful ? bounded_.decimate(start.mesh, settings.parameters) : start.mesh;
+    result.mesh = start.mesh;
+    if (hopeful) {
+      DecimatedMesh decimated = bounded_.decimate(start.mesh, settings.parameters, stopped);
+      result.mesh = std::move(decimated.mesh);
+      result.stopped = decimated.interrupted;
+    }
     result.seconds.decimate = watch.lap();
     const SurfaceVerdict verdict = hopeful ? bounded_.judge(result.mesh) : start.verdict;
     result.topology_difference = verdict.topology_difference;

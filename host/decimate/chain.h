@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,9 +24,10 @@ class Chain {
   explicit Chain(std::vector<Point> points, DecimationBound bound = {},
                  std::size_t cache_bytes = kStageCacheBytes);
 
-  // A pure function of points, bound and settings. Throws Error when a stage leaves nothing or a
-  // parameter has no value.
-  ChainResult run(const ChainSettings& settings);
+  // A pure function of points, bound and settings, unless `stopped` becomes true while the bounded
+  // decimator works, which then gives the mesh at hand. Throws Error when a stage leaves nothing or
+  // a parameter has no value.
+  ChainResult run(const ChainSettings& settings, const std::function<bool()>& stopped = nullptr);
 
   std::size_t clouds() const { return clouds_.made(); }
   std::size_t reconstructions() const { return reconstructions_.made(); }
@@ -49,12 +50,10 @@ class Chain {
   };
 
   std::span<const Point> cloud(const ChainSettings& settings);
-  double spacing();
   const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds);
   const Surface& surface(const ChainSettings& settings, StageSeconds& seconds);
 
   std::vector<Point> points_;
-  std::optional<double> spacing_;  // of the points, once asked for
   BoundedStage bounded_;
   StageCache<ParameterValues, MovedCloud> clouds_;
   StageCache<StageKey, Reconstructed> reconstructions_;

@@ -243,8 +243,14 @@ std::optional<Genocop::Proposal> Genocop::offspring(RandomStream& random) {
 }
 
 double Genocop::remaining() const {
-  const double spent = static_cast<double>(asked()) /
-                       static_cast<double>(std::max<std::uint64_t>(settings_.budget, 1));
+  std::uint64_t budget = settings_.budget;
+  for (const std::uint64_t earlier : settings_.earlier_budgets) {
+    if (asked() >= earlier) continue;
+    budget = earlier;
+    break;
+  }
+  const double spent =
+      static_cast<double>(asked()) / static_cast<double>(std::max<std::uint64_t>(budget, 1));
   return std::max(1 - spent, 0.0);
 }
 

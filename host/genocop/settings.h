@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "host/genocop/operators.h"
 
@@ -23,7 +24,11 @@ enum class RepairMethod {
 // value-aware repair and the uniform mutation, which is Genocop's; each is switched by its own
 // setting.
 struct Settings {
-  std::size_t budget = 150;     // T of the operators whose steps shrink
+  std::size_t budget = 150;  // T of the operators whose steps shrink
+  // The budgets that the search had before it was given this one, ascending: T of candidate i is
+  // the first of all of them that is greater than i. So a search that goes on with a larger budget
+  // asks for the same candidates as before as far as the smaller one went.
+  std::vector<std::size_t> earlier_budgets = {};
   std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
 
   std::size_t search_population = 8;

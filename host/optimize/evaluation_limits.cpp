@@ -14,6 +14,12 @@ constexpr std::chrono::milliseconds kTimePerPoint{2};
 constexpr std::uint64_t kLeastMemory = std::uint64_t{2} << 30;
 constexpr std::uint64_t kMemoryPerPoint = 8192;
 
+constexpr std::uint64_t kNormalBudget = 40, kBudgetOfDecimation = 150;
+constexpr std::uint64_t kQuickBudget = 1, kQuickBudgetOfDecimation = 12;
+constexpr std::uint64_t kDeepTimes = 4;
+constexpr std::size_t kManyPoints = 100'000;
+constexpr std::uint64_t kLeastShare = 5;  // of the budget remains, one in so many
+
 std::uint64_t memory_for_workers() {
   const std::uint64_t memory = usable_memory();
   return memory - memory / 8;
@@ -36,6 +42,19 @@ EvaluationLimits standard_limits(std::size_t points) {
 #else
   return {time, std::min(kLeastMemory + points * kMemoryPerPoint, memory_for_workers())};
 #endif
+}
+
+std::uint64_t search_budget(SearchEffort effort, std::size_t points, bool searches_decimation,
+                            std::optional<std::uint64_t> configured) {
+  if (effort == SearchEffort::kQuick) {
+    return searches_decimation ? kQuickBudgetOfDecimation : kQuickBudget;
+  }
+  std::uint64_t normal = searches_decimation ? kBudgetOfDecimation : kNormalBudget;
+  if (points > kManyPoints) {
+    normal = std::max(normal / kLeastShare, normal * kManyPoints / points);
+  }
+  normal = configured.value_or(normal);
+  return effort == SearchEffort::kDeep ? kDeepTimes * normal : normal;
 }
 
 unsigned jobs_in_memory(const EvaluationLimits& limits) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace emax {
 
@@ -17,6 +18,15 @@ struct EvaluationLimits {
 // most 7/8 of what there is. Both are several times what the slowest methods take, and neither
 // depends on the number of workers, as results do not.
 EvaluationLimits standard_limits(std::size_t points);
+
+enum class SearchEffort { kQuick, kNormal, kDeep };
+
+// How many evaluations a search makes unless it is told. `searches_decimation`: the decimator's own
+// parameters decide whether a candidate is feasible, as Schroeder's do, so that one is not enough.
+// `configured`: what a configuration says is normal; without one it is fewer for more than 100,000
+// points, down to a fifth.
+std::uint64_t search_budget(SearchEffort effort, std::size_t points, bool searches_decimation,
+                            std::optional<std::uint64_t> configured);
 
 // How many workers the memory holds, each with a quarter of its limit.
 unsigned jobs_in_memory(const EvaluationLimits& limits);

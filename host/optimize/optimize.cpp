@@ -11,7 +11,8 @@
 namespace emax {
 namespace {
 
-constexpr int kPolishTimes = 10;  // as long as an evaluation may the deep decimation take
+constexpr int kPolishTimes = 10;          // as long as an evaluation may the deep decimation take
+constexpr double kPolishDecimations = 8;  // so many decimations is it expected to take
 
 bool same_bits(const Genes& a, const Genes& b) {
   return std::ranges::equal(
@@ -47,7 +48,7 @@ class Run {
         genocop_(problem_, settings.config.search, settings.seed),
         scheduler_(genocop_, settings.config.search.budget) {
     state_.budget = settings.config.search.budget;
-    search_.interrupted = settings.interrupted;
+    search_.interrupted = [this] { return !stopping_ && settings_.interrupted(); };
   }
 
   OptimizeState run() {
@@ -65,13 +66,16 @@ class Run {
       }
       enter_in_order();
       state_.evaluations = genocop_.asked() - in_work_.size();
+      if (pool_->outstanding() > 0) load_best();
       observe_(state_);
     }
-    // What is in work is given up: its workers end with the pool.
-    pool_.reset();
+    for (Result& result : stop_workers()) {
+      const std::uint64_t index = result.evaluation.index;
+      results_.insert_or_assign(index, std::move(result));
+    }
     if (reached_its_end()) state_.evaluations = next_;
-    if (settings_.polish && state_.best && !cut_short() && !state_.target_reached) polish();
     if (cut_short()) enter_the_rest();
+    if (settings_.polish && state_.best && may_polish()) polish();
     if (std::optional<BestMesh>& shown = state_.best ? state_.best : state_.least_error;
         shown && shown->mesh.triangles.empty()) {
       restore(*shown);
@@ -84,7 +88,27 @@ class Run {
 
   void look_for_the_end() {
     state_.interrupted = settings_.interrupted();
-    state_.out_of_time = settings_.time && Clock::now() - start_ > *settings_.time;
+    state_.out_of_time = settings_.seconds_left() <= stopping_seconds() + polish_seconds();
+  }
+
+  // How long stopped workers may take until they have answered: the distances between mesh and
+  // reference are still measured.
+  double stopping_seconds() const {
+    constexpr double kAlways = 0.3, kPerPoint = 6e-5, kShare = 0.15;
+    return std::min(kAlways + kPerPoint * static_cast<double>(cloud_.size()), kShare * seconds_);
+  }
+
+  // What is kept of limited time for the deep decimation: it takes a few times as long as that of
+  // an evaluation, and gains more than the last evaluations do.
+  double polish_seconds() const {
+    constexpr double kShare = 0.25;
+    if (!settings_.polish || settings_.decimator == "schroeder" || std::isinf(seconds_)) return 0;
+    return std::min(kShare * seconds_, surface_seconds_ + kPolishDecimations * decimation_seconds_);
+  }
+
+  bool may_polish() const {
+    if (state_.interrupted || !state_.device_failure.empty() || state_.target_reached) return false;
+    return settings_.seconds_left() > stopping_seconds() + surface_seconds_ + decimation_seconds_;
   }
 
   bool cut_short() const {
@@ -122,6 +146,7 @@ class Run {
   const LoggedEvaluation* logged(const Candidate& candidate) const {
     const LoggedEvaluation* known =
         settings_.log != nullptr ? settings_.log->find(candidate.index) : nullptr;
+    if (known != nullptr && known->stopped) return nullptr;
     if (known != nullptr && !same_bits(known->genes, candidate.genes)) {
       throw Error(settings_.log->folder().string() + ": evaluation " +
                   std::to_string(candidate.index) +
@@ -159,7 +184,7 @@ class Run {
   void polish() {
     const auto effort = std::ranges::find(problem_.genes, kBoundedEffort, &Gene::name);
     if (effort == problem_.genes.end()) return;
-    const std::uint64_t index = settings_.config.search.budget;
+    const std::uint64_t index = kPolishIndex;
     Genes deep = best_genes_;
     double& value = deep[static_cast<std::size_t>(effort - problem_.genes.begin())];
     if (value >= kDeepEffort) return;
@@ -169,22 +194,51 @@ class Run {
     const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
     std::optional<Result> result;
     // What is known may be of another best, where the run then ended elsewhere.
-    if (known != nullptr && same_bits(known->genes, deep)) {
+    if (known != nullptr && !known->stopped && same_bits(known->genes, deep)) {
       result = Result{*known, {}, {}};
     } else {
       state_.polishing = true;
+      state_.polish_seconds = surface_seconds_ + kPolishDecimations * decimation_seconds_;
       start_workers(1, kPolishTimes);
       pool_->submit(index, chain(deep));
       in_work_ = {{index, std::move(deep)}};
-      for (look_for_the_end(); !cut_short() && !result; look_for_the_end()) {
+      while (!result && !state_.interrupted && state_.device_failure.empty() &&
+             settings_.seconds_left() > stopping_seconds()) {
         observe_(state_);
         result = receive();
+        state_.interrupted = settings_.interrupted();
+      }
+      if (!result) {
+        for (Result& stopped : stop_workers()) result = std::move(stopped);
+        state_.polish_stopped = !state_.interrupted;
       }
       pool_.reset();
     }
     if (!result) return;
     if (!result->failed()) state_.polished = before;
     enter(std::move(*result));
+  }
+
+  // The meshes at hand of what is in work, as far as they come soon, where somebody waits for the
+  // end. The rest is given up: its workers end with the pool.
+  std::vector<Result> stop_workers() {
+    std::vector<Result> stopped;
+    if (pool_ && (state_.interrupted || state_.out_of_time || state_.polishing) &&
+        state_.device_failure.empty()) {
+      stopping_ = true;
+      pool_->stop();
+      constexpr double kPatience = 2;  // of whoever pressed Ctrl-C
+      const double most =
+          state_.interrupted ? std::min(kPatience, stopping_seconds()) : stopping_seconds();
+      const auto end = Clock::now() + std::chrono::duration<double>(most);
+      while (pool_->outstanding() > 0 && Clock::now() < end) {
+        std::optional<Result> result = receive();
+        if (result && !result->failed()) stopped.push_back(std::move(*result));
+      }
+      stopping_ = false;
+    }
+    pool_.reset();
+    return stopped;
   }
 
   void judge(std::variant<ChainResult, Failure> outcome, Result& result) {
@@ -196,6 +250,14 @@ class Run {
     }
     const ChainResult& made = std::get<ChainResult>(outcome);
     state_.stages += made.seconds;
+    e.stopped = made.stopped;
+    if (made.stopped) {
+      if (!state_.polishing) ++state_.stopped;
+    } else {
+      surface_seconds_ =
+          std::max(surface_seconds_, made.seconds.reconstruct + made.seconds.prepare);
+      decimation_seconds_ = std::max(decimation_seconds_, made.seconds.decimate);
+    }
     const MeshFormat format = mesh_format(settings_.output);
     const auto start = Clock::now();
     try {
@@ -203,7 +265,7 @@ class Run {
       result.mesh = as_stored(made.mesh, format);
       result.error = device_ != nullptr
                          ? constraint_.measure(result.mesh.view(), *device_, search_)
-                         : constraint_.measure(result.mesh.view(), settings_.interrupted);
+                         : constraint_.measure(result.mesh.view(), search_.interrupted);
     } catch (const DeviceFailure&) {
       throw;
     } catch (const Error& error) {
@@ -225,6 +287,7 @@ class Run {
     const bool may_be_best = !result.failed() && beats_the_best(result);
     if (!may_be_best) result.mesh = {};
     if (settings_.log == nullptr) return;
+    if (stopping_ && (result.failed() || (result.evaluation.stopped && !may_be_best))) return;
     if (may_be_best) {
       settings_.log->append(result.evaluation, result.mesh);
     } else {
@@ -251,13 +314,16 @@ class Run {
     if (settings_.log != nullptr) {
       const auto& logged = settings_.log->evaluations();
       for (auto e = logged.lower_bound(next_); e != logged.end(); ++e) {
+        if (e->second.stopped && !settings_.log->mesh(e->second)) continue;
         results_.try_emplace(e->first, Result{e->second, {}, {}});
       }
     }
-    const auto polished = results_.lower_bound(settings_.config.search.budget);
-    state_.evaluations =
-        next_ + static_cast<std::uint64_t>(std::distance(results_.begin(), polished));
-    for (auto& [index, result] : results_) enter(std::move(result));
+    state_.evaluations = next_;
+    for (auto& [index, result] : results_) {
+      state_.evaluations += index < kPolishIndex && !result.evaluation.stopped ? 1 : 0;
+      enter(std::move(result));
+    }
+    results_.clear();
   }
 
   bool beats_the_best(const Result& result) const {
@@ -305,14 +371,29 @@ class Run {
     if (settings_.log != nullptr && !entering_the_rest_) settings_.log->drop_mesh(index);
   }
 
+  // A best mesh that the folder has is there for the observer, too.
+  void load_best() {
+    if (!state_.best || !state_.best->mesh.triangles.empty() || settings_.log == nullptr) return;
+    if (looked_for_ == state_.best->index) return;
+    looked_for_ = state_.best->index;
+    std::optional<TriangleMesh> mesh = settings_.log->mesh(*settings_.log->find(*looked_for_));
+    if (!mesh) return;
+    state_.best->mesh = std::move(*mesh);
+    check_restored(*state_.best);
+  }
+
   // The mesh of an evaluation that an earlier process made: from the folder, or made again.
   void restore(BestMesh& best) {
     const LoggedEvaluation& known = *settings_.log->find(best.index);
     std::optional<TriangleMesh> mesh = settings_.log->mesh(known);
     best.mesh = mesh ? std::move(*mesh) : make_again(known);
+    check_restored(best);
+  }
+
+  void check_restored(BestMesh& best) {
     best.error = constraint_.measure(best.mesh.view());
-    if (best.mesh.triangles.size() != known.triangles ||
-        best.error.kept.squared_bits != known.squared_bits) {
+    if (best.mesh.triangles.size() != best.triangles ||
+        best.error.kept.squared_bits != best.squared_bits) {
       throw Error(settings_.log->folder().string() + ": the mesh of evaluation " +
                   std::to_string(best.index) +
                   " is lost, and made again it is another; run the search anew");
@@ -320,7 +401,7 @@ class Run {
   }
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
-    start_workers(1, known.index == settings_.config.search.budget ? kPolishTimes : 1);
+    start_workers(1, known.index == kPolishIndex ? kPolishTimes : 1);
     pool_->submit(known.index, chain(known.genes));
     Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();
@@ -339,16 +420,19 @@ class Run {
   const OptimizeSettings& settings_;
   const OptimizeObserver& observe_;
   const Problem problem_;
-  const Clock::time_point start_ = Clock::now();
+  const double seconds_ = settings_.seconds_left();
   Genocop genocop_;
   LookAheadScheduler scheduler_;
   std::optional<WorkerPool> pool_;
   SearchOptions search_;
+  bool stopping_ = false;
+  double surface_seconds_ = 0, decimation_seconds_ = 0;  // the most that an evaluation took
   OptimizeState state_;
   Genes best_genes_;
   std::map<std::uint64_t, Genes> in_work_;
   std::map<std::uint64_t, Result> results_;  // not entered yet
   std::uint64_t next_ = 0;                   // to enter
+  std::optional<std::uint64_t> looked_for_;  // the last best whose mesh was asked of the folder
   std::uint64_t improved_ = 0;               // behind the evaluation that was the last better one
   bool entering_the_rest_ = false;
 };

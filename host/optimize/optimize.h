@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -36,11 +37,11 @@ struct OptimizeSettings {
   RunLog* log = nullptr;                   // where results are kept and looked for
   // What else ends the search. Target and stagnation look at results in the order of their
   // candidates, so that the end does not depend on the number of jobs.
-  std::optional<std::chrono::duration<double>> time;
+  std::function<double()> seconds_left = [] { return HUGE_VAL; };  // for all of it, the end too
   std::optional<std::uint64_t> target_triangles;  // a feasible mesh of at most so many
   std::optional<std::uint64_t> stagnation;        // so many evaluations without a better mesh
   // The best mesh of the bounded decimator is decimated once more in the end, deep, unless the run
-  // was cut short, is out of time or has reached its target.
+  // was interrupted, failed or has reached its target. Of limited time the last part is for that.
   bool polish = true;
   std::filesystem::path output;  // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
@@ -64,6 +65,7 @@ struct BestMesh {
 struct OptimizeState {
   std::uint64_t evaluations = 0;  // completed, failed and repeated ones included
   std::uint64_t from_log = 0;     // of these, known before
+  std::uint64_t stopped = 0;      // evaluations that were cut short, and gave the mesh at hand
   std::uint64_t budget = 0;
   std::map<std::string, std::uint64_t> failures;  // by reason
   std::string last_failure;
@@ -71,7 +73,9 @@ struct OptimizeState {
   std::optional<BestMesh> least_error;  // the least violation of the meshes before that
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   bool polishing = false;               // has begun to
+  double polish_seconds = 0;            // that it is expected to take
   std::optional<std::size_t> polished;  // has, without a failure; the triangles before that
+  bool polish_stopped = false;          // for want of time
   std::string device_failure;           // that ended the run
   // What evaluations that were made took: their stages in the workers, e_max here.
   StageSeconds stages;
@@ -80,6 +84,9 @@ struct OptimizeState {
 
 // Called after every evaluation and, while workers are waited for, every tenth of a second.
 using OptimizeObserver = std::function<void(const OptimizeState&)>;
+
+// The record in a run's log that is the best mesh decimated deep.
+inline constexpr std::uint64_t kPolishIndex = 1'000'000'000'000;
 
 // How often, while workers are waited for, an observer is called and an interrupt looked for.
 inline constexpr std::chrono::milliseconds kHeartbeat{100};
@@ -106,7 +113,9 @@ double violation_of(const ChainResult& made, const MeasuredError& error,
 // Evaluations run in worker processes; e_max is measured here, on the device or, without one, on
 // this processor. A run that ends by its budget, target or stagnation gives the same state for any
 // number of jobs and any device, and so does one that continues from its log, however often it was
-// cut short: candidates are asked for again, and what the log knows is not evaluated again. Of best
+// cut short: candidates are asked for again, and what the log knows is not evaluated again. Out of
+// time or interrupted, it takes the meshes at hand of what is in work, whose evaluations a
+// continued run makes again. Of best
 // and least_error, the one that is to be shown has its mesh in the end. Throws Error when workers
 // cannot run, where `output` would round more than epsilon allows, and when the log cannot be
 // written or belongs to another search.

@@ -1,6 +1,7 @@
 #include "host/run_log/run_log.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -48,6 +49,7 @@ std::optional<std::uint64_t> index_of_mesh(const fs::path& path) {
 }
 
 constexpr const char* kNotSaid = "not said";
+constexpr const char* kBudgets = "budgets";  // "20 40": what may grow, so it is not compared
 
 ordered_json settings_in(const fs::path& folder) {
   const fs::path path = folder / kSettingsName;
@@ -79,6 +81,7 @@ std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
     json["e_max_squared_bits"] = e.squared_bits;
     json["reconstruction_triangles"] = e.reconstruction_triangles;
     json["unmeshed_points"] = e.unmeshed_points;
+    if (e.stopped) json["stopped"] = true;
     if (e.mesh_crc) json["mesh_crc32"] = *e.mesh_crc;
   }
   return ordered_json::to_cbor(json);
@@ -103,6 +106,7 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
     json.at("e_max_squared_bits").get_to(e.squared_bits);
     json.at("reconstruction_triangles").get_to(e.reconstruction_triangles);
     json.at("unmeshed_points").get_to(e.unmeshed_points);
+    e.stopped = json.value("stopped", false);
     if (json.contains("mesh_crc32")) e.mesh_crc = json.at("mesh_crc32").get<std::uint32_t>();
     return e;
   } catch (const nlohmann::json::exception& error) {
@@ -180,6 +184,7 @@ void RunLog::compare(const RunSettings& settings) const {
     if (then != value && !value.empty()) differs(name, then, value);
     there.erase(name);
   }
+  there.erase(kBudgets);
   for (const auto& [name, value] : there.items()) {
     differs(name, value.get<std::string>(), kNotSaid);
   }
@@ -200,6 +205,21 @@ void RunLog::settle(const std::string& name, const std::string& value) {
   if (!evaluations_.empty()) differs(name, then, value);
   there[name] = value;
   write_settings(folder_, there);
+}
+
+std::vector<std::size_t> RunLog::give_budget(std::size_t budget) {
+  ordered_json there = settings_in(folder_);
+  std::vector<std::size_t> budgets;
+  if (!evaluations_.empty()) {
+    std::istringstream text(there.value(kBudgets, std::string()));
+    for (std::size_t earlier = 0; text >> earlier;) budgets.push_back(earlier);
+  }
+  if (budgets.empty() || budget > budgets.back()) {
+    budgets.push_back(budget);
+    there[kBudgets] = fmt::format("{}", fmt::join(budgets, " "));
+    write_settings(folder_, there);
+  }
+  return budgets;
 }
 
 // Those without an evaluation were cut off from it by a kill.

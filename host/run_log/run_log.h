@@ -29,6 +29,7 @@ struct LoggedEvaluation {
   double violation = 0;            // as MeasuredError has it; at most 0 when feasible
   std::uint32_t squared_bits = 0;  // the kernel's e_max^2 over the points that are kept
   std::uint64_t reconstruction_triangles = 0, unmeshed_points = 0;
+  bool stopped = false;  // before its end: good for a mesh, but no result of the candidate
   std::optional<std::uint32_t> mesh_crc;  // CRC-32 of the mesh's file, where that was kept
 
   bool operator==(const LoggedEvaluation&) const = default;
@@ -49,6 +50,11 @@ class RunLog {
 
   // What is found out only after the folder was opened. Throws Error as the constructor does.
   void settle(const std::string& name, const std::string& value);
+
+  // The budgets that the search here has been given, ascending, this one among them if it is larger
+  // than those before. A folder without evaluations has had none. Throws Error when it cannot be
+  // written.
+  std::vector<std::size_t> give_budget(std::size_t budget);
 
   const std::filesystem::path& folder() const { return folder_; }
   std::size_t size() const { return evaluations_.size(); }  // evaluations

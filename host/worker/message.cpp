@@ -61,6 +61,8 @@ json to_json(const RunMessage& m) {
           {"parameters", m.settings.parameters}};
 }
 
+json to_json(const StopMessage&) { return {{"kind", "stop"}}; }
+
 json to_json(const ReadyMessage&) { return {{"kind", "ready"}}; }
 
 json to_json(const MeshMessage& m) {
@@ -74,6 +76,7 @@ json to_json(const MeshMessage& m) {
           {"topology_difference", m.result.topology_difference},
           {"back_distance", m.result.back_distance},
           {"reference_distance", m.result.reference_distance},
+          {"stopped", m.result.stopped},
           {"seconds", {t.reconstruct, t.prepare, t.decimate, t.check}}};
 }
 
@@ -124,6 +127,7 @@ Message mesh_from_json(const json& j) {
   m.result.topology_difference = count_from(j.at("topology_difference"));
   m.result.back_distance = distance_from(j.at("back_distance"));
   m.result.reference_distance = distance_from(j.at("reference_distance"));
+  j.at("stopped").get_to(m.result.stopped);
   const json& seconds = j.at("seconds");
   m.result.seconds = {seconds.at(0), seconds.at(1), seconds.at(2), seconds.at(3)};
   return m;
@@ -167,6 +171,7 @@ Message from_json(const json& j) {
         count_from(j.at("ticket")),
         {j.at("method"), j.at("decimator"), j.at("parameters").get<ParameterValues>()}};
   }
+  if (kind == "stop") return StopMessage{};
   if (kind == "ready") return ReadyMessage{};
   if (kind == "mesh") return mesh_from_json(j);
   if (kind == "failure") {

@@ -17,16 +17,18 @@
 //    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
 //    once
 //   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number}}
+//   {"kind": "stop"}                                                 to a worker: the mesh at hand
 //   {"kind": "ready"}                                                from a worker, first and once
 //   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
 //    "reconstruction_triangles": n, "unmeshed_points": n,
-//    "topology_difference": n, "back_distance": number,
-//    "reference_distance": number, "seconds": [number, 4 of them]}    the answer to "run", or:
+//    "topology_difference": n, "back_distance": number, "reference_distance": number,
+//    "stopped": boolean, "seconds": [number, 4 of them]}              the answer to "run", or:
 //   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
 //   {"kind": "unusable", "message": s}                               no evaluation can be made here
 // P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
 // indices a triangle. I: byte string of such indices. A worker answers one "run" before it reads
-// the next.
+// the next. "stop" says nothing to a worker that has answered; one that decimates ends it and
+// answers with the mesh that it has.
 
 namespace emax {
 
@@ -48,6 +50,7 @@ struct RunMessage {
   std::uint64_t ticket;
   ChainSettings settings;
 };
+struct StopMessage {};
 struct ReadyMessage {};
 struct MeshMessage {
   std::uint64_t ticket;
@@ -61,8 +64,8 @@ struct UnusableMessage {
   std::string message;
 };
 
-using Message = std::variant<PointsMessage, RunMessage, ReadyMessage, MeshMessage, FailureMessage,
-                             UnusableMessage>;
+using Message = std::variant<PointsMessage, RunMessage, StopMessage, ReadyMessage, MeshMessage,
+                             FailureMessage, UnusableMessage>;
 using Bytes = std::vector<std::uint8_t>;
 
 inline constexpr std::size_t kLengthBytes = 8;

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -84,11 +85,33 @@ PointsMessage read_points() {
   return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes)));
 }
 
+// Whether the program asks for the mesh at hand. Nothing else can arrive during a run.
+bool asked_to_stop() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kBetween{5};
+  static Clock::time_point next;
+  const Clock::time_point now = Clock::now();
+  if (now < next) return false;
+  pollfd channel{kChannelFd, POLLIN, 0};
+  if (poll(&channel, 1, 0) > 0) return true;
+  next = now + kBetween;
+  return false;
+}
+
+// The next run. What asks to stop one that has been answered comes too late.
+RunMessage next_run() {
+  while (true) {
+    Message message = receive();
+    if (!std::holds_alternative<StopMessage>(message))
+      return std::get<RunMessage>(std::move(message));
+  }
+}
+
 // The answer's bytes, which take memory too.
 Bytes evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
   try {
     if (allow_test_methods) run_test_method(run.settings, kChannelFd);
-    return encode(MeshMessage{run.ticket, chain.run(run.settings)});
+    return encode(MeshMessage{run.ticket, chain.run(run.settings, asked_to_stop)});
   } catch (const std::bad_alloc&) {
     return encode(FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}});
   } catch (const std::exception& e) {
@@ -100,7 +123,7 @@ Bytes evaluate(Chain& chain, const RunMessage& run, bool allow_test_methods) {
 [[noreturn]] void answer_requests(Chain& chain, bool allow_test_methods) {
   try {
     for (bool first = true;; first = false) {
-      const Bytes answer = evaluate(chain, std::get<RunMessage>(receive()), allow_test_methods);
+      const Bytes answer = evaluate(chain, next_run(), allow_test_methods);
       // A library may have changed the rounding or flush mode when it was first used.
       if (first) verify_arithmetic();
       send(answer);

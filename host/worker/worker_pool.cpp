@@ -79,6 +79,14 @@ class WorkerPool::Implementation {
     return first;
   }
 
+  void stop() {
+    queue_.clear();
+    const Bytes message = encode(StopMessage{});
+    for (Worker& worker : workers_) {
+      if (worker.run) worker.process->send(message);
+    }
+  }
+
   std::size_t outstanding() const {
     const auto busy = std::count_if(workers_.begin(), workers_.end(),
                                     [](const Worker& w) { return w.run.has_value(); });
@@ -291,6 +299,8 @@ Completed WorkerPool::wait() {
 std::optional<Completed> WorkerPool::wait_for(std::chrono::milliseconds duration) {
   return implementation_->wait_until(Clock::now() + duration);
 }
+
+void WorkerPool::stop() { implementation_->stop(); }
 
 std::size_t WorkerPool::outstanding() const { return implementation_->outstanding(); }
 

@@ -54,6 +54,10 @@ class WorkerPool {
   // The same, but nothing when `duration` passes or a signal arrives first.
   std::optional<Completed> wait_for(std::chrono::milliseconds duration);
 
+  // What is queued is given up, and what is decimated is to complete soon, with the mesh at hand:
+  // see ChainResult::stopped.
+  void stop();
+
   // Submitted and not yet returned.
   std::size_t outstanding() const;
 

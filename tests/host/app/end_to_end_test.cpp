@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -341,6 +342,25 @@ TEST_F(EndToEnd, TimeLimitWritesTheBestSoFar) {
   EXPECT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_NE(run.output.find("out of time"), std::string::npos) << run.output;
   EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+}
+
+// All of it: reading, the reference, the search, the deep decimation and the certificate.
+TEST_F(EndToEnd, TimeIsKept) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramRun run = emax({"optimize", "scan.xyz", "--max-error", "1%", "-o", "mesh.ply",
+                               "--budget", "100000", "--time", "6"});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_LT(took.count(), 8);
+  EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
+
+  const ProgramRun hasty =
+      emax({"optimize", "scan.xyz", "--max-error", "3%", "-o", "none.ply", "--time", "0.001"});
+  EXPECT_EQ(hasty.exit_code, 1);
+  EXPECT_NE(hasty.errors.find("--time ended while the reference surface was made"),
+            std::string::npos)
+      << hasty.errors;
+  EXPECT_FALSE(exists("none.ply"));
 }
 
 TEST_F(EndToEnd, AllMethodsAndMeshFormats) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -36,6 +37,11 @@ class Resume : public testing::Test {
   static std::string first_line(const ProgramRun& run) {
     return run.output.substr(0, run.output.find('\n'));
   }
+  // Of a certificate, which may be replaced meanwhile.
+  std::size_t triangles_in(const std::string& name) {
+    const auto certificate = nlohmann::json::parse(test::file_text(folder_ / name), nullptr, false);
+    return certificate.is_discarded() ? 0 : certificate.at("triangles").get<std::size_t>();
+  }
   // Waits until so many bytes are in a log.
   void await(const std::string& log, std::uintmax_t bytes) {
     std::error_code absent;
@@ -59,6 +65,32 @@ TEST_F(Resume, AFolderIsCreatedAndContinued) {
   const ProgramRun again = optimize({"--resume", "night", "--jobs", "1"});
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(first_line(again), "run            continues in night: 20 of 20 evaluations are there");
+  EXPECT_EQ(result(), expected);
+}
+
+// The evaluations that are there serve a larger budget, and the end is the same however often and
+// wherever the run was cut on its way, as the budgets one after the other decide it.
+TEST_F(Resume, ALargerBudgetGoesOnFromTheFolder) {
+  const auto with = [this](const std::string& budget, const std::string& folder) {
+    const ProgramRun run =
+        test::run_emax(command({"--resume", folder}, "mesh.ply", budget), folder_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    return run;
+  };
+  with("20", "night");
+  const ProgramRun more = with("40", "night");
+  EXPECT_EQ(first_line(more), "run            continues in night: 20 of 40 evaluations are there");
+  const std::string expected = result();
+
+  test::EmaxProcess process(command({"--resume", "day"}, "mesh.ply", "20"), folder_.path());
+  await("day/evaluations.log", 1000);
+  process.signal(SIGKILL);
+  process.wait();
+  with("40", "day");
+  EXPECT_EQ(result(), expected);
+  // What is there already is more than enough for a smaller one.
+  EXPECT_NE(with("10", "day").output.find("evaluations    10 in"), std::string::npos);
+  with("40", "day");
   EXPECT_EQ(result(), expected);
 }
 
@@ -153,6 +185,32 @@ TEST_F(Resume, ASignalWritesTheBestSoFar) {
       << cut.output;
 }
 
+// From the reference on there is a certified mesh, whatever ends the program and when, and better
+// ones take its place.
+TEST_F(Resume, AKilledSearchLeavesACertifiedMesh) {
+  const auto endless = command({"--resume", "night"}, "mesh.ply", "100000");
+  const auto kill_and_count = [&](const std::function<void(test::EmaxProcess&)>& until) {
+    test::EmaxProcess process(endless, folder_.path());
+    until(process);
+    process.signal(SIGKILL);
+    process.wait();
+    EXPECT_EQ(test::run_emax({"verify", "mesh.ply.certificate.json"}, folder_.path()).exit_code, 0);
+    return triangles_in("mesh.ply.certificate.json");
+  };
+  const std::size_t reference = kill_and_count(
+      [](test::EmaxProcess& process) { process.await_output("certified and written"); });
+  const auto better_is_there = [&](test::EmaxProcess&) {
+    for (int i = 0; i < 60'000 && triangles_in("mesh.ply.certificate.json") >= reference; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  const std::size_t better = kill_and_count(better_is_there);
+  EXPECT_LT(better, reference);
+  // What is there already is no worse for being continued.
+  EXPECT_LE(kill_and_count([](test::EmaxProcess& process) { process.await_output("reference "); }),
+            better);
+}
+
 TEST_F(Resume, ATornFirstRecordIsSaid) {
   const auto endless = command({"--resume", "night"}, "mesh.ply", "100000");
   test::EmaxProcess process(endless, folder_.path());
@@ -180,7 +238,7 @@ TEST_F(Resume, AMeshThatCannotBeWrittenIsNotLost) {
   const auto arguments = command({"--resume", "night"}, "out/mesh.ply", "40");
   test::EmaxProcess process(arguments, folder_.path());
   await("night/evaluations.log", 1000);
-  std::filesystem::remove(folder_ / "out");
+  std::filesystem::remove_all(folder_ / "out");
   const ProgramRun lost = process.wait();
   EXPECT_EQ(lost.exit_code, 1);
   EXPECT_NE(lost.errors.find("out/mesh.ply"), std::string::npos) << lost.errors;
@@ -193,6 +251,22 @@ TEST_F(Resume, AMeshThatCannotBeWrittenIsNotLost) {
   EXPECT_NE(first_line(again).find("40 of 40"), std::string::npos) << again.output;
   ASSERT_EQ(test::run_emax(command({}, "mesh.ply", "40"), folder_.path()).exit_code, 0);
   EXPECT_EQ(test::bytes_of(folder_ / "out" / "mesh.ply"), test::bytes_of(folder_ / "mesh.ply"));
+}
+
+TEST_F(Resume, EffortChoosesTheBudget) {
+  const auto evaluations = [this](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"optimize", "scan.xyz", "--max-error", "5%",
+                                          "-o",       "mesh.ply", "--json",      "r.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = test::run_emax(arguments, folder_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_EQ(run.output.find("polished") == std::string::npos, more[1] == "quick") << run.output;
+    return nlohmann::json::parse(test::bytes_of(folder_ / "r.json")).at("evaluations").get<int>();
+  };
+  EXPECT_EQ(evaluations({"--effort", "quick"}), 1);
+  EXPECT_EQ(evaluations({"--effort", "deep", "--budget", "2"}), 2);
+  folder_.write("few.toml", "[search]\nbudget = 3\n");
+  EXPECT_EQ(evaluations({"--effort", "normal", "--config", "few.toml"}), 3);
 }
 
 TEST_F(Resume, StopsAndLimitsAreSaid) {

@@ -183,7 +183,7 @@ TEST(BoundedStage, DropsPiecesThatNoPointNeeds) {
   const TriangleMesh start = stage.without_needless(surface);
   EXPECT_EQ(components(start), 3u);
   const TriangleMesh mesh =
-      stage.decimate(start, standard_values(decimation_parameters("bounded")));
+      stage.decimate(start, standard_values(decimation_parameters("bounded"))).mesh;
   EXPECT_EQ(components(mesh), 2u);
   EXPECT_LE(certify(surface.vertices, mesh.view()).e_max_upper, bound.epsilon);
 }

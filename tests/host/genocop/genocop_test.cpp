@@ -44,6 +44,24 @@ TEST(Genocop, NoCandidateLeavesTheDomainInTenThousand) {
   EXPECT_GT(checked, 9000u);  // the rest were repeats, answered without an evaluation
 }
 
+TEST(Genocop, ALargerBudgetKeepsTheCandidatesOfTheSmaller) {
+  const auto candidates = [](std::size_t budget, const std::vector<std::size_t>& earlier) {
+    Settings settings;
+    settings.budget = budget;
+    settings.earlier_budgets = earlier;
+    std::vector<Genes> genes;
+    run_search(mixed(), settings, 57, [&](const Genocop&, const Candidate& c, const Evaluation&) {
+      genes.push_back(c.genes);
+    });
+    return genes;
+  };
+  const auto shorter = candidates(120, {}), longer = candidates(300, {120, 300});
+  ASSERT_LT(shorter.size(), longer.size());
+  EXPECT_TRUE(std::equal(shorter.begin(), shorter.end(), longer.begin()));
+  EXPECT_NE(candidates(300, {}), longer);  // whose operators shrink later
+  EXPECT_EQ(candidates(120, {120, 300}), shorter);
+}
+
 TEST(Genocop, NoPointIsHandedOutTwice) {
   Settings settings;
   settings.budget = 3000;

@@ -238,6 +238,43 @@ TEST_F(OptimizeTest, AMeshThatIsLostIsMadeAgain) {
   expect_same(run(&log), whole);
 }
 
+// Out of time, what is decimated gives the mesh at hand, which may be the result, but is no result
+// of its candidate: the run goes on to the same end as one that was not cut short.
+TEST_F(OptimizeTest, OutOfTimeTakesTheMeshesAtHand) {
+  settings_.decimator = "bounded";
+  settings_.config = default_config(chain_parameters("gp3", "bounded"));
+  settings_.config.search.budget = 3;
+  settings_.bound.epsilon = 0.05;
+  settings_.jobs = 1;
+  const OptimizeState whole = run();
+  EXPECT_EQ(whole.stopped, 0u);
+
+  // Before anything was evaluated.
+  settings_.polish = false;
+  bool handed_out = false;
+  settings_.seconds_left = [&] { return handed_out ? 0 : 1e9; };
+  RunLog log(path_, kSettings);
+  settings_.log = &log;
+  const OptimizeState cut = optimize(cloud_, constraint_, device_, settings_,
+                                     [&](const OptimizeState&) { handed_out = true; });
+  EXPECT_TRUE(cut.out_of_time);
+  if (cut.stopped > 0) {
+    EXPECT_EQ(cut.evaluations, 0u);
+    ASSERT_TRUE(cut.best);
+    EXPECT_TRUE(log.find(cut.best->index)->stopped);
+    EXPECT_FALSE(cut.best->mesh.triangles.empty());
+    // As an earlier process left it.
+    const OptimizeState again = run(&log);
+    EXPECT_EQ(again.evaluations, 0u);
+    ASSERT_TRUE(again.best);
+    EXPECT_LE(again.best->triangles, cut.best->triangles);
+  }
+  settings_.polish = true;
+  settings_.seconds_left = [] { return HUGE_VAL; };
+  expect_same(run(&log), whole);
+  for (const auto& [index, e] : log.evaluations()) EXPECT_FALSE(e.stopped) << index;
+}
+
 // As when the libraries have changed although the settings name the same.
 TEST_F(OptimizeTest, AMeshThatIsMadeAgainMustBeTheSame) {
   std::uint64_t best = 0;
@@ -335,7 +372,7 @@ TEST_F(OptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   interrupted = true;
   EXPECT_EQ(run(&log).evaluations, settings_.config.search.budget);
   interrupted = false;
-  const LoggedEvaluation made = *log.find(3);
+  const LoggedEvaluation made = *log.find(kPolishIndex);
   LoggedEvaluation in_vain = made;
   in_vain.triangles = plain.best->triangles;
   log.append(in_vain);
@@ -343,7 +380,7 @@ TEST_F(OptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   EXPECT_EQ(same.polished, plain.best->triangles);
   EXPECT_TRUE(same_bytes(same.best->mesh, plain.best->mesh));
   LoggedEvaluation failed;
-  failed.index = 3;
+  failed.index = kPolishIndex;
   failed.genes = made.genes;
   failed.failure = "timed out";
   log.append(failed);
@@ -391,6 +428,22 @@ TEST_F(OptimizeTest, AFailedDeviceIsNotLogged) {
   EXPECT_TRUE(cut.failures.empty());
   device_ = nullptr;
   expect_same(run(&log), whole);
+}
+
+TEST(SearchBudget, FollowsEffortAndPoints) {
+  using enum SearchEffort;
+  EXPECT_EQ(search_budget(kQuick, 1'000'000, false, {}), 1u);
+  EXPECT_EQ(search_budget(kQuick, 1'000, false, 77), 1u);
+  EXPECT_GT(search_budget(kQuick, 1'000, true, {}), 1u);
+  EXPECT_EQ(search_budget(kNormal, 1'000, false, 77), 77u);
+  EXPECT_EQ(search_budget(kDeep, 1'000'000, false, 77), 308u);
+  for (const bool decimation : {false, true}) {
+    const std::uint64_t normal = search_budget(kNormal, 100'000, decimation, {});
+    EXPECT_EQ(search_budget(kNormal, 3, decimation, {}), normal);
+    EXPECT_EQ(search_budget(kDeep, 3, decimation, {}), 4 * normal);
+    EXPECT_EQ(search_budget(kNormal, 200'000, decimation, {}), normal / 2);
+    EXPECT_EQ(search_budget(kNormal, 100'000'000, decimation, {}), normal / 5);
+  }
 }
 
 TEST(EvaluationLimits, GrowWithTheCloud) {

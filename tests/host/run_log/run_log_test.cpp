@@ -48,6 +48,22 @@ class RunLogTest : public testing::Test {
   const std::filesystem::path path_ = folder_ / "mesh.ply.run";
 };
 
+TEST(RunLog, KeepsTheBudgetsThatGrow) {
+  TemporaryFolder folder;
+  using Budgets = std::vector<std::size_t>;
+  {
+    RunLog log(folder / "run", {{"of", "the test"}});
+    EXPECT_EQ(log.give_budget(7), Budgets{7});
+    EXPECT_EQ(log.give_budget(20), Budgets{20});  // nothing was evaluated under the other
+    log.append(measured(0));
+    EXPECT_EQ(log.give_budget(20), Budgets{20});
+    EXPECT_EQ(log.give_budget(40), (Budgets{20, 40}));
+  }
+  RunLog log(folder / "run", {{"of", "the test"}});
+  EXPECT_EQ(log.give_budget(30), (Budgets{20, 40}));
+  EXPECT_EQ(log.give_budget(150), (Budgets{20, 40, 150}));
+}
+
 TEST(LoggedEvaluation, KeepsEveryBit) {
   for (const LoggedEvaluation& sent : {measured(3), failed(~std::uint64_t{0})}) {
     const LoggedEvaluation got = decode_evaluation(encode(sent));
@@ -58,6 +74,8 @@ TEST(LoggedEvaluation, KeepsEveryBit) {
     }
   }
   LoggedEvaluation e = measured(1);
+  e.stopped = true;
+  EXPECT_EQ(decode_evaluation(encode(e)), e);
   e.mesh_crc = 0xffffffff;
   for (const double violation : {-0.0, 5e-324, 1e300, std::numeric_limits<double>::infinity()}) {
     e.violation = violation;

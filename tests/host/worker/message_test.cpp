@@ -68,11 +68,14 @@ TEST(Message, CarriesAMesh) {
   sent.result.topology_difference = 7;
   sent.result.back_distance = 0.1;
   sent.result.reference_distance = 0.2;
+  sent.result.stopped = true;
   sent.result.seconds = {1, 2, 3, 4.5};
   const MeshMessage got = round_trip(sent);
   EXPECT_EQ(got.result.topology_difference, 7u);
   EXPECT_EQ(got.result.back_distance, 0.1);
   EXPECT_EQ(got.result.reference_distance, 0.2);
+  EXPECT_TRUE(got.result.stopped);
+  EXPECT_FALSE(round_trip(tetrahedron()).result.stopped);
   EXPECT_EQ(got.result.seconds.prepare, 2);
   EXPECT_EQ(got.result.seconds.sum(), 10.5);
   EXPECT_EQ(got.ticket, 7u);
@@ -90,6 +93,7 @@ TEST(Message, CarriesFailures) {
   }
   EXPECT_EQ(round_trip(UnusableMessage{"bad"}).message, "bad");
   round_trip(ReadyMessage{});
+  round_trip(StopMessage{});
 }
 
 TEST(Message, RefusesEveryTruncation) {

@@ -79,6 +79,36 @@ TEST(WorkerPool, GivesTheSameMeshesForAnyNumberOfJobs) {
   }
 }
 
+// A decimation that is stopped gives the mesh at hand, and its worker goes on as if nothing had
+// been; one that has answered, or that nobody decimates, hears nothing of it.
+TEST(WorkerPool, StopsADecimationWithItsMesh) {
+  const std::vector<Point> cloud = torus_cloud(60, 30);
+  ChainSettings bounded{"gp3", "bounded", standard_values(chain_parameters("gp3", "bounded"))};
+  WorkerPool pool(cloud, {0.05, 0, {}, {}}, options(1));
+  const auto next = [&pool] { return std::get<ChainResult>(pool.wait().outcome); };
+  pool.submit(0, bounded);
+  const ChainResult whole = next();
+  EXPECT_FALSE(whole.stopped);
+  pool.stop();  // which has nothing to do
+
+  bounded.parameters["bounded.flatness"] = 2e-3;
+  pool.submit(1, bounded);
+  pool.submit(2, bounded);
+  pool.stop();
+  EXPECT_EQ(pool.outstanding(), 1u);  // what was queued is given up
+  const ChainResult stopped = next();
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_GT(stopped.mesh.triangles.size(), whole.mesh.triangles.size());
+
+  bounded.parameters["bounded.flatness"] = 1e-3;
+  pool.submit(3, bounded);
+  EXPECT_TRUE(same_bytes(next().mesh, whole.mesh));
+
+  pool.submit(4, settings("gp3"));
+  pool.stop();
+  EXPECT_FALSE(next().stopped);
+}
+
 // No process may run it twice: a worker that has goes on with what it made, or is replaced.
 TEST(WorkerPool, RunsPoissonAgainAndAgain) {
   ChainSettings other = settings("poisson");

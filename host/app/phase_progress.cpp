@@ -1,0 +1,126 @@
+#include "host/app/phase_progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <system_error>
+
+#include "host/app/standard_streams.h"
+
+namespace emax {
+namespace {
+
+constexpr std::chrono::milliseconds kSilence{1500};  // at the beginning of a phase
+constexpr std::chrono::milliseconds kOnTerminal{200};
+constexpr std::chrono::seconds kElsewhere{10};
+
+}  // namespace
+
+std::string minutes(double seconds) {
+  const long whole = std::lround(seconds);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+double expected_share(double elapsed, double expected) {
+  constexpr double kKnown = 0.9;  // what the expectation covers
+  if (!(expected > 0)) return 0;
+  const double part = elapsed / expected;
+  if (part <= 1) return kKnown * part;
+  return 1 - (1 - kKnown) * std::exp(1 - part);
+}
+
+double reading_seconds(const std::filesystem::path& file) {
+  constexpr double kBytesPerSecond = 3e7;  // of text
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+  return unknown ? 0 : static_cast<double>(bytes) / kBytesPerSecond;
+}
+
+double reference_seconds(std::size_t points) { return 4e-5 * static_cast<double>(points); }
+
+double joining_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }
+
+double certifying_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }
+
+PhaseProgress::PhaseProgress()
+    : terminal_(standard_error_is_terminal()), thread_([this] { speak(); }) {}
+
+PhaseProgress::~PhaseProgress() {
+  {
+    const std::scoped_lock lock(mutex_);
+    leaving_ = true;
+    clear_line();
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void PhaseProgress::begin(std::string_view what, double seconds) {
+  {
+    const std::scoped_lock lock(mutex_);
+    clear_line();
+    phase_ = what;
+    detail_.clear();
+    expected_ = seconds;
+    share_ = 0;
+    known_share_.reset();
+    start_ = Clock::now();
+    next_ = start_ + kSilence;
+  }
+  changed_.notify_all();
+}
+
+void PhaseProgress::advance(double share, std::string_view detail) {
+  const std::scoped_lock lock(mutex_);
+  known_share_ = share;
+  detail_ = detail;
+}
+
+void PhaseProgress::end() {
+  const std::scoped_lock lock(mutex_);
+  clear_line();
+  phase_.clear();
+}
+
+void PhaseProgress::clear_line() {
+  if (open_line_) to_standard_error("\r\033[K");
+  open_line_ = false;
+}
+
+std::string PhaseProgress::line() const {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  std::string text = fmt::format("{}: {}", phase_, minutes(elapsed));
+  if (share_ > 0.005) {
+    text += fmt::format(", {:.0f}%, about {} left", std::floor(100 * share_),
+                        minutes(elapsed * (1 - share_) / share_));
+  } else {
+    text += ", estimating the time left";
+  }
+  return detail_.empty() ? text : text + ", " + detail_;
+}
+
+void PhaseProgress::speak() {
+  sigset_t all;  // signals are for whoever waits for them
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  std::unique_lock lock(mutex_);
+  while (!leaving_) {
+    if (phase_.empty()) {
+      changed_.wait(lock);
+      continue;
+    }
+    if (Clock::now() < next_) {
+      changed_.wait_until(lock, next_);
+      continue;  // it may be another phase now
+    }
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    share_ = std::max(share_, known_share_.value_or(expected_share(elapsed, expected_)));
+    to_standard_error(terminal_ ? "\r\033[K" + fit_terminal(line()) : line() + "\n");
+    open_line_ = terminal_;
+    next_ = Clock::now() + (terminal_ ? Clock::duration(kOnTerminal) : Clock::duration(kElsewhere));
+  }
+}
+
+}  // namespace emax
