@@ -103,10 +103,10 @@ Problem search_problem(const OptimizeSettings& settings);
 ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
                        const Genes& genes);
 
-// By what share the worst of the bounds is broken: e_max; under a two-sided bound also the distances
-// of the mesh from the reference and of the reference from the mesh. With another topology than the
-// reference's at least the share that the difference has of one more than itself. At most 0 when
-// feasible.
+// By what share the worst of the bounds is broken: e_max; under a two-sided bound also the
+// distances of the mesh from the reference and of the reference from the mesh. With another
+// topology than the reference's at least the share that the difference has of one more than itself.
+// At most 0 when feasible.
 double violation_of(const ChainResult& made, const MeasuredError& error,
                     const DecimationBound& bound);
 

@@ -16,8 +16,9 @@
 namespace emax {
 namespace {
 
-double median_spacing(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
-                      const pcl::PointCloud<pcl::PointXYZ>& points) {
+// Of each point from its nearest neighbour, squared.
+std::vector<float> squared_spacings(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
+                                    const pcl::PointCloud<pcl::PointXYZ>& points) {
   std::vector<float> squared(points.size());
   pcl::Indices indices(2);
   std::vector<float> squared_distances(2);
@@ -25,9 +26,7 @@ double median_spacing(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
     tree.nearestKSearch(points[i], 2, indices, squared_distances);
     squared[i] = squared_distances[1];
   }
-  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-  std::nth_element(squared.begin(), middle, squared.end());
-  return std::sqrt(static_cast<double>(*middle));
+  return squared;
 }
 
 }  // namespace
@@ -68,7 +67,14 @@ LocalCloud::LocalCloud(std::span<const Point> points)
   }
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(points_);
-  spacing_ = median_spacing(tree, *points_);
+  std::vector<float> squared = squared_spacings(tree, *points_);
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  const float median = *middle;
+  spacing_ = std::sqrt(static_cast<double>(median));
+  const auto at_median = std::ranges::count_if(
+      squared, [median](float s) { return std::abs(s - median) <= 2e-4f * median; });
+  is_regular_ = 10 * static_cast<std::size_t>(at_median) >= size();
 }
 
 std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(const ParameterValues& values) const {

@@ -22,6 +22,9 @@ class LocalCloud {
   const pcl::PointCloud<pcl::PointXYZ>::Ptr& points() const { return points_; }
   std::size_t size() const { return points_->size(); }
   double spacing() const { return spacing_; }  // median distance to the nearest neighbour
+  // Whether points stand on a grid: at least a tenth of them has its nearest neighbour at the
+  // median distance to within 1e-4 of it, which scans do not have by chance.
+  bool is_regular() const { return is_regular_; }
 
   Point world(const Eigen::Vector3f& local) const {
     return local.cast<double>() / normalization_.scale + normalization_.origin;
@@ -42,6 +45,7 @@ class LocalCloud {
   std::span<const Point> source_;
   Normalization normalization_;
   double spacing_;
+  bool is_regular_;
   pcl::PointCloud<pcl::PointXYZ>::Ptr points_;
   std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> multiplicity_;

@@ -78,14 +78,16 @@ TEST_F(EndToEnd, SameSeedSameBytesForAnyJobsAndDevice) {
 
 // Exactly planar, along the axes and tilted.
 TEST_F(EndToEnd, APlanarCloudIsASurface) {
-  for (const double tilt : {0.0, 0.25}) {
+  for (const auto& [tilt, method] :
+       {std::pair{0.0, "gp3"}, {0.0, "poisson"}, {0.25, "gp3"}, {0.25, "poisson"}}) {
+    SCOPED_TRACE(fmt::format("{}, tilt {}", method, tilt));
     std::ofstream file(folder_ / "plane.xyz");
     for (int i = 0; i < 25; ++i) {
       for (int j = 0; j < 25; ++j) file << fmt::format("{} {} {}\n", i, j, tilt * i + 2 * tilt * j);
     }
     file.close();
     const ProgramRun run = emax({"optimize", "plane.xyz", "--max-error", "2%", "-o", "plane.ply",
-                                 "--method", "poisson", "--budget", "1", "--no-polish"});
+                                 "--method", method, "--budget", "1", "--no-polish"});
     ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
     const json certificate = read("plane.ply.certificate.json");
     EXPECT_EQ(certificate.at("valid"), true);
