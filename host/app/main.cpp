@@ -103,9 +103,10 @@ int run(int argc, char** argv) {
   optimize_command
       .add_option(
           "--bound", optimize.bound,
-          "one-sided: every point of the cloud within the tolerance of the mesh; two-sided: "
-          "also all of the mesh within it of a reference surface (default: two-sided, but "
-          "one-sided with --decimator schroeder or auto)")
+          "one-sided: every point of the cloud lies within the tolerance of the mesh; two-sided: "
+          "also all of the mesh within the tolerance of a reference surface, and all of that "
+          "surface within the tolerance of the mesh (default: two-sided, but one-sided with "
+          "--decimator schroeder or auto)")
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
   optimize_command.add_option("--seed", optimize.seed, "seed of every random choice")
       ->check(whole())
@@ -168,7 +169,7 @@ int run(int argc, char** argv) {
   decimate_command.add_option(
       "--cloud", decimate.cloud,
       "point cloud whose points have to lie within the tolerance of the result (default: "
-      "the vertices of MESH, and with a two-sided bound all of its surface)");
+      "the vertices of MESH)");
   decimate_command
       .add_option("--max-error", decimate.max_error,
                   "tolerance: N in the unit of the points, or N% of their width")
@@ -176,8 +177,9 @@ int run(int argc, char** argv) {
   std::string decimate_bound = "two-sided";
   decimate_command
       .add_option("--bound", decimate_bound,
-                  "two-sided: also all of the result within the tolerance of MESH; one-sided: only "
-                  "the points within it of the result")
+                  "one-sided: every point lies within the tolerance of the result; two-sided: also "
+                  "all of the result within the tolerance of MESH, and all of MESH within the "
+                  "tolerance of the result")
       ->check(CLI::IsMember({"two-sided", "one-sided"}))
       ->capture_default_str();
   decimate_command.add_option(
