@@ -21,7 +21,8 @@ using Fault = DecimationSettings::Fault;
 // The local tests round a few units in the last place of the coordinates.
 constexpr double kRoundings = 0x1p-46;
 constexpr double kMargin = 1e-7;
-constexpr double kBelongs = 0.1;  // of the mesh's width
+constexpr double kBelongs = 0.1;    // of the mesh's width
+constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference have a sample
 
 // Of the time that is thought to be left, what the passes take.
 constexpr double kSweeps = 0.4, kOtherPass = 0.3;
@@ -94,6 +95,7 @@ struct BoundedDecimator::Prepared {
   std::vector<std::uint32_t> order;  // of the cloud's points and, behind them, the reference's own
   std::vector<Point> points;         // in that order
   std::vector<Triangle> triangles;   // of the reference, between these points
+  double covered = 0;                // the limit that samples of the reference were made for
   std::unique_ptr<BackBound> back;
 };
 
@@ -119,17 +121,36 @@ std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<
   return point_of;
 }
 
+// The middles of the reference's edges that are much longer than the limit: between the vertices of
+// a coarse reference no point would tell the energy of the error.
+void add_samples(const TriangleMesh& reference, double limit, std::vector<Point>& points) {
+  for (const Triangle& t : reference.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = t[i], to = t[(i + 1) % 3];
+      const Point &a = reference.vertices[from], &b = reference.vertices[to];
+      if ((b - a).norm() <= kSampledEdge * limit) continue;
+      // Once; an edge of the border that runs down has none, which costs nothing but its weight.
+      if (from < to) points.push_back(0.5 * (a + b));
+    }
+  }
+}
+
 }  // namespace
 
-const BoundedDecimator::Prepared& BoundedDecimator::prepared(double back_limit) const {
+const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
+                                                             double back_limit) const {
   if (prepared_ == nullptr) prepared_ = std::make_shared<Prepared>();
   Prepared& made = *prepared_;
   // Under a two-sided bound the vertices of the reference count as points too.
-  const bool covers = back_limit > 0;
-  if (made.points.empty() || covers == made.triangles.empty()) {
+  const double covered = back_limit > 0 ? limit : 0;
+  if (made.points.empty() || made.covered != covered) {
+    made.covered = covered;
     std::vector<Point> all(cloud_.begin(), cloud_.end());
     std::vector<std::uint32_t> point_of;
-    if (covers) point_of = as_points(reference_, all);
+    if (covered > 0) {
+      point_of = as_points(reference_, all);
+      add_samples(reference_, limit, all);
+    }
     made.order = spatial_order(all);
     made.points.clear();
     std::vector<std::uint32_t> place_of(all.size());
@@ -138,7 +159,7 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double back_limit) 
       made.points.push_back(all[p]);
     }
     made.triangles.clear();
-    if (covers) {
+    if (covered > 0) {
       for (const Triangle& t : reference_.triangles) {
         made.triangles.push_back(
             {place_of[point_of[t[0]]], place_of[point_of[t[1]]], place_of[point_of[t[2]]]});
@@ -170,7 +191,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     const bool own = settings.epsilon_back > 0;
     back_limit = limit_of(own ? settings.epsilon_back : settings.epsilon, roundings);
   }
-  const Prepared& known = prepared(back_limit);
+  const Prepared& known = prepared(limit, back_limit);
   DecimationState::Guards guards;
   guards.normal_cosine = settings.normal_cosine;
   guards.flatness = settings.flatness;

@@ -88,7 +88,11 @@ struct DecimatedMesh {
 // The result is manifold and consistently oriented, of the topology of the start, without
 // self-intersections or slivers. All of it holds after every edit.
 //
-// Each triangle answers for the points of the cloud nearest to it. An edge collapse puts its vertex
+// Under a two-sided bound every point of the reference, the inside of its triangles included, also
+// stays within epsilon of the mesh (ReferenceCover).
+//
+// Each triangle answers for the points of the cloud nearest to it, under a two-sided bound also for
+// the reference's vertices and the middles of its long edges. An edge collapse puts its vertex
 // where the sum over the points around it of (distance / epsilon)^4 is least, by reweighted least
 // squares from the optimum of the planes' quadrics, and is made, least increase first, if all of
 // these points stay within epsilon of the new triangles, those within epsilon_back of the reference
@@ -118,7 +122,7 @@ class BoundedDecimator {
   friend class DecimationSequence;
   struct Prepared;
 
-  const Prepared& prepared(double back_limit) const;
+  const Prepared& prepared(double limit, double back_limit) const;
   // Points up to `reach` from the start, if that is more than epsilon, keep collapses off.
   DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings,
                     double reach) const;

@@ -249,15 +249,21 @@ bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
     return true;
   }
   const TrianglePlane plane({whole[0].at, whole[1].at, whole[2].at});
-  around.begin_visits();
-  const std::uint32_t start = walk_.under_centroid(plane, likely, around);
-  if (start != kNoIndex &&
-      walk_.follow_covering(plane, start, around.limit(), around) == Sheet::kWithin) {
-    used_.assign(around.visited().begin(), around.visited().end());
-    return true;
-  }
+  if (follow(plane, likely, around)) return true;
+  // A corner on a crease may belong to the sheet across it.
+  const std::uint32_t middle = around.nearest((whole[0].at + whole[1].at + whole[2].at) / 3);
+  if (middle != likely && middle != kNoIndex && follow(plane, middle, around)) return true;
   // At folds and borders.
   return cover(whole, around);
+}
+
+bool ReferenceCover::follow(const TrianglePlane& plane, std::uint32_t from, Around& around) {
+  const std::uint32_t start = walk_.under_centroid(plane, from, around);
+  if (start == kNoIndex) return false;
+  around.begin_visits();
+  if (walk_.follow_covering(plane, start, around.limit(), around) != Sheet::kWithin) return false;
+  used_.assign(around.visited().begin(), around.visited().end());
+  return true;
 }
 
 bool ReferenceCover::rests_on(const Piece& piece, std::uint32_t id, const Around& around) const {

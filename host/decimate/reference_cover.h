@@ -78,6 +78,7 @@ class ReferenceCover {
 
   bool prove_after(std::uint32_t triangle, const AssignedPoints& assigned, Around& around);
   bool prove_piece(const Piece& whole, Around& around);
+  bool follow(const TrianglePlane& plane, std::uint32_t from, Around& around);
   bool rests_on(const Piece& piece, std::uint32_t id, const Around& around) const;
   bool cover(const Piece& whole, Around& around);
   bool cut(const Piece& piece, Around& around);
