@@ -1,0 +1,197 @@
+// What a certificate calls a surface (docs/numerics.md), judged by CGAL: on scans and tolerances
+// drawn at random, from far below the distance between points to far above it.
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Surface_mesh.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "host/geometry/mesh_file.h"
+#include "tests/host/app/program.h"
+#include "tests/host/geometry/temporary_folder.h"
+#include "tests/host/reconstruct/surface_clouds.h"
+#include "tests/support/stimuli.h"
+
+namespace emax::test {
+namespace {
+
+using nlohmann::json;
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Kernel::Point_3 cgal_point(const Point& p) { return {p[0], p[1], p[2]}; }
+
+// Refuses what is not manifold and consistently oriented.
+CgalMesh cgal_mesh(const TriangleMesh& mesh) {
+  CgalMesh result;
+  for (const Point& p : mesh.vertices) result.add_vertex(cgal_point(p));
+  using Vertex = CgalMesh::Vertex_index;
+  for (const Triangle& t : mesh.triangles) {
+    EXPECT_TRUE(result.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid());
+  }
+  return result;
+}
+
+json topology_by_cgal(CgalMesh& mesh) {
+  auto piece = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:piece", 0).first;
+  const auto components = static_cast<std::ptrdiff_t>(pmp::connected_components(mesh, piece));
+  std::vector<CgalMesh::Halfedge_index> cycles;
+  pmp::extract_boundary_cycles(mesh, std::back_inserter(cycles));
+  const auto loops = static_cast<std::ptrdiff_t>(cycles.size());
+  const auto count = [](auto n) { return static_cast<std::ptrdiff_t>(n); };
+  const std::ptrdiff_t characteristic = count(mesh.number_of_vertices()) -
+                                        count(mesh.number_of_edges()) +
+                                        count(mesh.number_of_faces());
+  return {{"components", components},
+          {"border_loops", loops},
+          {"genus", (2 * components - loops - characteristic) / 2}};
+}
+
+// Corners and random points of every triangle, more in larger ones.
+std::vector<Point> samples(const TriangleMesh& mesh, std::uint64_t seed) {
+  constexpr double kSamples = 40'000;
+  Random random(seed);
+  std::vector<double> areas;
+  double whole = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.view().corners(t);
+    areas.push_back((b - a).cross(c - a).norm());
+    whole += areas.back();
+  }
+  std::vector<Point> points;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.view().corners(t);
+    points.insert(points.end(), {a, b, c, (a + b + c) / 3});
+    for (double i = 0; i < kSamples * areas[t] / whole; ++i) {
+      const double s = std::sqrt(random.uniform(0, 1)), r = random.uniform(0, 1);
+      points.push_back((1 - s) * a + s * (1 - r) * b + s * r * c);
+    }
+  }
+  return points;
+}
+
+double farthest(std::span<const Point> points, const CgalMesh& mesh) {
+  Tree tree(faces(mesh).begin(), faces(mesh).end(), mesh);
+  tree.accelerate_distance_queries();
+  double worst = 0;
+  for (const Point& p : points) {
+    worst = std::max(worst, CGAL::to_double(tree.squared_distance(cgal_point(p))));
+  }
+  return std::sqrt(worst);
+}
+
+struct Drawn {
+  std::vector<Point> points;
+  double epsilon;
+  std::string name;
+};
+
+// Every shape in every decade of the tolerance, in distances between points.
+Drawn draw(std::uint64_t seed) {
+  Random random(seed);
+  Drawn drawn;
+  double area = 0;
+  switch (seed % 3) {
+    case 0:
+      drawn.name = "bumpy sphere";
+      drawn.points = bumpy_sphere(4, 4, 900, seed).cloud;
+      area = 4 * std::numbers::pi;
+      break;
+    case 1:
+      drawn.name = "torus";
+      drawn.points = torus_cloud(48, 20);
+      area = 4 * 0.4 * std::numbers::pi * std::numbers::pi;
+      break;
+    default:
+      drawn.name = "wavy sheet with a hole";
+      drawn.points = square_cloud(30, 0.3, seed);
+      for (Point& p : drawn.points) p.z() = 0.2 * std::sin(3 * p.x()) * std::cos(2 * p.y());
+      area = 4;
+  }
+  const double decade = static_cast<double>(seed / 3 % 3) - 2;
+  const double spacing = std::sqrt(area / static_cast<double>(drawn.points.size()));
+  const double spacings = std::pow(10.0, decade + random.uniform(0, 1));
+  drawn.epsilon = spacings * spacing;
+  if (random.below(2) == 0) {
+    const double noise = std::min(drawn.epsilon / 5, spacing / 5);
+    for (Point& p : drawn.points) p += noise * random.point(-1, 1);
+    drawn.name += " with noise";
+  }
+  drawn.name += fmt::format(", tolerance {:.3g} spacings, seed {}", spacings, seed);
+  return drawn;
+}
+
+class CertifiedSurface : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  void expect_surface(const std::string& mesh_name, const std::string& reference_name,
+                      std::span<const Point> points) {
+    const json c = json::parse(file_text(folder_ / (mesh_name + ".certificate.json")));
+    const TriangleMesh mesh = read_mesh(folder_ / mesh_name);
+    const TriangleMesh reference = read_mesh(folder_ / reference_name);
+    CgalMesh cgal = cgal_mesh(mesh), cgal_reference = cgal_mesh(reference);
+    EXPECT_EQ(c.at("valid"), true);
+    EXPECT_EQ(topology_by_cgal(cgal), c.at("topology"));
+    EXPECT_EQ(topology_by_cgal(cgal_reference), c.at("reference").at("topology"));
+    EXPECT_EQ(c.at("topology"), c.at("reference").at("topology"));
+    const double epsilon = c.at("epsilon").get<double>() * (1 + 1e-9);
+    EXPECT_LE(farthest(points, cgal), epsilon);
+    EXPECT_LE(farthest(samples(mesh, 1), cgal_reference), epsilon);
+    EXPECT_LE(farthest(samples(reference, 2), cgal), epsilon);
+    EXPECT_EQ(run_emax({"verify", mesh_name + ".certificate.json"}, folder_.path()).exit_code, 0);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(CertifiedSurface, HoldsInThreeDirectionsAndInTopology) {
+  const Drawn drawn = draw(GetParam());
+  SCOPED_TRACE(drawn.name);
+  std::ofstream file(folder_ / "scan.xyz");
+  for (const Point& p : drawn.points) file << fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
+  file.close();
+  const std::string epsilon = fmt::format("{}", drawn.epsilon);
+  const ProgramRun optimized = run_emax({"optimize", "scan.xyz", "--max-error", epsilon, "-o",
+                                         "mesh.ply", "--budget", "1", "--no-polish", "--jobs", "1"},
+                                        folder_.path());
+  ASSERT_EQ(optimized.exit_code, 0) << optimized.output << optimized.errors;
+  expect_surface("mesh.ply", "mesh.ply.reference.ply", drawn.points);
+
+  const TriangleMesh given = read_mesh(folder_ / "mesh.ply.reference.ply");
+  write_mesh(folder_ / "given.off", given);
+  const ProgramRun decimated =
+      run_emax({"decimate", "given.off", "--max-error", epsilon, "-o", "less.ply"}, folder_.path());
+  ASSERT_EQ(decimated.exit_code, 0) << decimated.output << decimated.errors;
+  expect_surface("less.ply", "given.off", given.vertices);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, CertifiedSurface, testing::Range<std::uint64_t>(0, 18));
+
+// What the cases above are judged by sees a hole between the points.
+TEST(CertifiedSurfaceFault, CgalSeesAHole) {
+  const Stimulus whole = bumpy_sphere(8, 12, 0, 1);
+  const TriangleMesh reference{whole.vertices, whole.triangles};
+  TriangleMesh holed = reference;
+  holed.triangles.erase(holed.triangles.begin() + 40);
+  CgalMesh cgal = cgal_mesh(holed), cgal_reference = cgal_mesh(reference);
+  EXPECT_EQ(farthest(holed.vertices, cgal), 0);
+  EXPECT_LT(farthest(samples(holed, 1), cgal_reference), 1e-12);
+  EXPECT_GT(farthest(samples(reference, 1), cgal), 0.01);
+  EXPECT_NE(topology_by_cgal(cgal), topology_by_cgal(cgal_reference));
+}
+
+}  // namespace
+}  // namespace emax::test
