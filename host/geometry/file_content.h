@@ -26,6 +26,8 @@ struct FileContent {
   std::vector<Point> vertices;
   std::vector<Point> normals;       // empty, or one per vertex
   std::vector<Triangle> triangles;  // polygons as fans around their first vertex
+  // Of the fans of more than one triangle, where each begins and how many it has.
+  std::vector<std::pair<std::size_t, std::size_t>> fans;
   std::string first_invalid;        // "line 12" or "vertex 5"; empty when all are finite
   // What else the file says of its mesh, each once: kColours and the like, or a name of its own.
   std::vector<std::string> attributes;
@@ -57,6 +59,7 @@ void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
     }
   }
   const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon[i]); };
+  if (polygon.size() > 3) content.fans.emplace_back(content.triangles.size(), polygon.size() - 2);
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     content.triangles.push_back({index(0), index(i - 1), index(i)});
   }

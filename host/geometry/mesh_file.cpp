@@ -12,6 +12,7 @@
 #include "host/geometry/file_content.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/geometry/number_text.h"
+#include "host/geometry/polygon_triangulation.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -147,6 +148,9 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (!content.first_invalid.empty() && !replace_unused_invalid(content)) {
     input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
                "mend the mesh, its vertices must be finite");
+  }
+  for (const auto& [first, count] : content.fans) {
+    triangulate(std::span(content.triangles).subspan(first, count), content.vertices);
   }
   return {{std::move(content.vertices), std::move(content.triangles)},
           std::move(content.attributes)};

@@ -27,7 +27,8 @@ struct MeshFile {
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 // Reads a triangle mesh as strictly as read_cloud reads clouds; indices are checked, polygons cut
-// into fans. STL repeats its vertices: those of exactly equal coordinates are merged. Throws Error.
+// into fans, or where they are not convex into other triangles (polygon_triangulation.h). STL
+// repeats its vertices: those of exactly equal coordinates are merged. Throws Error.
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
 // Whether the file, of one of the endings of meshes, holds any triangles: .ply, .obj and .off may
