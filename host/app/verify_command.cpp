@@ -231,7 +231,7 @@ class Verification {
                      reference_path_.string(), reference.reference_to_mesh, mesh_path_.string());
         }
       }
-      fmt::print("yes: topology  {}\n",
+      fmt::print("yes: it has {}\n",
                  describe(certificate_.topology,
                           certificate_.reference ? std::optional(certificate_.reference->topology)
                                                  : std::nullopt));
