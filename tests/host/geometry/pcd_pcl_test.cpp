@@ -2,6 +2,19 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#ifdef __clang__
+// Newer versions of clang, which clang-tidy is, refuse the enumerations of Boost 1.74 that its
+// numeric_cast is made of. PCL's headers need it for whole numbers that always fit.
+#define BOOST_NUMERIC_CONVERSION_CAST_25OCT2001_HPP
+namespace boost {
+template <class To, class From>
+To numeric_cast(From value) {
+  return static_cast<To>(value);
+}
+}  // namespace boost
+#endif
+
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
