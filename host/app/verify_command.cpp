@@ -231,7 +231,7 @@ class Verification {
                      reference_path_.string(), reference.reference_to_mesh, mesh_path_.string());
         }
       }
-      fmt::print("yes: it has {}\n",
+      fmt::print("yes: {} has {}\n", mesh_path_.string(),
                  describe(certificate_.topology,
                           certificate_.reference ? std::optional(certificate_.reference->topology)
                                                  : std::nullopt));
