@@ -28,7 +28,7 @@ struct FileContent {
   std::vector<Triangle> triangles;  // polygons as fans around their first vertex
   // Of the fans of more than one triangle, where each begins and how many it has.
   std::vector<std::pair<std::size_t, std::size_t>> fans;
-  std::string first_invalid;        // "line 12" or "vertex 5"; empty when all are finite
+  std::string first_invalid;  // "line 12" or "vertex 5"; empty when all are finite
   // What else the file says of its mesh, each once: kColours and the like, or a name of its own.
   std::vector<std::string> attributes;
 

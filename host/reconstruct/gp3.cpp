@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "host/reconstruct/local_cloud.h"
 #include "host/reconstruct/mesh_orientation.h"
@@ -37,6 +38,20 @@ void break_ties(pcl::PointCloud<pcl::PointNormal>& points, double spacing) {
   }
 }
 
+std::pair<std::uint32_t, std::uint32_t> edge(const Triangle& t, std::size_t i) {
+  return std::minmax(t[i], t[(i + 1) % 3]);
+}
+
+// The edge from corner i to the next one.
+std::size_t longest_edge(const TriangleMesh& mesh, const Triangle& t) {
+  const auto length = [&](std::size_t i) {
+    return (mesh.vertices[t[(i + 1) % 3]] - mesh.vertices[t[i]]).norm();
+  };
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i) longest = length(i) > length(longest) ? i : longest;
+  return longest;
+}
+
 double height(const TriangleMesh& mesh, const Triangle& t) {
   const auto& v = mesh.vertices;
   const Point a = v[t[1]] - v[t[0]], b = v[t[2]] - v[t[0]];
@@ -44,29 +59,47 @@ double height(const TriangleMesh& mesh, const Triangle& t) {
   return longest > 0 ? a.cross(b).norm() / longest : 0;
 }
 
-// Drops the triangles that the steps have made along a straight border, flatter than these.
-void drop_border_slivers(TriangleMesh& mesh, double flat) {
+// Removes the triangles that the steps have made of points on a line, flatter than `flat`: at a
+// border they go; elsewhere the neighbour across the longest edge is split at the vertex on it.
+void remove_slivers(TriangleMesh& mesh, double flat) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  const auto edge = [](const Triangle& t, std::size_t i) -> Edge {
-    return std::minmax(t[i], t[(i + 1) % 3]);
-  };
-  for (bool dropped = true; dropped;) {
-    std::map<Edge, int> users;  // of the edges of flat triangles, which are few
-    for (const Triangle& t : mesh.triangles) {
-      if (height(mesh, t) >= flat) continue;
-      for (std::size_t i = 0; i < 3; ++i) users[edge(t, i)] = 0;
+  constexpr int kRounds = 10;  // slivers beside slivers
+  for (int round = 0; round < kRounds; ++round) {
+    std::map<Edge, std::vector<std::size_t>> users;  // of the edges of slivers, which are few
+    std::vector<std::size_t> slivers;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (height(mesh, mesh.triangles[t]) >= flat) continue;
+      slivers.push_back(t);
+      for (std::size_t i = 0; i < 3; ++i) users[edge(mesh.triangles[t], i)];
     }
-    if (users.empty()) return;
-    for (const Triangle& t : mesh.triangles) {
+    if (slivers.empty()) return;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
-        if (const auto found = users.find(edge(t, i)); found != users.end()) ++found->second;
+        const auto found = users.find(edge(mesh.triangles[t], i));
+        if (found != users.end()) found->second.push_back(t);
       }
     }
-    const auto is_border_sliver = [&](const Triangle& t) {
-      if (height(mesh, t) >= flat) return false;
-      return users[edge(t, 0)] == 1 || users[edge(t, 1)] == 1 || users[edge(t, 2)] == 1;
-    };
-    dropped = std::erase_if(mesh.triangles, is_border_sliver) > 0;
+    std::vector<bool> changed(mesh.triangles.size(), false), gone(mesh.triangles.size(), false);
+    for (const std::size_t s : slivers) {
+      const Triangle sliver = mesh.triangles[s];
+      const std::size_t i = longest_edge(mesh, sliver);
+      const std::vector<std::size_t>& sides = users[edge(sliver, i)];
+      if (changed[s] || sides.size() > 2) continue;
+      if (sides.size() == 1) {
+        gone[s] = true;
+        continue;
+      }
+      const std::size_t other = sides[0] == s ? sides[1] : sides[0];
+      if (changed[other] || gone[other]) continue;
+      const std::uint32_t from = sliver[i], to = sliver[(i + 1) % 3], middle = sliver[(i + 2) % 3];
+      const Triangle across = mesh.triangles[other];
+      const std::uint32_t apex = across[0] ^ across[1] ^ across[2] ^ from ^ to;
+      mesh.triangles[s] = {from, apex, middle};
+      mesh.triangles[other] = {apex, to, middle};
+      changed[s] = changed[other] = true;
+    }
+    std::size_t t = 0;
+    std::erase_if(mesh.triangles, [&](const Triangle&) { return gone[t++]; });
   }
 }
 
@@ -115,7 +148,7 @@ Reconstruction GreedyProjection::run(const LocalCloud& cloud, const ParameterVal
   if (cloud.is_regular()) {
     const double spacing =
         (cloud.world({1, 0, 0}) - cloud.world({0, 0, 0})).norm() * cloud.spacing();
-    drop_border_slivers(mesh, 4 * kTieBreak * spacing);
+    remove_slivers(mesh, 4 * kTieBreak * spacing);
   }
   drop_folds(mesh);
   orient_consistently(mesh, normals);
