@@ -16,7 +16,7 @@ struct OptimizeOptions {
   CommonOptions common;
   std::string max_error;
   std::string output;
-  std::string method = "gp3";
+  std::string method = "fit";
   std::string decimator = "bounded";
   std::string bound;  // empty: two-sided where the decimator can hold it
   std::string config;

@@ -60,8 +60,10 @@ void add_common(CLI::App& command, CommonOptions& options) {
 }
 
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
-  command.add_option("--method", method, "reconstruction; auto: the search chooses")
-      ->check(CLI::IsMember({"gp3", "poisson", "hoppe", "auto"}))
+  command
+      .add_option("--method", method,
+                  "reconstruction; fit: the one that fits the scan best; auto: the search chooses")
+      ->check(CLI::IsMember({"fit", "gp3", "poisson", "hoppe", "imls", "auto"}))
       ->capture_default_str();
   command
       .add_option(
@@ -265,13 +267,14 @@ int run(int argc, char** argv) {
   add_json(verify_command, verify.json);
   verify_command.callback([&] { chosen = [&verify] { return run_verify(verify); }; });
 
-  std::string config_method = "gp3", config_decimator = "bounded";
+  std::string config_method = kFitMethod, config_decimator = "bounded";
   CLI::App& config_command =
       *app.add_subcommand("config", "print the default settings and domains, commented");
   add_chain(config_command, config_method, config_decimator);
   config_command.callback([&] {
     chosen = [&] {
-      fmt::print("{}", default_config_text(chain_parameters(config_method, config_decimator)));
+      fmt::print("{}", default_config_text(chain_parameters(
+                           method_for(config_method, config_decimator), config_decimator)));
       return kExitOk;
     };
   });

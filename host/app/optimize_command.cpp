@@ -6,6 +6,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/device_report.h"
+#include "host/app/fit_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
 #include "host/app/phase_progress.h"
@@ -39,9 +40,9 @@ std::string describe_failures(const OptimizeState& state) {
 
 OptimizeSettings make_settings(const OptimizeOptions& options) {
   OptimizeSettings settings;
-  settings.method = options.method;
+  settings.method = method_for(options.method, options.decimator);
   settings.decimator = options.decimator;
-  const auto parameters = chain_parameters(options.method, options.decimator);
+  const auto parameters = chain_parameters(settings.method, options.decimator);
   settings.config =
       options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
   settings.seed = options.seed;
@@ -249,6 +250,7 @@ class OptimizeCommand {
 
   void fix_bound() {
     make_bound();
+    print_fit(fit_, epsilon_);
     if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(
@@ -271,7 +273,7 @@ class OptimizeCommand {
     limited.interrupted = [this] { return was_interrupted() || seconds_left() <= 0; };
     phase_.begin("making the reference surface", reference_seconds(scan_.cloud.points.size()));
     try {
-      settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, limited);
+      settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, limited, &fit_);
     } catch (const Interrupted&) {
       if (was_interrupted()) throw;
       throw Error(
@@ -449,6 +451,7 @@ class OptimizeCommand {
   Scan scan_;
   std::string cloud_sha256_;
   double epsilon_ = 0;
+  ReferenceFit fit_;
   std::optional<ErrorConstraint> constraint_;
   std::optional<RunLog> log_;
   bool said_what_is_kept_ = false;

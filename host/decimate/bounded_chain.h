@@ -31,6 +31,12 @@ class BoundedStage {
 
   bool two_sided() const { return bound_.epsilon_back > 0; }
 
+  const TriangleMesh& reference() const { return bound_.reference; }
+  std::span<const Point> kept() const { return kept_; }  // points that are no outliers
+  // Farther than that from a surface a point needs a piece of its own: half of epsilon, which
+  // leaves decimation room; 0 where the run fixed no bound.
+  double far() const { return bound_.epsilon / 2; }
+
   // drop_needless_components() at half of epsilon, which leaves decimation room; as it is where the
   // run fixed no bound.
   TriangleMesh without_needless(TriangleMesh surface) const;

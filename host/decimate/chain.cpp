@@ -2,12 +2,13 @@
 
 #include <chrono>
 
-#include "host/decimate/close_holes.h"
+#include "host/decimate/crack_free.h"
 #include "host/decimate/decimate.h"
 #include "host/decimate/fill_holes_smoothly.h"
 #include "host/decimate/manifold_part.h"
 #include "host/reconstruct/moving_least_squares.h"
 #include "host/reconstruct/outward.h"
+#include "host/reconstruct/scan_estimate.h"
 #include "sw_model/error.h"
 
 namespace emax {
@@ -39,17 +40,16 @@ TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
   return method == FillMethod::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
 }
 
-// A surface, with the holes closed that making it one leaves. Pieces that no point needs would be
-// in the patches' way.
+// A surface, with the cracks closed that reconstruction leaves and making it a surface; a hole of
+// the scan stays.
 TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values,
-                            const BoundedStage& bounded) {
+                            const BoundedStage& bounded, double spacing) {
   const FillMethod method = fill_method(values);
   if (method == FillMethod::kNone) return bounded.without_needless(manifold_part(mesh).mesh);
   const double size = values.at("fill.size");
-  const bool smooth = method == FillMethod::kSmooth;
-  TriangleMesh surface =
-      bounded.without_needless(manifold_part(smooth ? fill_holes_smoothly(mesh, size) : mesh).mesh);
-  return bounded.without_needless(close_holes(std::move(surface), size).mesh);
+  return crack_free_surface(method == FillMethod::kSmooth ? fill_holes_smoothly(mesh, size) : mesh,
+                            bounded.kept(), bounded.far(), size, kCrackSpacings * spacing)
+      .mesh;
 }
 
 }  // namespace
@@ -81,14 +81,23 @@ const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSec
   });
 }
 
+double Chain::spacing() {
+  if (!spacing_) spacing_ = estimate_scan(points_).spacing;
+  return *spacing_;
+}
+
 const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds) {
   return surfaces_.get({surface_key(settings), settings.decimator}, [&] {
+    if (settings.method == kFitMethod) {
+      const TriangleMesh& reference = bounded_.reference();
+      return Surface{reference, reference.triangles.size(), 0, {}};
+    }
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
     const bool surface = settings.decimator != "schroeder";
-    TriangleMesh filled = surface
-                              ? closed_surface(reconstruction.mesh, settings.parameters, bounded_)
-                              : fill(reconstruction.mesh, settings.parameters);
+    TriangleMesh filled =
+        surface ? closed_surface(reconstruction.mesh, settings.parameters, bounded_, spacing())
+                : fill(reconstruction.mesh, settings.parameters);
     SurfaceVerdict verdict;
     if (settings.decimator == "bounded") {
       filled = bounded_.start(filled);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,10 +51,12 @@ class Chain {
   };
 
   std::span<const Point> cloud(const ChainSettings& settings);
+  double spacing();
   const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds);
   const Surface& surface(const ChainSettings& settings, StageSeconds& seconds);
 
   std::vector<Point> points_;
+  std::optional<double> spacing_;  // of the points, once asked for
   BoundedStage bounded_;
   StageCache<ParameterValues, MovedCloud> clouds_;
   StageCache<StageKey, Reconstructed> reconstructions_;

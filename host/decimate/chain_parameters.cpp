@@ -116,11 +116,16 @@ const std::vector<ParameterSpec>& automatic() {
 
 }  // namespace
 
+std::string method_for(const std::string& method, const std::string& decimator) {
+  const bool unknown = method == kFitMethod && decimator != "bounded";
+  return unknown ? std::string(reconstruction_methods().front()) : method;
+}
+
 std::vector<ParameterSpec> chain_parameters(std::string_view method, std::string_view decimator) {
   std::vector<ParameterSpec> chain;
   if (method == kAutoMethod) {
     chain = automatic();
-  } else {
+  } else if (method != kFitMethod) {
     const auto reconstruction = reconstruction_parameters(method);
     chain.assign(reconstruction.begin(), reconstruction.end());
     chain.push_back(fill_size());
@@ -161,6 +166,7 @@ ParameterValues cloud_key(const ChainSettings& settings) {
 
 StageKey reconstruction_key(const ChainSettings& settings) {
   StageKey key{settings.method, cloud_key(settings)};
+  if (settings.method == kFitMethod) return key;
   add_values(settings, reconstruction_parameters(settings.method), key.second);
   return key;
 }

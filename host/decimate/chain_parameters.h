@@ -16,7 +16,7 @@ namespace emax {
 // mls_parameters() and "fill.method"; without them there are no moving least squares, and holes are
 // filled without new vertices.
 struct ChainSettings {
-  std::string method;     // one of reconstruction_methods()
+  std::string method;     // one of reconstruction_methods(), or kFitMethod
   std::string decimator;  // one of decimators(), or kNoDecimator
   ParameterValues parameters;
 };
@@ -77,6 +77,11 @@ inline constexpr const char* kNoDecimator = "none";
 // In place of a method: every one of them, as a gene, with moving least squares and the ways to
 // fill holes.
 inline constexpr const char* kAutoMethod = "auto";
+// In place of a method: the bound's reference surface as it is, whatever made it. No P_R.
+inline constexpr const char* kFitMethod = "fit";
+// The method itself, but for kFitMethod with a decimator that knows no reference: the first of
+// reconstruction_methods().
+std::string method_for(const std::string& method, const std::string& decimator);
 // In place of a decimator: both, as a gene.
 inline constexpr const char* kAutoDecimator = "auto";
 

@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "host/decimate/cracks.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/box_pairs.h"
 #include "host/geometry/triangle_pair.h"
@@ -88,11 +89,32 @@ class Adjacency {
   std::unordered_map<std::uint32_t, std::uint32_t> hole_at_;
 };
 
+// Every hole, where none is too wide for a crack.
+std::vector<bool> cracks_of(const TriangleMesh& mesh, const Adjacency& adjacency, double crack) {
+  if (crack == std::numeric_limits<double>::infinity()) {
+    return std::vector<bool>(adjacency.holes().size(), true);
+  }
+  std::vector<std::vector<RimEdge>> loops;
+  for (const std::vector<std::uint32_t>& hole : adjacency.holes()) {
+    std::vector<RimEdge>& loop = loops.emplace_back();
+    for (std::size_t i = 0; i < hole.size(); ++i) {
+      const std::uint32_t from = hole[(i + 1) % hole.size()], to = hole[i];
+      for (const std::uint32_t v : mesh.triangles[adjacency.triangle(from, to)]) {
+        if (v != from && v != to) {
+          loop.push_back({mesh.vertices[from], mesh.vertices[to], mesh.vertices[v]});
+        }
+      }
+    }
+  }
+  return find_cracks(loops, mesh.vertices, crack);
+}
+
 // One hole, or what it becomes with the triangles around it dropped, and what closes it.
 class Opening {
  public:
-  Opening(const TriangleMesh& mesh, const Adjacency& adjacency, double farthest)
-      : mesh_(mesh), adjacency_(adjacency), farthest_(farthest) {}
+  Opening(const TriangleMesh& mesh, const Adjacency& adjacency, double farthest,
+          const std::vector<bool>& cracks)
+      : mesh_(mesh), adjacency_(adjacency), farthest_(farthest), cracks_(cracks) {}
 
   // False when it cannot be closed.
   bool close(std::uint32_t hole, int rings) {
@@ -126,7 +148,7 @@ class Opening {
 
  private:
   bool take(std::uint32_t hole) {
-    if (!small_enough(adjacency_.holes()[hole])) return false;
+    if (!cracks_[hole] || !small_enough(adjacency_.holes()[hole])) return false;
     holes_.insert(hole);
     return true;
   }
@@ -231,6 +253,7 @@ class Opening {
   const TriangleMesh& mesh_;
   const Adjacency& adjacency_;
   double farthest_;
+  const std::vector<bool>& cracks_;  // of the holes
   std::unordered_set<std::uint32_t> holes_, dropped_;
   std::vector<std::vector<std::uint32_t>> loops_;
   std::vector<Triangle> patches_;
@@ -265,15 +288,16 @@ std::vector<bool> intersecting(const TriangleMesh& mesh, std::span<const Opening
 
 }  // namespace
 
-ClosedHoles close_holes(TriangleMesh mesh, double size) {
+ClosedHoles close_holes(TriangleMesh mesh, double size, double crack) {
   ClosedHoles result;
   const double farthest = size * bounds_of(mesh.vertices).width();
   for (int rings = 0; rings <= kRimRings; ++rings) {
     const Adjacency adjacency(mesh);
+    const std::vector<bool> cracks = cracks_of(mesh, adjacency, crack);
     std::vector<Opening> openings;
     std::unordered_set<std::uint32_t> touched;
     for (std::uint32_t hole = 0; hole < adjacency.holes().size(); ++hole) {
-      Opening opening(mesh, adjacency, farthest);
+      Opening opening(mesh, adjacency, farthest, cracks);
       if (!opening.close(hole, rings)) continue;
       const std::vector<std::uint32_t> touches = opening.touched();
       if (std::ranges::any_of(touches, [&](std::uint32_t v) { return touched.contains(v); })) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,10 +51,11 @@ struct ClosedHoles {
 // hole's rim folds over itself, so that no patch would continue it, up to kRimRings rings of
 // triangles around it are dropped first, if the wider hole can be closed. A hole stays open when it
 // has more than kMostHoleEdges edges or is wider than `size`: when a vertex is farther than that
-// many widths of the mesh from their mean. What comes out is as manifold_part() gives it. O(n log
-// n).
+// many widths of the mesh from their mean. It also stays open when it is no crack (find_cracks()).
+// What comes out is as manifold_part() gives it. O(n log n).
 inline constexpr std::size_t kMostHoleEdges = 400;
 inline constexpr int kRimRings = 4;
-ClosedHoles close_holes(TriangleMesh mesh, double size);
+ClosedHoles close_holes(TriangleMesh mesh, double size,
+                        double crack = std::numeric_limits<double>::infinity());
 
 }  // namespace emax

@@ -1,39 +1,12 @@
 #include "host/optimize/run_bound.h"
 
 #include "host/decimate/bounded_decimation.h"
-#include "host/decimate/manifold_part.h"
-#include "host/reconstruct/reconstruction_parameters.h"
-#include "host/worker/worker_pool.h"
 #include "sw_model/error.h"
 
 namespace emax {
-namespace {
-
-TriangleMesh standard_surface(std::span<const Point> cloud, double epsilon,
-                              const OptimizeSettings& settings) {
-  WorkerPoolOptions options = worker_pool_options(cloud.size(), settings);
-  options.jobs = 1;
-  WorkerPool pool(cloud, {epsilon, 0, {}, {}}, options);
-  // Of all methods the first, which follows the points most closely.
-  const std::string method = settings.method == kAutoMethod
-                                 ? std::string(reconstruction_methods().front())
-                                 : settings.method;
-  pool.submit(0, {method, kNoDecimator, standard_values(chain_parameters(method, kNoDecimator))});
-  Completed completed = wait_for_next(pool, settings);
-  if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
-    const bool limited = failure->reason == FailureReason::kTimedOut ||
-                         failure->reason == FailureReason::kOutOfMemory;
-    throw Error("no reference surface could be made of the cloud: " + failure->message +
-                (limited ? "; allow more with --evaluation-time or --evaluation-memory"
-                         : "; take another --method, or --bound one-sided"));
-  }
-  return std::move(std::get<ChainResult>(completed.outcome).mesh);
-}
-
-}  // namespace
 
 DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
-                                 const OptimizeSettings& settings) {
+                                 const OptimizeSettings& settings, ReferenceFit* made) {
   DecimationBound bound;
   if (settings.decimator == "schroeder") return bound;
   const bool two_sided = settings.epsilon_back.has_value();
@@ -46,25 +19,30 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
     throw Error(settings.output.string() +
                 ": the tolerance is lost where this format rounds; write .ply, .obj or .off");
   }
-  if (!two_sided && constraint.excludable() == 0) return bound;
+  const bool fitted = settings.method == kFitMethod;
+  if (!two_sided && !fitted && constraint.excludable() == 0) return bound;
 
-  const TriangleMesh surface = manifold_part(standard_surface(cloud, bound.epsilon, settings)).mesh;
-  if (surface.triangles.empty()) {
-    throw Error("the cloud's reconstruction has no part that is a surface; take another --method");
-  }
+  ReferenceFit fit = fit_reference(cloud, bound.epsilon, settings);
+  const TriangleMesh& surface = fit.surface.mesh;
   const auto beyond = [&](const TriangleMesh& mesh) {
     return constraint.excludable() > 0
                ? constraint.measure(mesh.view(), settings.interrupted).excluded
                : std::vector<std::uint32_t>{};
   };
   bound.outliers = beyond(surface);
-  bound.reference = reference_surface(surface, points_without(cloud, bound.outliers),
-                                      bound.epsilon / 2, settings.interrupted)
-                        .mesh;
+  // Where noise alone puts many points there, joining them would only make the surface rough.
+  constexpr double kOften = 0.02, kNearly = 0.9;
+  fit.joined_beyond = bound.epsilon * (1 - fit.best().within_half > kOften ? kNearly : 0.5);
+  ReferenceSurface joined = reference_surface(surface, points_without(cloud, bound.outliers),
+                                              fit.joined_beyond, settings.interrupted);
+  bound.reference = std::move(joined.mesh);
+  fit.joined = joined.inserted;
+  fit.left_out = joined.left_out.size();
   if (settings.interrupted()) throw Interrupted{};
   // Also what could not be inserted, but no more what an insertion came near.
   bound.outliers = beyond(bound.reference);
-  if (!two_sided) bound.reference = {};
+  if (!two_sided && !fitted) bound.reference = {};
+  if (made != nullptr) *made = std::move(fit);
   return bound;
 }
 

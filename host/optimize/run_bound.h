@@ -6,19 +6,21 @@
 
 #include "host/decimate/decimation_bound.h"
 #include "host/optimize/optimize.h"
+#include "host/optimize/reference_fit.h"
 
 namespace emax {
 
 // The bound that a run with the bounded decimator fixes before its search; with another decimator,
-// one that bounds nothing. The reference is the surface that the method's standard values give, its
-// holes filled, as a manifold, with the points inserted that are farther from it than epsilon / 2.
-// Outliers are, of the points that `constraint` may exclude, those beyond epsilon of that surface.
-// Both distances leave room for what storing moves.
+// one that bounds nothing. The reference is the surface that fit_reference() makes of the cloud,
+// with the points joined that are farther from it than epsilon / 2, or than 0.9 epsilon where more
+// than 2 % of them are. Outliers are, of the points that `constraint` may exclude, those beyond
+// epsilon of the surface. Both distances leave room for what storing moves. `made`, if given,
+// learns how the reference was made.
 //
-// Reconstruction runs in a worker, the rest here. A pure function of cloud, constraint and
-// settings. Throws Error where no reference can be made or the tolerance is lost to rounding, and
+// Reconstruction runs in workers, the rest here. A pure function of cloud, constraint and settings.
+// Throws Error where no reference can be made or the tolerance is lost to rounding, and
 // Interrupted.
 DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
-                                 const OptimizeSettings& settings);
+                                 const OptimizeSettings& settings, ReferenceFit* made = nullptr);
 
 }  // namespace emax

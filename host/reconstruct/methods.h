@@ -28,4 +28,12 @@ class HoppeSurface : public ReconstructionMethod {
   Reconstruction run(const LocalCloud& cloud, const ParameterValues& values) const override;
 };
 
+class ImplicitSurface : public ReconstructionMethod {
+ public:
+  std::string_view name() const override { return "imls"; }
+
+ private:
+  Reconstruction run(const LocalCloud& cloud, const ParameterValues& values) const override;
+};
+
 }  // namespace emax

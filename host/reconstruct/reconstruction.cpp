@@ -16,6 +16,7 @@ namespace {
 std::string_view remedy(std::string_view method) {
   if (method == "gp3") return "raise gp3.radius or gp3.mu";
   if (method == "poisson") return "change poisson.depth or take another method";
+  if (method == "imls") return "raise imls.reach or lower imls.cell";
   return "raise hoppe.reach or lower hoppe.resolution";
 }
 
@@ -55,9 +56,11 @@ const ReconstructionMethod& reconstruction_method(std::string_view name) {
   static const GreedyProjection gp3;
   static const PoissonSurface poisson;
   static const HoppeSurface hoppe;
+  static const ImplicitSurface imls;
   reconstruction_parameters(name);  // refuses an unknown name
   if (name == gp3.name()) return gp3;
   if (name == poisson.name()) return poisson;
+  if (name == imls.name()) return imls;
   return hoppe;
 }
 

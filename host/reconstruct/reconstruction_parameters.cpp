@@ -56,6 +56,17 @@ const std::vector<ParameterSpec>& poisson() {
       {"poisson.samples_per_node", kContinuous, 1, 5, 1, "points that an octree cell should hold"},
       {"poisson.scale", kContinuous, 1.05, 1.3, 1.1,
        "side of the solved cube, in multiples of the cloud's width"},
+      {"poisson.trim",
+       kContinuous,
+       1,
+       20,
+       2,
+       "distance from the points up to which the surface is kept, in multiples of the point "
+       "spacing "
+       "around",
+       {},
+       std::nullopt,
+       false},
   };
   return specs;
 }
@@ -69,6 +80,21 @@ const std::vector<ParameterSpec>& hoppe() {
       {"hoppe.reach", kContinuous, 0.5, 4, 1,
        "distance from the cloud up to which space is contoured, in multiples of cell diagonal + "
        "median point spacing"},
+  };
+  return specs;
+}
+
+const std::vector<ParameterSpec>& imls() {
+  static const std::vector<ParameterSpec> specs = {
+      normals_k(20),
+      orientation_k(),
+      {"imls.cell", kContinuous, 0.5, 3, 1,
+       "side of the marching cubes, in multiples of the median point spacing"},
+      {"imls.reach", kContinuous, 2, 8, 3,
+       "radius within which a point has a say, in multiples of the point spacing around it"},
+      {"imls.least_reach", kContinuous, 0, 16, 0,
+       "that radius at least, in multiples of the median point spacing; eight times the noise "
+       "smooths it"},
   };
   return specs;
 }
@@ -110,7 +136,7 @@ const std::vector<ParameterSpec>& mls() {
 std::span<const ParameterSpec> mls_parameters() { return mls(); }
 
 std::span<const std::string_view> reconstruction_methods() {
-  static constexpr std::array<std::string_view, 3> kMethods = {"gp3", "poisson", "hoppe"};
+  static constexpr std::array<std::string_view, 4> kMethods = {"gp3", "poisson", "hoppe", "imls"};
   return kMethods;
 }
 
@@ -118,8 +144,9 @@ std::span<const ParameterSpec> reconstruction_parameters(std::string_view method
   if (method == "gp3") return gp3();
   if (method == "poisson") return poisson();
   if (method == "hoppe") return hoppe();
+  if (method == "imls") return imls();
   throw Error("there is no reconstruction method '" + std::string(method) +
-              "'; choose gp3, poisson, hoppe or auto");
+              "'; choose gp3, poisson, hoppe, imls or auto");
 }
 
 bool single_use(std::string_view method) { return method == "poisson"; }

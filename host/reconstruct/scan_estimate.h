@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "sw_model/mesh_view.h"
+
+namespace emax {
+
+// What a scan is like, in its own unit.
+struct ScanEstimate {
+  // Side of the square that one point has of the surface: sqrt(area / points). Median over the
+  // points of the estimate from the distance to the tenth neighbour.
+  double spacing = 0;
+  // Standard deviation of the points across the surface: the median over the points of what is left
+  // when a quadric is fitted to 25 points around each. Includes what the quadric cannot follow.
+  double noise = 0;
+};
+
+// From at most 20,000 points, evenly spread over the indices, and their neighbours. Zeros for
+// fewer than three points. O(n log n).
+ScanEstimate estimate_scan(std::span<const Point> cloud);
+
+}  // namespace emax
