@@ -29,6 +29,28 @@ std::vector<float> squared_spacings(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
   return squared;
 }
 
+// Those that stand in the middle between their nearest neighbour and another point.
+std::size_t points_amid_lines(const pcl::KdTreeFLANN<pcl::PointXYZ>& tree,
+                              const pcl::PointCloud<pcl::PointXYZ>& points) {
+  std::size_t count = 0;
+  pcl::Indices indices(2);
+  std::vector<float> squared_distances(2);
+  for (const pcl::PointXYZ& p : points) {
+    tree.nearestKSearch(p, 2, indices, squared_distances);
+    const float squared = squared_distances[1];
+    pcl::PointXYZ opposite;
+    opposite.getVector3fMap() =
+        2 * p.getVector3fMap() - points[static_cast<std::size_t>(indices[1])].getVector3fMap();
+    tree.nearestKSearch(opposite, 1, indices, squared_distances);
+    count += squared_distances[0] <= 1e-6f * squared ? 1 : 0;
+    indices.resize(2);
+    squared_distances.resize(2);
+  }
+  return count;
+}
+
+bool is_tenth(std::size_t part, std::size_t whole) { return 10 * part >= whole; }
+
 }  // namespace
 
 LocalCloud::LocalCloud(std::span<const Point> points)
@@ -74,7 +96,8 @@ LocalCloud::LocalCloud(std::span<const Point> points)
   spacing_ = std::sqrt(static_cast<double>(median));
   const auto at_median = std::ranges::count_if(
       squared, [median](float s) { return std::abs(s - median) <= 2e-4f * median; });
-  is_regular_ = 10 * static_cast<std::size_t>(at_median) >= size();
+  is_regular_ = is_tenth(static_cast<std::size_t>(at_median), size()) &&
+                is_tenth(points_amid_lines(tree, *points_), size());
 }
 
 std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(const ParameterValues& values) const {

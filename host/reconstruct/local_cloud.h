@@ -23,7 +23,8 @@ class LocalCloud {
   std::size_t size() const { return points_->size(); }
   double spacing() const { return spacing_; }  // median distance to the nearest neighbour
   // Whether points stand on a grid: at least a tenth of them has its nearest neighbour at the
-  // median distance to within 1e-4 of it, which scans do not have by chance.
+  // median distance to within 1e-4 of it, and a tenth another point opposite of that neighbour to
+  // within 1e-3. Scans do not have that by chance.
   bool is_regular() const { return is_regular_; }
 
   Point world(const Eigen::Vector3f& local) const {
