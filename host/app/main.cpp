@@ -121,7 +121,7 @@ int run(int argc, char** argv) {
   optimize_command
       .add_option("--budget", optimize.budget,
                   "evaluations (default: by --effort; normal are those of --config, or without it "
-                  "40, with the paper's decimation 150, fewer for more than 100,000 points)")
+                  "40, with the paper's decimation 60, fewer for more than 100,000 points)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   optimize_command
       .add_option("--time", optimize.seconds, "stop the search after this many seconds")

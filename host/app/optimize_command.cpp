@@ -14,6 +14,7 @@
 #include "host/app/reference_text.h"
 #include "host/app/result_files.h"
 #include "host/app/run_identity.h"
+#include "host/app/standard_streams.h"
 #include "host/geometry/atomic_file.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/sha256.h"
@@ -239,8 +240,13 @@ class OptimizeCommand {
     if (reference_ && reference_->triangles < state.best->triangles) return;
     const Clock::time_point start = Clock::now();
     if (start < next_write_ || seconds_left() < 3 * writing_seconds_) return;
-    if (written_ || !files_->hold_fewer_than(state.best->triangles)) {
-      files_->write(*state.best, state.evaluations);
+    try {
+      if (written_ || !files_->hold_fewer_than(state.best->triangles)) {
+        files_->write(*state.best, state.evaluations);
+      }
+    } catch (const Error& error) {  // which may have passed by then
+      to_standard_error(
+          fmt::format("emax: {}; the search goes on, and the end tries again\n", error.what()));
     }
     written_ = state.best->index;
     const Clock::time_point end = Clock::now();
@@ -354,6 +360,13 @@ class OptimizeCommand {
                settings_.epsilon_back ? fmt::format("; the reference surface is in {}",
                                                     reference_path(options_.output).string())
                                       : "");
+    if (proven_.points.within(epsilon_) && !settings_.epsilon_back) {
+      fmt::print(
+          "e_max          {:.9g} certified, but the tolerance is below what the kernel can tell "
+          "apart; raise --max-error\n",
+          proven_.points.e_max_upper);
+      return;
+    }
     if (proven_.points.within(epsilon_)) {
       fmt::print(
           "reference      {:.4g} times the bound is the least distance found between mesh and "

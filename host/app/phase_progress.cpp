@@ -38,7 +38,7 @@ double reading_seconds(const std::filesystem::path& file) {
   return unknown ? 0 : static_cast<double>(bytes) / kBytesPerSecond;
 }
 
-double reference_seconds(std::size_t points) { return 4e-5 * static_cast<double>(points); }
+double reference_seconds(std::size_t points) { return 1.5e-4 * static_cast<double>(points); }
 
 double joining_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }
 

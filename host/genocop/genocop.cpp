@@ -78,7 +78,7 @@ Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
     linear_.emplace(domain_, problem_, std::move(ordered));
   }
   if (auto continuous = coordinates(domain_, false);
-      settings_.finish && !monotone_ && !continuous.empty()) {
+      settings_.finish && !monotone_ && !problem_.stepped && !continuous.empty()) {
     finish_.emplace(domain_, problem_, std::move(continuous));
   }
   take_known();

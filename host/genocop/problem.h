@@ -75,6 +75,7 @@ struct Problem {
   // Results known from before (a warm start): not charged, and with the cache not asked for again.
   std::vector<std::pair<Genes, Evaluation>> known;
 
+  bool stepped = false;  // the objective moves in steps, so that no local search is worth it
   // A gene along which, all others held, the objective falls and the violation rises (nearly).
   std::optional<std::size_t> monotone_gene;
 };

@@ -6,7 +6,7 @@ namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
   using S = Settings;
-  static const std::array<SettingInfo, 30> infos = {{
+  static const std::array<SettingInfo, 31> infos = {{
       {"budget", &S::budget, 1, 1e9, "evaluations, every trial charged"},
       {"look_ahead", &S::look_ahead, 1, 1e6,
        "candidate i knows the results up to i - look_ahead; at least the number of workers, less "
@@ -36,6 +36,9 @@ std::span<const SettingInfo> setting_infos() {
        "b: how fast the steps of the non-uniform mutations shrink"},
       {"gaussian_sigma", &S::gaussian_sigma, 0, 1e3,
        "standard deviation of the Gaussian mutation at the start, in feasible ranges of the gene"},
+      {"monotone_walk", &S::monotone_walk, 0, 0,
+       "a gene along which the objective falls and the violation rises is walked in every "
+       "evaluation and not searched, where no linear constraint holds it"},
       {"monotone_step", &S::monotone_step, 0, 0,
        "use a gene along which the objective falls and the violation rises, if there is one"},
       {"monotone_share", &S::monotone_share, 0, 1, "of the offspring aim just below the best"},

@@ -47,6 +47,9 @@ struct Settings {
   double gaussian_sigma = 0.1;  // standard deviation at the start, in feasible ranges of the gene
   std::array<double, kOperators.size()> operator_frequencies = standard_frequencies();
 
+  // A gene along which the objective falls and the violation rises is no gene of the search: every
+  // evaluation looks for its best value. For whoever evaluates; the search itself does not know.
+  bool monotone_walk = true;
   bool monotone_step = true;           // where the problem names a monotone gene
   double monotone_share = 0.97;        // of the offspring aim just below the incumbent
   double monotone_gain = 0.02;         // by this share of its objective; less after 150 candidates

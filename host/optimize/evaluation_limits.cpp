@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kTimePerPoint{2};
 constexpr std::uint64_t kLeastMemory = std::uint64_t{2} << 30;
 constexpr std::uint64_t kMemoryPerPoint = 8192;
 
-constexpr std::uint64_t kNormalBudget = 40, kBudgetOfDecimation = 150;
+constexpr std::uint64_t kNormalBudget = 40, kBudgetOfDecimation = 60;
 constexpr std::uint64_t kQuickBudget = 1, kQuickBudgetOfDecimation = 12;
 constexpr std::uint64_t kDeepTimes = 4;
 constexpr std::size_t kManyPoints = 100'000;

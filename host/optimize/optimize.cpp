@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/genocop/look_ahead_scheduler.h"
+#include "host/optimize/search_result.h"
 #include "host/worker/worker_pool.h"
 #include "sw_model/error.h"
 
@@ -26,14 +27,7 @@ Evaluation evaluation_of(const LoggedEvaluation& e) {
   return {true, static_cast<double>(e.triangles), e.violation};
 }
 
-struct Result {
-  LoggedEvaluation evaluation;
-  TriangleMesh mesh;  // of one that was made here and may be the best
-  MeasuredError error;
-
-  bool failed() const { return !evaluation.failure.empty(); }
-  bool feasible() const { return evaluation.violation <= 0; }
-};
+using Result = SearchResult;
 
 class Run {
  public:
@@ -45,6 +39,7 @@ class Run {
         settings_(settings),
         observe_(observe),
         problem_(search_problem(settings)),
+        walked_(walked_gene(settings)),
         genocop_(problem_, settings.config.search, settings.seed),
         scheduler_(genocop_, settings.config.search.budget) {
     state_.budget = settings.config.search.budget;
@@ -137,8 +132,13 @@ class Run {
         ++state_.from_log;
         enter_in_order();
       } else {
-        pool_->submit(index, chain(candidate->genes));
-        in_work_[index] = std::move(candidate->genes);
+        CandidateInWork& work = in_work_[index];
+        work.genes = std::move(candidate->genes);
+        if (walked_ && chain(work.genes).parameters.contains(problem_.genes[*walked_].name)) {
+          const Gene& gene = settings_.config.genes[*walked_].gene;
+          work.walk.emplace(gene.lower, gene.upper);
+        }
+        pool_->submit(index, trial(work));
       }
     }
   }
@@ -157,6 +157,17 @@ class Run {
   }
 
   ChainSettings chain(const Genes& genes) const { return chain_of(settings_, problem_, genes); }
+  ChainSettings chain(const LoggedEvaluation& e) const {
+    Genes genes = e.genes;
+    if (e.walked && walked_) genes[*walked_] = *e.walked;
+    return chain(genes);
+  }
+
+  ChainSettings trial(const CandidateInWork& work) const {
+    Genes genes = work.genes;
+    if (work.walk) genes[*walked_] = *work.walk->next();
+    return chain(genes);
+  }
 
   // In the log, if there is one.
   std::optional<Result> receive() {
@@ -165,7 +176,8 @@ class Run {
     const std::uint64_t index = completed->ticket;
     Result result;
     result.evaluation.index = index;
-    result.evaluation.genes = in_work_.at(index);
+    CandidateInWork& work = in_work_.at(index);
+    result.evaluation.genes = work.genes;
     try {
       judge(std::move(completed->outcome), result);
     } catch (const DeviceFailure& failure) {  // neither of these says anything of the candidate
@@ -175,6 +187,11 @@ class Run {
       state_.interrupted = true;
       return std::nullopt;
     }
+    if (work.walk && !work.walk_on(result)) {
+      if (!stopping_) pool_->submit(index, trial(work));
+      return std::nullopt;
+    }
+    pool_->go_on();
     keep(result);
     in_work_.erase(index);
     return result;
@@ -201,7 +218,8 @@ class Run {
       state_.polish_seconds = surface_seconds_ + kPolishDecimations * decimation_seconds_;
       start_workers(1, kPolishTimes);
       pool_->submit(index, chain(deep));
-      in_work_ = {{index, std::move(deep)}};
+      in_work_.clear();
+      in_work_[index].genes = std::move(deep);
       while (!result && !state_.interrupted && state_.device_failure.empty() &&
              settings_.seconds_left() > stopping_seconds()) {
         observe_(state_);
@@ -234,6 +252,13 @@ class Run {
       while (pool_->outstanding() > 0 && Clock::now() < end) {
         std::optional<Result> result = receive();
         if (result && !result->failed()) stopped.push_back(std::move(*result));
+      }
+      for (auto& [index, work] : in_work_) {
+        if (!work.best || !work.best->feasible()) continue;
+        work.best->evaluation.stopped = true;
+        ++state_.stopped;
+        keep(*work.best);
+        stopped.push_back(std::move(*work.best));
       }
       stopping_ = false;
     }
@@ -357,7 +382,7 @@ class Run {
                      e.triangles,
                      e.violation,
                      e.squared_bits,
-                     chain(e.genes),
+                     chain(e),
                      e.reconstruction_triangles,
                      e.unmeshed_points,
                      std::move(result.mesh),
@@ -402,7 +427,7 @@ class Run {
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
     start_workers(1, known.index == kPolishIndex ? kPolishTimes : 1);
-    pool_->submit(known.index, chain(known.genes));
+    pool_->submit(known.index, chain(known));
     Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();
     if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
@@ -420,6 +445,7 @@ class Run {
   const OptimizeSettings& settings_;
   const OptimizeObserver& observe_;
   const Problem problem_;
+  const std::optional<std::size_t> walked_;
   const double seconds_ = settings_.seconds_left();
   Genocop genocop_;
   LookAheadScheduler scheduler_;
@@ -429,7 +455,7 @@ class Run {
   double surface_seconds_ = 0, decimation_seconds_ = 0;  // the most that an evaluation took
   OptimizeState state_;
   Genes best_genes_;
-  std::map<std::uint64_t, Genes> in_work_;
+  std::map<std::uint64_t, CandidateInWork> in_work_;
   std::map<std::uint64_t, Result> results_;  // not entered yet
   std::uint64_t next_ = 0;                   // to enter
   std::optional<std::uint64_t> looked_for_;  // the last best whose mesh was asked of the folder
@@ -438,45 +464,6 @@ class Run {
 };
 
 }  // namespace
-
-WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings) {
-  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points));
-  WorkerPoolOptions options;
-  options.jobs = settings.jobs;
-  options.time_limit = limits.time;
-  options.memory_limit = limits.memory;
-  options.allow_test_methods = settings.allow_test_methods;
-  return options;
-}
-
-Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings) {
-  while (true) {
-    if (settings.interrupted()) throw Interrupted{};
-    if (auto completed = pool.wait_for(kHeartbeat)) return std::move(*completed);
-  }
-}
-
-Problem search_problem(const OptimizeSettings& settings) {
-  // Along it triangles fall and e_max rises.
-  return make_problem(settings.config,
-                      settings.decimator == "schroeder" ? "schroeder.reduction" : "");
-}
-
-ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
-                       const Genes& genes) {
-  ParameterValues values;
-  for (std::size_t i = 0; i < genes.size(); ++i) values[problem.genes.at(i).name] = genes[i];
-  return chain_settings(settings.method, settings.decimator, values);
-}
-
-double violation_of(const ChainResult& made, const MeasuredError& error,
-                    const DecimationBound& bound) {
-  if (!(bound.epsilon_back > 0)) return error.violation;
-  const auto difference = static_cast<double>(made.topology_difference);
-  return std::max({error.violation, made.back_distance / bound.epsilon_back - 1,
-                   made.reference_distance / bound.epsilon - 1,
-                   difference > 0 ? difference / (1 + difference) : -1});
-}
 
 OptimizeState optimize(std::span<const Point> cloud, ErrorConstraint& constraint, Evaluator* device,
                        const OptimizeSettings& settings, const OptimizeObserver& observe) {

@@ -96,6 +96,10 @@ WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings
 // The next evaluation to complete. Throws Interrupted.
 Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings);
 
+// The gene of Schroeder's reduction, where every evaluation looks for its best value itself: it is
+// fixed in the problem that is searched.
+std::optional<std::size_t> walked_gene(const OptimizeSettings& settings);
+
 // What is searched.
 Problem search_problem(const OptimizeSettings& settings);
 

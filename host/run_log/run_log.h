@@ -25,6 +25,7 @@ struct LoggedEvaluation {
   std::string failure;  // its reason; empty for one that was measured
   std::string message;  // one line
 
+  std::optional<double> walked;  // the value of the gene that the evaluation looked for itself
   std::uint64_t triangles = 0;
   double violation = 0;            // as MeasuredError has it; at most 0 when feasible
   std::uint32_t squared_bits = 0;  // the kernel's e_max^2 over the points that are kept

@@ -75,9 +75,10 @@ class WorkerPool::Implementation {
     }
     Completed first = std::move(completed_.front());
     completed_.pop_front();
-    hand_out();
     return first;
   }
+
+  void go_on() { hand_out(); }
 
   void stop() {
     queue_.clear();
@@ -299,6 +300,8 @@ Completed WorkerPool::wait() {
 std::optional<Completed> WorkerPool::wait_for(std::chrono::milliseconds duration) {
   return implementation_->wait_until(Clock::now() + duration);
 }
+
+void WorkerPool::go_on() { implementation_->go_on(); }
 
 void WorkerPool::stop() { implementation_->stop(); }
 

@@ -54,6 +54,10 @@ class WorkerPool {
   // The same, but nothing when `duration` passes or a signal arrives first.
   std::optional<Completed> wait_for(std::chrono::milliseconds duration);
 
+  // The worker that made what wait() returned last is free; what is submitted now for the same
+  // reconstruction goes to it. This gives it what is queued, as the next wait() would.
+  void go_on();
+
   // What is queued is given up, and what is decimated is to complete soon, with the mesh at hand:
   // see ChainResult::stopped.
   void stop();

@@ -20,6 +20,7 @@ struct RealSearch {
     constraint = std::make_unique<ErrorConstraint>(cloud, epsilon, excluded_share);
     settings.decimator = decimator;
     settings.config = default_config(chain_parameters(settings.method, decimator));
+    settings.config.search.monotone_walk = false;  // every trial is an evaluation
     settings.output = "mesh.ply";
     if (decimator == "bounded") settings.epsilon_back = epsilon;
     problem = search_problem(settings);

@@ -25,7 +25,7 @@ class EndToEnd : public testing::Test {
     return test::run_emax(arguments, folder_.path());
   }
   ProgramRun optimize(const std::string& output, std::vector<std::string> more = {},
-                      const std::string& max_error = "3%", const std::string& budget = "24") {
+                      const std::string& max_error = "3%", const std::string& budget = "10") {
     std::vector<std::string> arguments = {"optimize",    "scan.xyz", "--max-error", max_error,
                                           "-o",          output,     "--budget",    budget,
                                           "--decimator", "schroeder"};
@@ -47,7 +47,7 @@ TEST_F(EndToEnd, FindsACertifiedMeshWithinTheTolerance) {
   EXPECT_LE(result.at("e_max").get<double>(), result.at("epsilon").get<double>());
   EXPECT_GT(result.at("e_max").get<double>(), 0);
   EXPECT_EQ(result.at("points"), 1500);
-  EXPECT_EQ(result.at("evaluations"), 24);
+  EXPECT_EQ(result.at("evaluations"), 10);
   EXPECT_LT(result.at("triangles"), result.at("reconstruction_triangles"));
   for (const char* key : {"e_max", "epsilon", "e_max_squared_bits", "worst_point", "triangles",
                           "valid", "transform", "bound", "seed"}) {
@@ -100,12 +100,12 @@ TEST_F(EndToEnd, APlanarCloudIsASurface) {
 TEST_F(EndToEnd, OptimizesOnTheHardware) {
   test::write_scan(folder_.path() / "scan.xyz", 400, 2);
   const test::BoardProgram board(EMAX_BOARD_PROGRAM);
-  ASSERT_EQ(optimize("cpu.ply", {}, "20%", "6").exit_code, 0);
+  ASSERT_EQ(optimize("cpu.ply", {}, "20%", "1").exit_code, 0);
   const json expected = read("cpu.ply.certificate.json");
   for (const std::string& device : {std::string("rtl"), "tty:" + board.path()}) {
     SCOPED_TRACE(device);
     const ProgramRun run =
-        optimize("mesh.ply", {"--device", device, "--json", "result.json"}, "20%", "6");
+        optimize("mesh.ply", {"--device", device, "--json", "result.json"}, "20%", "1");
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     EXPECT_EQ(text("mesh.ply"), text("cpu.ply"));
     const json certificate = read("mesh.ply.certificate.json");
@@ -182,8 +182,10 @@ TEST_F(EndToEnd, InfeasibleToleranceIsSaidAndNothingWritten) {
   EXPECT_EQ(run.exit_code, 2) << run.errors;
   EXPECT_NE(run.output.find("infeasible"), std::string::npos) << run.output;
   EXPECT_EQ(read("result.json").at("feasible"), false);
-  EXPECT_GT(read("result.json").at("e_max").get<double>(),
-            read("result.json").at("epsilon").get<double>());
+  // Where every point is a vertex of a mesh that is not decimated, binary32 proves nothing.
+  EXPECT_TRUE(run.output.find("below what the kernel can tell apart") != std::string::npos ||
+              run.output.find("is the least found") != std::string::npos)
+      << run.output;
   EXPECT_FALSE(exists("mesh.ply"));
   EXPECT_FALSE(exists("mesh.ply.certificate.json"));
 }
@@ -368,12 +370,12 @@ TEST_F(EndToEnd, TimeIsKept) {
 TEST_F(EndToEnd, AllMethodsAndMeshFormats) {
   for (const char* method : {"gp3", "poisson", "hoppe"}) {
     SCOPED_TRACE(method);
-    ASSERT_EQ(optimize("mesh.obj", {"--method", method}, "8%", "6").exit_code, 0);
+    ASSERT_EQ(optimize("mesh.obj", {"--method", method}, "8%", "2").exit_code, 0);
     EXPECT_EQ(emax({"verify", "mesh.obj.certificate.json"}).exit_code, 0);
   }
   for (const char* name : {"mesh.off", "mesh.stl", "mesh.ply"}) {
     SCOPED_TRACE(name);
-    ASSERT_EQ(optimize(name, {}, "8%", "4").exit_code, 0);
+    ASSERT_EQ(optimize(name, {}, "8%", "1").exit_code, 0);
     EXPECT_EQ(emax({"verify", std::string(name) + ".certificate.json"}).exit_code, 0);
   }
 }

@@ -51,6 +51,7 @@ class OptimizeTest : public testing::Test {
     settings_.decimator = "schroeder";
     settings_.config = default_config(chain_parameters("gp3", "schroeder"));
     settings_.config.search.budget = kBudget;
+    settings_.config.search.monotone_walk = false;  // so that an evaluation is one mesh
     settings_.jobs = 2;
     settings_.limits = EvaluationLimits{60s, 0};
     settings_.output = "mesh.ply";
@@ -275,6 +276,61 @@ TEST_F(OptimizeTest, OutOfTimeTakesTheMeshesAtHand) {
   for (const auto& [index, e] : log.evaluations()) EXPECT_FALSE(e.stopped) << index;
 }
 
+// Every evaluation looks for the greatest reduction itself; the twin tries each of a hundred.
+TEST_F(OptimizeTest, AnEvaluationWalksTheReduction) {
+  settings_.config.search.monotone_walk = true;
+  settings_.config.search.budget = 1;
+  RunLog log(path_, kSettings);
+  const OptimizeState state = run(&log);
+  ASSERT_TRUE(state.best);
+  EXPECT_GT(measured_, 1u);
+  EXPECT_EQ(log.evaluations().size(), 1u);
+  const double walked = state.best->chain.parameters.at("schroeder.reduction");
+  EXPECT_EQ(log.find(0)->walked, walked);
+  Chain chain(cloud_);
+  ChainSettings candidate = state.best->chain;
+  EXPECT_TRUE(same_bytes(as_stored(chain.run(candidate).mesh, MeshFormat::kPly), state.best->mesh));
+  std::size_t fewest = state.best->triangles;
+  for (int i = 0; i < 100; ++i) {
+    candidate.parameters["schroeder.reduction"] = 0.98 * i / 100;
+    const TriangleMesh mesh = chain.run(candidate).mesh;
+    if (constraint_.measure(mesh.view()).feasible) fewest = std::min(fewest, mesh.triangles.size());
+  }
+  EXPECT_LE(static_cast<double>(state.best->triangles), 1.2 * static_cast<double>(fewest));
+}
+
+// A surface that misses points before it is decimated is hopeless: it costs one mesh, and tells how
+// far it is from hope.
+TEST_F(OptimizeTest, AFloorThatBreaksTheBoundIsToldAtOnce) {
+  settings_.config.search.monotone_walk = true;
+  settings_.config.search.budget = 4;
+  std::uint64_t meshes = 0;
+  settings_.measured = [&](MeshView, const MeasuredError&) { ++meshes; };
+  std::vector<Point> cloud = cloud_;
+  cloud.push_back({9, 9, 9});  // no neighbour is near enough
+  ErrorConstraint constraint(cloud, 0.3, 0);
+  const OptimizeState state =
+      optimize(cloud, constraint, nullptr, settings_, [](const OptimizeState&) {});
+  EXPECT_FALSE(state.best);
+  ASSERT_TRUE(state.least_error);
+  EXPECT_EQ(meshes, 4u);
+  EXPECT_EQ(state.least_error->chain.parameters.at("schroeder.reduction"), 0);
+}
+
+TEST_F(OptimizeTest, WalksAreTheSameForAnyJobsAndGoOnFromTheLog) {
+  settings_.config.search.monotone_walk = true;
+  settings_.config.search.budget = 20;
+  const OptimizeState whole = run();
+  settings_.jobs = 1;
+  RunLog log(path_, kSettings);
+  settings_.interrupted = [this] { return measured_ >= 30; };
+  EXPECT_TRUE(run(&log).interrupted);
+  EXPECT_GT(log.size(), 0u);
+  EXPECT_LT(log.size(), 20u);
+  settings_.interrupted = [] { return false; };
+  expect_same(run(&log), whole);
+}
+
 // As when the libraries have changed although the settings name the same.
 TEST_F(OptimizeTest, AMeshThatIsMadeAgainMustBeTheSame) {
   std::uint64_t best = 0;
@@ -334,15 +390,20 @@ TEST_F(OptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   settings_.decimator = "bounded";
   settings_.config = default_config(chain_parameters("gp3", "bounded"));
   settings_.config.search.budget = 3;
-  settings_.bound.epsilon = 0.05;  // so fine that triangles are left to remove
   settings_.polish = false;
-  const OptimizeState plain = run();
-  ASSERT_TRUE(plain.best);
-  EXPECT_FALSE(plain.polished);
-  ChainSettings deep = plain.best->chain;
-  EXPECT_EQ(std::exchange(deep.parameters.at(kBoundedEffort), kDeepEffort), 2);
-  Chain chain(cloud_, settings_.bound, 1 << 20);
-  const TriangleMesh twin = chain.run(deep).mesh;
+  OptimizeState plain;
+  ChainSettings deep;
+  TriangleMesh twin;
+  for (const double epsilon : {0.05, 0.04, 0.03, 0.02}) {  // until triangles are left to remove
+    settings_.bound.epsilon = epsilon;
+    plain = run();
+    ASSERT_TRUE(plain.best);
+    EXPECT_FALSE(plain.polished);
+    deep = plain.best->chain;
+    EXPECT_EQ(std::exchange(deep.parameters.at(kBoundedEffort), kDeepEffort), 2);
+    twin = Chain(cloud_, settings_.bound, 1 << 20).run(deep).mesh;
+    if (twin.triangles.size() < plain.best->triangles) break;
+  }
   ASSERT_LT(twin.triangles.size(), plain.best->triangles);
 
   settings_.polish = true;
@@ -428,63 +489,6 @@ TEST_F(OptimizeTest, AFailedDeviceIsNotLogged) {
   EXPECT_TRUE(cut.failures.empty());
   device_ = nullptr;
   expect_same(run(&log), whole);
-}
-
-TEST(SearchBudget, FollowsEffortAndPoints) {
-  using enum SearchEffort;
-  EXPECT_EQ(search_budget(kQuick, 1'000'000, false, {}), 1u);
-  EXPECT_EQ(search_budget(kQuick, 1'000, false, 77), 1u);
-  EXPECT_GT(search_budget(kQuick, 1'000, true, {}), 1u);
-  EXPECT_EQ(search_budget(kNormal, 1'000, false, 77), 77u);
-  EXPECT_EQ(search_budget(kDeep, 1'000'000, false, 77), 308u);
-  for (const bool decimation : {false, true}) {
-    const std::uint64_t normal = search_budget(kNormal, 100'000, decimation, {});
-    EXPECT_EQ(search_budget(kNormal, 3, decimation, {}), normal);
-    EXPECT_EQ(search_budget(kDeep, 3, decimation, {}), 4 * normal);
-    EXPECT_EQ(search_budget(kNormal, 200'000, decimation, {}), normal / 2);
-    EXPECT_EQ(search_budget(kNormal, 100'000'000, decimation, {}), normal / 5);
-  }
-}
-
-TEST(EvaluationLimits, GrowWithTheCloud) {
-  EXPECT_EQ(standard_limits(1000).time, 10min);
-  EXPECT_EQ(standard_limits(1'000'000).time, 2000s);
-  TemporaryFolder folder;
-  const std::uint64_t machine = usable_memory("no such file");
-  EXPECT_EQ(usable_memory(folder.write("limit", "max\n")), machine);
-  EXPECT_EQ(usable_memory(folder.write("limit", "123456789\n")), 123456789u);
-  EXPECT_EQ(usable_memory(folder.write("limit", "18446744073709551615\n")), machine);
-#ifndef __SANITIZE_ADDRESS__
-  const std::uint64_t usable = usable_memory(), most = usable - usable / 8;
-  EXPECT_EQ(standard_limits(0).memory, std::min(most, std::uint64_t{2} << 30));
-  EXPECT_EQ(standard_limits(1'000'000'000).memory,
-            std::min(most, std::uint64_t{8'194'147'483'648}));
-  EXPECT_EQ(jobs_in_memory({10min, most}), 4u);
-  EXPECT_EQ(jobs_in_memory({10min, 100 * most}), 1u);
-  EXPECT_GT(jobs_in_memory({10min, 0}), 1000u);
-#endif
-}
-
-// Each of the three bounds is broken where the others hold.
-TEST(Violation, IsThatOfTheWorstBound) {
-  const DecimationBound bound = {2, 4, {}, {}};
-  MeasuredError error = {};
-  error.violation = -0.5;
-  ChainResult made;
-  made.back_distance = made.reference_distance = 1;
-  EXPECT_EQ(violation_of(made, error, bound), -0.5);
-  made.reference_distance = 3;
-  EXPECT_EQ(violation_of(made, error, bound), 0.5);
-  made.reference_distance = 1;
-  made.back_distance = 8;
-  EXPECT_EQ(violation_of(made, error, bound), 1);
-  EXPECT_EQ(violation_of(made, error, {2, 0, {}, {}}), -0.5);  // one-sided
-  error.violation = 1.5;
-  EXPECT_EQ(violation_of(made, error, bound), 1.5);
-  made.topology_difference = 3;
-  error.violation = -0.5;
-  made.back_distance = 1;
-  EXPECT_EQ(violation_of(made, error, bound), 0.75);
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <array>
+
+#include "host/optimize/optimize.h"
+
+namespace emax {
+namespace {
+
+constexpr const char* kReduction = "schroeder.reduction";
+
+// The first start with other values where the problem has these genes, each within its domain.
+// Nothing where it has none of them.
+void add_start(Problem& problem, const ParameterValues& values) {
+  Genes start = problem.starts.front();
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const Gene& gene = problem.genes[i];
+    const auto value = values.find(gene.name);
+    if (value != values.end()) start[i] = std::clamp(value->second, gene.lower, gene.upper);
+  }
+  if (std::ranges::count(problem.starts, start) == 0) problem.starts.push_back(std::move(start));
+}
+
+// Greedy projection leaves points out where its neighbourhoods are small for the cloud, and no
+// decimation can come below the distance of such a point. So it also begins where few are left out.
+void add_generous_starts(Problem& problem) {
+  const bool greedy = std::ranges::any_of(
+      problem.genes, [](const Gene& gene) { return gene.name == "gp3.radius"; });
+  // Linear constraints could forbid them.
+  if (!greedy || !problem.linear.empty()) return;
+  struct Generous {
+    double radius, mu, max_neighbors, surface_angle, min_angle, max_angle, normals;
+  };
+  constexpr std::array<Generous, 8> kGenerous = {{
+      {3, 5, 200, 60, 5, 120, 40},
+      {10, 5, 200, 60, 5, 120, 40},
+      {14, 4, 300, 110, 0, 170, 20},
+      {14, 6, 300, 60, 5, 120, 40},
+      {14, 6, 300, 180, 0, 175, 20},
+      {14, 6, 300, 150, 2, 165, 40},
+      {14, 3, 300, 90, 0, 170, 30},
+      {12, 4, 200, 130, 0, 160, 12},
+  }};
+  for (const Generous& g : kGenerous) {
+    add_start(problem, {{"gp3.radius", g.radius},
+                        {"gp3.mu", g.mu},
+                        {"gp3.max_neighbors", g.max_neighbors},
+                        {"gp3.surface_angle", g.surface_angle},
+                        {"gp3.min_angle", g.min_angle},
+                        {"gp3.max_angle", g.max_angle},
+                        {"normals.k", g.normals}});
+  }
+}
+
+}  // namespace
+
+WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings) {
+  const EvaluationLimits limits = settings.limits.value_or(standard_limits(points));
+  WorkerPoolOptions options;
+  options.jobs = settings.jobs;
+  options.time_limit = limits.time;
+  options.memory_limit = limits.memory;
+  options.allow_test_methods = settings.allow_test_methods;
+  return options;
+}
+
+Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings) {
+  while (true) {
+    if (settings.interrupted()) throw Interrupted{};
+    if (auto completed = pool.wait_for(kHeartbeat)) return std::move(*completed);
+  }
+}
+
+std::optional<std::size_t> walked_gene(const OptimizeSettings& settings) {
+  const std::vector<GeneConfig>& genes = settings.config.genes;
+  const auto gene =
+      std::ranges::find(genes, kReduction, [](const GeneConfig& g) { return g.gene.name; });
+  if (!settings.config.search.monotone_walk || gene == genes.end() || gene->fixed ||
+      !(gene->gene.lower < gene->gene.upper)) {
+    return std::nullopt;
+  }
+  const auto position = static_cast<std::size_t>(gene - genes.begin());
+  for (const LinearConstraint& constraint : settings.config.linear) {
+    for (const auto& [held, coefficient] : constraint.terms) {
+      if (held == position) return std::nullopt;
+    }
+  }
+  return position;
+}
+
+Problem search_problem(const OptimizeSettings& settings) {
+  const std::optional<std::size_t> walked = walked_gene(settings);
+  // Along it triangles fall and e_max rises.
+  const bool named = settings.decimator == "schroeder" && !walked;
+  Problem problem = make_problem(settings.config, named ? kReduction : "");
+  if (!walked) return problem;
+  Gene& gene = problem.genes[*walked];
+  gene.upper = gene.lower;
+  for (Genes& start : problem.starts) start[*walked] = gene.lower;
+  problem.stepped = true;
+  add_generous_starts(problem);
+  return problem;
+}
+
+ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
+                       const Genes& genes) {
+  ParameterValues values;
+  for (std::size_t i = 0; i < genes.size(); ++i) values[problem.genes.at(i).name] = genes[i];
+  return chain_settings(settings.method, settings.decimator, values);
+}
+
+double violation_of(const ChainResult& made, const MeasuredError& error,
+                    const DecimationBound& bound) {
+  if (!(bound.epsilon_back > 0)) return error.violation;
+  const auto difference = static_cast<double>(made.topology_difference);
+  return std::max({error.violation, made.back_distance / bound.epsilon_back - 1,
+                   made.reference_distance / bound.epsilon - 1,
+                   difference > 0 ? difference / (1 + difference) : -1});
+}
+
+}  // namespace emax

@@ -1,0 +1,48 @@
+#include "host/optimize/evaluation_limits.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/geometry/temporary_folder.h"
+
+namespace emax::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(SearchBudget, FollowsEffortAndPoints) {
+  using enum SearchEffort;
+  EXPECT_EQ(search_budget(kQuick, 1'000'000, false, {}), 1u);
+  EXPECT_EQ(search_budget(kQuick, 1'000, false, 77), 1u);
+  EXPECT_GT(search_budget(kQuick, 1'000, true, {}), 1u);
+  EXPECT_EQ(search_budget(kNormal, 1'000, false, 77), 77u);
+  EXPECT_EQ(search_budget(kDeep, 1'000'000, false, 77), 308u);
+  for (const bool decimation : {false, true}) {
+    const std::uint64_t normal = search_budget(kNormal, 100'000, decimation, {});
+    EXPECT_EQ(search_budget(kNormal, 3, decimation, {}), normal);
+    EXPECT_EQ(search_budget(kDeep, 3, decimation, {}), 4 * normal);
+    EXPECT_EQ(search_budget(kNormal, 200'000, decimation, {}), normal / 2);
+    EXPECT_EQ(search_budget(kNormal, 100'000'000, decimation, {}), normal / 5);
+  }
+}
+
+TEST(EvaluationLimits, GrowWithTheCloud) {
+  EXPECT_EQ(standard_limits(1000).time, 10min);
+  EXPECT_EQ(standard_limits(1'000'000).time, 2000s);
+  TemporaryFolder folder;
+  const std::uint64_t machine = usable_memory("no such file");
+  EXPECT_EQ(usable_memory(folder.write("limit", "max\n")), machine);
+  EXPECT_EQ(usable_memory(folder.write("limit", "123456789\n")), 123456789u);
+  EXPECT_EQ(usable_memory(folder.write("limit", "18446744073709551615\n")), machine);
+#ifndef __SANITIZE_ADDRESS__
+  const std::uint64_t usable = usable_memory(), most = usable - usable / 8;
+  EXPECT_EQ(standard_limits(0).memory, std::min(most, std::uint64_t{2} << 30));
+  EXPECT_EQ(standard_limits(1'000'000'000).memory,
+            std::min(most, std::uint64_t{8'194'147'483'648}));
+  EXPECT_EQ(jobs_in_memory({10min, most}), 4u);
+  EXPECT_EQ(jobs_in_memory({10min, 100 * most}), 1u);
+  EXPECT_GT(jobs_in_memory({10min, 0}), 1000u);
+#endif
+}
+
+}  // namespace
+}  // namespace emax::test
