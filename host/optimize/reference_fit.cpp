@@ -178,7 +178,7 @@ class Fit {
     tried.unexplained = static_cast<double>(unexplained) / static_cast<double>(points);
     tried.points = cloud_.size();
     // What interpolates the points has their noise.
-    if (tried.chain.method == "gp3" && fit_.scan.spacing > 0) {
+    if (tried.chain.method == "gp3" && fit_.scan.noise > kClean * fit_.scan.spacing) {
       tried.roughness = fit_.scan.noise / fit_.scan.spacing;
     }
   }

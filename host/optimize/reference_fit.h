@@ -24,7 +24,7 @@ struct TriedSurface {
   std::size_t pieces = 0;          // components of less than kPieceOfArea of the area
   double within_half = 0;          // share of the points within half of epsilon
   double unexplained = 0;          // share of them farther than that and than noise explains
-  double roughness = 0;            // of a surface through the points: noise over spacing
+  double roughness = 0;            // of a noisy surface through the points: noise over spacing
   std::size_t points = 0;          // of the cloud
   // What is wrong with it, in points: a crack, a piece or a border that another surface has not
   // counts 100, a point that is farther off than noise explains 0.1, and a point whose noise the

@@ -80,6 +80,11 @@ TEST(ReferenceFit, TakesTheInterpolatingMethodForACleanScanAtOnce) {
   EXPECT_EQ(made.fit.best().within_half, 1);
 }
 
+TEST(ReferenceFit, InterpolatesACleanScanWithABorder) {
+  const Made made = reference_of(scan_of_shape({.shape = "sheet"}));
+  EXPECT_EQ(made.fit.best().chain.method, "gp3");
+}
+
 TEST(ReferenceFit, SmoothsANoisyScan) {
   const Made made = reference_of(scan_of_shape({.shape = "torus", .noise = kEpsilon / 2}));
   EXPECT_EQ(made.fit.best().chain.method, "imls");
