@@ -105,12 +105,13 @@ TEST_F(Resume, WhatDiffersIsNamed) {
     EXPECT_NE(run.errors.find("night: the run there has " + what), std::string::npos) << run.errors;
   };
   refusal({"--seed", "2"}, "seed 1, this one has 2");
-  refusal({"--method", "hoppe"}, "method gp3, this one has hoppe");
-  refusal({"--decimator", "schroeder"}, "decimator bounded, this one has schroeder");
+  refusal({"--method", "hoppe"}, "method fit, this one has hoppe");
+  // The paper's decimation has no reference to fit.
+  refusal({"--decimator", "schroeder"}, "method fit, this one has gp3");
   refusal({"--bound", "one-sided"}, "bound two-sided, this one has one-sided");
   refusal({"--exclude-outliers", "1%"}, "exclude_outliers 0, this one has 0.01");
-  folder_.write("narrow.toml", "[genes.\"normals.k\"]\nupper = 30\n");
-  refusal({"--config", "narrow.toml"}, "genes.normals.k ");
+  folder_.write("narrow.toml", "[genes.\"bounded.flatness\"]\nupper = 0.005\n");
+  refusal({"--config", "narrow.toml"}, "genes.bounded.flatness ");
   // As if another program had made another reference.
   const std::string settings = test::file_text(folder_ / "night" / "settings.json");
   std::string other = settings;
