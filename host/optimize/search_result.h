@@ -31,7 +31,7 @@ struct CandidateInWork {
   // the first.
   bool walk_on(SearchResult& result) {
     const LoggedEvaluation& e = result.evaluation;
-    result.evaluation.walked = *walk->next();
+    result.evaluation.walked = walk->next();
     walk->told(!result.failed(), e.triangles, e.violation);
     const bool better = !best || (result.feasible() &&
                                   (!best->feasible() || e.triangles < best->evaluation.triangles));

@@ -73,8 +73,8 @@ class SparseGrid {
 
  private:
   static std::size_t within(const Cell& c) {
-    return static_cast<std::size_t>((c.x() % kBlock * kBlock + c.y() % kBlock) * kBlock +
-                                    c.z() % kBlock);
+    const int place = (c.x() % kBlock * kBlock + c.y() % kBlock) * kBlock + c.z() % kBlock;
+    return static_cast<std::size_t>(place);
   }
   std::unordered_map<std::uint64_t, std::uint32_t> index_;
   std::vector<Cell> corners_;  // of the blocks

@@ -62,8 +62,8 @@ void add_box(TriangleMesh& mesh, const Point& low, const Point& high) {
 
 TriangleMesh sphere(double scale) {
   TriangleMesh mesh;  // a cube's grid, blown up
-  const int n = static_cast<int>(40 * scale);
-  add_box(mesh, Point(-n / 2, -n / 2, -n / 2), Point(n / 2, n / 2, n / 2));
+  const double half = std::floor(20 * scale);
+  add_box(mesh, Point::Constant(-half), Point::Constant(half));
   for (Point& p : mesh.vertices) p = 25 * scale * p.normalized();
   return mesh;
 }
