@@ -1,12 +1,5 @@
 // What a certificate calls a surface (docs/numerics.md), judged by CGAL: on scans and tolerances
 // drawn at random, from far below the distance between points to far above it.
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/border.h>
-#include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -21,6 +14,7 @@
 #include "tests/host/app/program.h"
 #include "tests/host/geometry/temporary_folder.h"
 #include "tests/host/reconstruct/surface_clouds.h"
+#include "tests/support/cgal_mesh.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::test {
@@ -28,37 +22,13 @@ namespace {
 
 using nlohmann::json;
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-Kernel::Point_3 cgal_point(const Point& p) { return {p[0], p[1], p[2]}; }
-
-// Refuses what is not manifold and consistently oriented.
-CgalMesh cgal_mesh(const TriangleMesh& mesh) {
-  CgalMesh result;
-  for (const Point& p : mesh.vertices) result.add_vertex(cgal_point(p));
-  using Vertex = CgalMesh::Vertex_index;
-  for (const Triangle& t : mesh.triangles) {
-    EXPECT_TRUE(result.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid());
-  }
-  return result;
-}
-
-json topology_by_cgal(CgalMesh& mesh) {
-  auto piece = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:piece", 0).first;
-  const auto components = static_cast<std::ptrdiff_t>(pmp::connected_components(mesh, piece));
-  std::vector<CgalMesh::Halfedge_index> cycles;
-  pmp::extract_boundary_cycles(mesh, std::back_inserter(cycles));
-  const auto loops = static_cast<std::ptrdiff_t>(cycles.size());
-  const auto count = [](auto n) { return static_cast<std::ptrdiff_t>(n); };
-  const std::ptrdiff_t characteristic = count(mesh.number_of_vertices()) -
-                                        count(mesh.number_of_edges()) +
-                                        count(mesh.number_of_faces());
-  return {{"components", components},
-          {"border_loops", loops},
-          {"genus", (2 * components - loops - characteristic) / 2}};
+// As a certificate tells it.
+json topology_in_json(const CgalMesh& mesh) {
+  const MeshTopology topology = topology_by_cgal(mesh);
+  return {{"components", topology.components},
+          {"border_loops", topology.border_loops},
+          {"genus", topology.genus}};
 }
 
 // Corners and random points of every triangle, more in larger ones.
@@ -82,16 +52,6 @@ std::vector<Point> samples(const TriangleMesh& mesh, std::uint64_t seed) {
     }
   }
   return points;
-}
-
-double farthest(std::span<const Point> points, const CgalMesh& mesh) {
-  Tree tree(faces(mesh).begin(), faces(mesh).end(), mesh);
-  tree.accelerate_distance_queries();
-  double worst = 0;
-  for (const Point& p : points) {
-    worst = std::max(worst, CGAL::to_double(tree.squared_distance(cgal_point(p))));
-  }
-  return std::sqrt(worst);
 }
 
 struct Drawn {
@@ -144,8 +104,8 @@ class CertifiedSurface : public testing::TestWithParam<std::uint64_t> {
     const TriangleMesh reference = read_mesh(folder_ / reference_name);
     CgalMesh cgal = cgal_mesh(mesh), cgal_reference = cgal_mesh(reference);
     EXPECT_EQ(c.at("valid"), true);
-    EXPECT_EQ(topology_by_cgal(cgal), c.at("topology"));
-    EXPECT_EQ(topology_by_cgal(cgal_reference), c.at("reference").at("topology"));
+    EXPECT_EQ(topology_in_json(cgal), c.at("topology"));
+    EXPECT_EQ(topology_in_json(cgal_reference), c.at("reference").at("topology"));
     EXPECT_EQ(c.at("topology"), c.at("reference").at("topology"));
     const double epsilon = c.at("epsilon").get<double>() * (1 + 1e-9);
     EXPECT_LE(farthest(points, cgal), epsilon);
@@ -190,7 +150,7 @@ TEST(CertifiedSurfaceFault, CgalSeesAHole) {
   EXPECT_EQ(farthest(holed.vertices, cgal), 0);
   EXPECT_LT(farthest(samples(holed, 1), cgal_reference), 1e-12);
   EXPECT_GT(farthest(samples(reference, 1), cgal), 0.01);
-  EXPECT_NE(topology_by_cgal(cgal), topology_by_cgal(cgal_reference));
+  EXPECT_NE(topology_in_json(cgal), topology_in_json(cgal_reference));
 }
 
 }  // namespace

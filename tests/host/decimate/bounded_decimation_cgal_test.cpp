@@ -1,14 +1,6 @@
 // What the decimator promises, as CGAL sees it, on a scan.
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/border.h>
-#include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
 #include "host/decimate/certified_decimation.h"
@@ -16,39 +8,13 @@
 #include "host/geometry/bounds.h"
 #include "host/geometry/mesh_file.h"
 #include "surfaces.h"
+#include "tests/support/cgal_mesh.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::test {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Kernel::Point_3 cgal_point(const Point& p) { return {p[0], p[1], p[2]}; }
-
-CgalMesh cgal_mesh(const TriangleMesh& mesh) {
-  CgalMesh result;
-  for (const Point& p : mesh.vertices) result.add_vertex(cgal_point(p));
-  using Vertex = CgalMesh::Vertex_index;
-  for (const Triangle& t : mesh.triangles) {
-    // Refuses what is not manifold and consistently oriented.
-    EXPECT_TRUE(result.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid());
-  }
-  return result;
-}
-
-double farthest(std::span<const Point> points, const CgalMesh& mesh) {
-  Tree tree(faces(mesh).begin(), faces(mesh).end(), mesh);
-  tree.accelerate_distance_queries();
-  double worst = 0;
-  for (const Point& p : points) {
-    worst = std::max(worst, CGAL::to_double(tree.squared_distance(cgal_point(p))));
-  }
-  return std::sqrt(worst);
-}
 
 // Corners, middles and a grid inside of every triangle.
 std::vector<Point> samples(const TriangleMesh& mesh, int steps) {
@@ -81,20 +47,6 @@ void expect_as_promised(double percent, bool two_sided, std::size_t fewer_than) 
     EXPECT_LE(farthest(samples(result.mesh, 6), cgal_mesh(mesh)), limit);
     EXPECT_LE(farthest(samples(mesh, 4), cgal), limit);
   }
-}
-
-// Components, border loops and genus, counted by CGAL.
-std::array<std::size_t, 3> topology(const CgalMesh& mesh) {
-  CgalMesh copy = mesh;
-  const auto piece_of = copy.add_property_map<CgalMesh::Face_index, std::size_t>("piece").first;
-  const std::size_t components = pmp::connected_components(copy, piece_of);
-  std::vector<CgalMesh::Halfedge_index> borders;
-  pmp::extract_boundary_cycles(copy, std::back_inserter(borders));
-  std::size_t used = 0;
-  for (const CgalMesh::Vertex_index v : copy.vertices()) used += copy.is_isolated(v) ? 0 : 1;
-  const std::size_t edges = copy.number_of_edges(), faces = copy.number_of_faces();
-  // 2 components - 2 genus - borders = vertices - edges + faces
-  return {components, borders.size(), (2 * components + edges - borders.size() - used - faces) / 2};
 }
 
 // Open and closed, of several pieces, with handles, coarse and fine, noisy and not.
@@ -162,7 +114,7 @@ TEST(BoundedDecimationCgal, DrawnSurfacesKeepThreeDirectionsAndTheirTopology) {
     EXPECT_LE(farthest(cloud, made), limit);
     EXPECT_LE(farthest(samples(result.mesh, 6), reference), limit);
     EXPECT_LE(farthest(samples(mesh, 4), made), limit);
-    EXPECT_EQ(topology(made), topology(reference));
+    EXPECT_EQ(topology_by_cgal(made), topology_by_cgal(reference));
     EXPECT_FALSE(pmp::does_self_intersect(made));
   }
   EXPECT_LT(after, before / 2);
