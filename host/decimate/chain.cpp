@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "host/decimate/crack_free.h"
+#include "host/decimate/cracks.h"
 #include "host/decimate/decimate.h"
 #include "host/decimate/fill_holes_smoothly.h"
 #include "host/decimate/manifold_part.h"
@@ -124,11 +125,12 @@ ChainResult Chain::run(const ChainSettings& settings, const std::function<bool()
   if (settings.decimator == "bounded") {
     // Decimation mends neither a bound nor the topology.
     const bool hopeful = bounded_.keeps_bounds(start.verdict);
-    result.mesh = start.mesh;
     if (hopeful) {
       DecimatedMesh decimated = bounded_.decimate(start.mesh, settings.parameters, stopped);
       result.mesh = std::move(decimated.mesh);
       result.stopped = decimated.interrupted;
+    } else {
+      result.mesh = start.mesh;
     }
     result.seconds.decimate = watch.lap();
     const SurfaceVerdict verdict = hopeful ? bounded_.judge(result.mesh) : start.verdict;

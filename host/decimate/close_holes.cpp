@@ -329,4 +329,9 @@ ClosedHoles close_holes(TriangleMesh mesh, double size, double crack) {
   return result;
 }
 
+std::size_t count_cracks(const TriangleMesh& mesh, double crack) {
+  const std::vector<bool> cracks = cracks_of(mesh, Adjacency(mesh), crack);
+  return static_cast<std::size_t>(std::ranges::count(cracks, true));
+}
+
 }  // namespace emax

@@ -58,4 +58,7 @@ inline constexpr int kRimRings = 4;
 ClosedHoles close_holes(TriangleMesh mesh, double size,
                         double crack = std::numeric_limits<double>::infinity());
 
+// Border loops that are cracks (find_cracks()). For a mesh as manifold_part() gives it.
+std::size_t count_cracks(const TriangleMesh& mesh, double crack);
+
 }  // namespace emax

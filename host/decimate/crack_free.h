@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <span>
 
-#include "host/decimate/cracks.h"
 #include "host/geometry/triangle_mesh.h"
 
 namespace emax {
@@ -22,8 +21,5 @@ struct CrackFreeSurface {
 // way; with a `far` of 0 all pieces stay.
 CrackFreeSurface crack_free_surface(TriangleMesh mesh, std::span<const Point> cloud, double far,
                                     double size, double crack);
-
-// Border loops that are cracks (find_cracks()). For a mesh as manifold_part() gives it.
-std::size_t count_cracks(const TriangleMesh& mesh, double crack);
 
 }  // namespace emax

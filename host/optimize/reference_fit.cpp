@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/decimate/close_holes.h"
+#include "host/decimate/cracks.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/disjoint_sets.h"
 #include "host/geometry/mesh_topology.h"
