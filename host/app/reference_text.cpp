@@ -2,15 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sw_model/surface_distance.h"
-
 namespace emax {
-
-double reference_to_mesh(const TriangleMesh& reference, const TriangleMesh& mesh, double epsilon) {
-  const ExactMesh exact(mesh.view());
-  const SurfaceDistance decided = decided_distance(reference.view(), exact, epsilon);
-  return decided.within(epsilon) ? decided.upper : surface_distance(reference.view(), exact).upper;
-}
 
 std::string describe(const MeshTopology& mesh, const std::optional<MeshTopology>& reference) {
   std::string text = describe(mesh);

@@ -43,11 +43,12 @@ ReferenceBound ResultFiles::bound_of_reference(const BestMesh& best) {
   }
   ReferenceBound bound;
   const double epsilon = constraint_.epsilon();
-  bound.reference_to_mesh = reference_to_mesh(settings_.bound.reference, best.mesh, epsilon);
-  if (bound.reference_to_mesh > epsilon) {
-    contradict("the decimator's bound on the distance of the reference to the mesh",
-               bound.reference_to_mesh);
+  const SurfaceDistance whole =
+      decided_distance(settings_.bound.reference.view(), ExactMesh(best.mesh.view()), epsilon);
+  if (!whole.within(epsilon)) {
+    contradict("the decimator's bound on the distance of the reference to the mesh", whole.upper);
   }
+  bound.reference_to_mesh = whole.upper;
   bound.topology = topology_of(settings_.bound.reference.view());
   bound.file = reference_file().path.filename().string();
   bound.sha256 = reference_sha256_;
