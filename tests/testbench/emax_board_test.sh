@@ -7,7 +7,7 @@ folder=$(mktemp -d)
 trap '[ -z "${board:-}" ] || kill "$board" 2>/dev/null; rm -rf "$folder"' EXIT
 fail() { echo "emax_board_test: $*" >&2; exit 1; }
 
-"$program" --help | grep -q -- '--link PATH' || fail "--help does not tell of --link"
+"$program" --help | grep -- '--link PATH' >/dev/null || fail "--help does not tell of --link"
 if "$program" --nonsense 2>"$folder/usage"; then fail "an unknown option passes"; fi
 grep -q '^usage: emax_board' "$folder/usage" || fail "no usage for an unknown option"
 if "$program" --link "$folder" 2>"$folder/error"; then fail "a path that is there passes"; fi

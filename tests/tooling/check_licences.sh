@@ -8,7 +8,7 @@
 # of a source that is otherwise under the GPL. With WITH=OPTION in the environment, the rows under
 # "### With OPTION" count as well. The GPL with a runtime exception, which the licence then
 # names, and the LGPL are no hindrance. What a program opens only while it runs is not seen.
-set -euo pipefail
+set -euo pipefail # so no pipe ends in grep -q, which leaves its writers to die of SIGPIPE
 
 table=$1
 with=${WITH:-}
@@ -72,19 +72,19 @@ check_package() {
     return
   fi
   IFS='|' read -r name licence folders <<<"$cells"
-  if sed 's/LGPL[-0-9.+]*//g; s/GPL[-0-9.+]* with [^,]*exception//g' <<<"$licence" | grep -q GPL; then
+  if sed 's/LGPL[-0-9.+]*//g; s/GPL[-0-9.+]* with [^,]*exception//g' <<<"$licence" | grep GPL >/dev/null; then
     fault "$name ($libraries) is under the GPL: $licence"
   fi
 
   local copyright=$copyrights/$name/copyright
   if [ ! -r "$copyright" ]; then
     fault "$name: no copyright file $copyright"
-  elif ! head -n 1 "$copyright" | grep -q '^Format:'; then
+  elif ! head -n 1 "$copyright" | grep '^Format:' >/dev/null; then
     [ "$folders" = free-form ] || fault "$name: $copyright is free-form: read it and say so"
   elif [[ $folders == "all but "* ]]; then
     folder=${folders#all but }
     if ! awk -v RS= '{ sub(/\nCopyright:.*/, ""); print }' "$copyright" |
-      tr -s ' ' '\n' | grep -qxF "$folder*"; then
+      tr -s ' ' '\n' | grep -xF "$folder*" >/dev/null; then
       fault "$name: $copyright says nothing of $folder"
     fi
     while read -r file; do
