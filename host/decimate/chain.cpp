@@ -43,13 +43,14 @@ TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
 
 // A surface, with the cracks closed that reconstruction leaves and making it a surface; a hole of
 // the scan stays.
-TriangleMesh closed_surface(const TriangleMesh& mesh, const ParameterValues& values,
+TriangleMesh closed_surface(const TriangleMesh& mesh, const ChainSettings& settings,
                             const BoundedStage& bounded, double spacing) {
-  const FillMethod method = fill_method(values);
+  const FillMethod method = fill_method(settings.parameters);
   if (method == FillMethod::kNone) return bounded.without_needless(manifold_part(mesh).mesh);
-  const double size = values.at("fill.size");
+  const double size = settings.parameters.at("fill.size");
   return crack_free_surface(method == FillMethod::kSmooth ? fill_holes_smoothly(mesh, size) : mesh,
-                            bounded.kept(), bounded.far(), size, kCrackSpacings * spacing)
+                            bounded.kept(), bounded.far(), size, kCrackSpacings * spacing,
+                            settings.method == kInterpolatingMethod)
       .mesh;
 }
 
@@ -96,9 +97,9 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
     const bool surface = settings.decimator != "schroeder";
-    TriangleMesh filled =
-        surface ? closed_surface(reconstruction.mesh, settings.parameters, bounded_, spacing())
-                : fill(reconstruction.mesh, settings.parameters);
+    TriangleMesh filled = surface
+                              ? closed_surface(reconstruction.mesh, settings, bounded_, spacing())
+                              : fill(reconstruction.mesh, settings.parameters);
     SurfaceVerdict verdict;
     if (settings.decimator == "bounded") {
       filled = bounded_.start(filled);

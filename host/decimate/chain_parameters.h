@@ -77,6 +77,8 @@ inline constexpr const char* kNoDecimator = "none";
 // In place of a method: every one of them, as a gene, with moving least squares and the ways to
 // fill holes.
 inline constexpr const char* kAutoMethod = "auto";
+// The method whose vertices are points of the cloud: greedy projection.
+inline constexpr const char* kInterpolatingMethod = "gp3";
 // In place of a method: the bound's reference surface as it is, whatever made it. No P_R.
 inline constexpr const char* kFitMethod = "fit";
 // The method itself, but for kFitMethod with a decimator that knows no reference: the first of

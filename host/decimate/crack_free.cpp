@@ -5,6 +5,7 @@
 
 #include "host/decimate/close_holes.h"
 #include "host/decimate/drop_components.h"
+#include "host/decimate/edge_flips.h"
 #include "host/decimate/manifold_part.h"
 #include "host/geometry/mesh_topology.h"
 
@@ -33,7 +34,7 @@ void drop_needless(CrackFreeSurface& surface, std::span<const Point> cloud, doub
 }  // namespace
 
 CrackFreeSurface crack_free_surface(TriangleMesh mesh, std::span<const Point> cloud, double far,
-                                    double size, double crack) {
+                                    double size, double crack, bool interpolates) {
   ManifoldPart part = manifold_part(std::move(mesh));
   CrackFreeSurface surface;
   surface.mesh = std::move(part.mesh);
@@ -44,6 +45,7 @@ CrackFreeSurface crack_free_surface(TriangleMesh mesh, std::span<const Point> cl
   surface.mesh = std::move(closed.mesh);
   surface.closed_cracks = closed.closed;
   drop_needless(surface, cloud, far);
+  if (interpolates) flip_edges(surface.mesh);
   return surface;
 }
 

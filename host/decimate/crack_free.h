@@ -18,8 +18,9 @@ struct CrackFreeSurface {
 
 // manifold_part(), close_holes() with `size` and `crack`, and before and after it
 // drop_needless_components() with `far`, as pieces that no point needs would be in the patches'
-// way; with a `far` of 0 all pieces stay.
+// way; with a `far` of 0 all pieces stay. Then flip_edges(), where the mesh `interpolates`: which
+// of its points a method has joined is of no account.
 CrackFreeSurface crack_free_surface(TriangleMesh mesh, std::span<const Point> cloud, double far,
-                                    double size, double crack);
+                                    double size, double crack, bool interpolates);
 
 }  // namespace emax

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/decimate/close_holes.h"
 #include "host/decimate/cracks.h"
@@ -22,9 +23,12 @@ namespace {
 
 constexpr double kFill = 0.2;              // of the width: no crack's size is bounded by that
 constexpr double kClean = 0.04;            // noise, in point spacings
-constexpr double kExplained = 3.5;         // standard deviations of noise
-constexpr double kFew = 0.002;             // unexplained points that a good surface may leave
+constexpr double kFew = 0.002;             // share of the points that a good surface may leave,
+constexpr double kMany = 0.02;             // and one that calls for another,
+constexpr double kSlack = 1.5;             // beyond so many times what noise explains
 constexpr std::size_t kMeasured = 50'000;  // points whose distance is looked at
+
+constexpr const char* kLastMethod = "poisson";  // where the others have faults
 
 ChainSettings fitted_chain(const std::string& method, const ScanEstimate& scan, double width) {
   ChainSettings chain{method, kNoDecimator,
@@ -79,35 +83,23 @@ class Fit {
     WorkerPoolOptions options = worker_pool_options(cloud_.size(), settings_);
     options.jobs = std::min(settings_.jobs, static_cast<unsigned>(methods.size()));
     WorkerPool pool(cloud_, {}, options);
-    const double width = bounds_of(cloud_).width();
+    for (const std::string& method : methods) submit(pool, method);
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      TriedSurface tried;
-      tried.chain = fitted_chain(methods[m], fit_.scan, width);
-      // The surface as it comes: what is done to it is to be known here.
-      ChainSettings raw = tried.chain;
-      raw.parameters[kFillMethod] = static_cast<double>(FillMethod::kNone);
-      pool.submit(m, raw);
-      fit_.tried.push_back(std::move(tried));
-    }
-    std::vector<std::optional<Completed>> completed(methods.size());
-    std::vector<CrackFreeSurface> surfaces(methods.size());
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      while (!completed[m]) {
-        Completed next = wait_for_next(pool, settings_);
-        completed[next.ticket] = std::move(next);
-      }
-      surfaces[m] = judge(fit_.tried[m], std::move(completed[m]->outcome));
-      if (!fit_.tried[m].failure.empty()) continue;
-      if (good(fit_.tried[m])) {
-        fit_.tried.resize(m + 1);
-        break;
-      }
+      take(pool, m);
+      if (!good(fit_.tried[m])) continue;
+      fit_.tried.resize(m + 1);
+      break;
     }
     choose();
+    if (settings_.method == kFitMethod && is_faulty(fit_.best())) {
+      submit(pool, kLastMethod);
+      take(pool, fit_.tried.size() - 1);
+      choose();
+    }
     if (!fit_.best().failure.empty()) {
       throw Error("no reference surface could be made of the cloud: " + fit_.best().failure);
     }
-    fit_.surface = std::move(surfaces[fit_.chosen]);
+    fit_.surface = std::move(surfaces_[fit_.chosen]);
     return std::move(fit_);
   }
 
@@ -115,27 +107,69 @@ class Fit {
   std::vector<std::string> candidates() const {
     if (settings_.method == kAutoMethod) return {std::string(reconstruction_methods().front())};
     if (settings_.method != kFitMethod) return {settings_.method};
-    if (fit_.scan.noise > kClean * fit_.scan.spacing) return {"imls", "gp3"};
-    return {"gp3", "imls"};
+    if (fit_.scan.noise > kClean * fit_.scan.spacing) return {"imls", kInterpolatingMethod};
+    return {kInterpolatingMethod, "imls"};
+  }
+
+  void submit(WorkerPool& pool, const std::string& method) {
+    TriedSurface tried;
+    tried.chain = fitted_chain(method, fit_.scan, bounds_of(cloud_).width());
+    // The surface as it comes: what is done to it is to be known here.
+    ChainSettings raw = tried.chain;
+    raw.parameters[kFillMethod] = static_cast<double>(FillMethod::kNone);
+    pool.submit(fit_.tried.size(), raw);
+    fit_.tried.push_back(std::move(tried));
+  }
+
+  void take(WorkerPool& pool, std::size_t m) {
+    completed_.resize(fit_.tried.size());
+    surfaces_.resize(fit_.tried.size());
+    while (!completed_[m]) {
+      Completed next = wait_for_next(pool, settings_);
+      completed_[next.ticket] = std::move(next);
+    }
+    surfaces_[m] = judge(fit_.tried[m], std::move(completed_[m]->outcome));
   }
 
   void choose() {
-    std::size_t least = ~std::size_t{0};
+    // Poisson's method bridges holes of the scan, so borders that it lacks count against it.
+    MeshTopology least{~std::size_t{0}, ~std::size_t{0}, ~std::size_t{0}};
     for (const TriedSurface& tried : fit_.tried) {
-      if (tried.failure.empty()) least = std::min(least, tried.borders);
+      if (!tried.failure.empty()) continue;
+      least.components = std::min(least.components, tried.topology.components);
+      least.genus = std::min(least.genus, tried.topology.genus);
+      if (tried.chain.method == kLastMethod && fit_.tried.size() > 1) continue;
+      least.border_loops = std::min(least.border_loops, tried.topology.border_loops);
     }
     for (std::size_t m = 0; m < fit_.tried.size(); ++m) {
       TriedSurface& tried = fit_.tried[m];
       if (!tried.failure.empty()) continue;
-      tried.excess_borders = tried.borders - least;
+      tried.excess =
+          tried.topology.components - least.components + tried.topology.genus - least.genus;
+      const std::size_t borders = tried.topology.border_loops;
+      tried.excess += std::max(borders, least.border_loops) - std::min(borders, least.border_loops);
+    }
+    for (std::size_t m = 0; m < fit_.tried.size(); ++m) {
+      const TriedSurface& tried = fit_.tried[m];
+      if (!tried.failure.empty()) continue;
       const bool better = !fit_.best().failure.empty() || tried.cost() < fit_.best().cost();
       if (better) fit_.chosen = m;
     }
   }
 
+  bool is_faulty(const TriedSurface& tried) const {
+    // Joined points that noise explains speak for no other surface.
+    const double deviations = joined_beyond(tried.within_half, epsilon_) / fit_.scan.noise;
+    const double explained = std::erfc(deviations / std::numbers::sqrt2);
+    return !tried.failure.empty() || tried.cracks + tried.pieces > 0 ||
+           tried.joined > kMany + kSlack * explained;
+  }
+
   bool good(const TriedSurface& tried) const {
-    if (tried.chain.method == "gp3" && tried.borders > 0) return false;
-    return tried.cracks == 0 && tried.pieces == 0 && tried.unexplained <= kFew;
+    if (!tried.failure.empty()) return false;
+    const bool interpolates = tried.chain.method == kInterpolatingMethod;
+    if (interpolates && tried.topology.border_loops > 0) return false;
+    return tried.cracks + tried.pieces == 0 && tried.joined <= kFew;
   }
 
   CrackFreeSurface judge(TriedSurface& tried, std::variant<ChainResult, Failure> outcome) const {
@@ -148,8 +182,9 @@ class Fit {
       return {};
     }
     const double crack = kCrackSpacings * fit_.scan.spacing;
-    CrackFreeSurface surface = crack_free_surface(std::move(std::get<ChainResult>(outcome).mesh),
-                                                  cloud_, epsilon_ / 2, kFill, crack);
+    CrackFreeSurface surface =
+        crack_free_surface(std::move(std::get<ChainResult>(outcome).mesh), cloud_, epsilon_ / 2,
+                           kFill, crack, tried.chain.method == kInterpolatingMethod);
     if (surface.mesh.triangles.empty()) {
       tried.failure =
           "the cloud's reconstruction has no part that is a surface; take another --method";
@@ -158,7 +193,7 @@ class Fit {
     orient_outward(surface.mesh);
     tried.triangles = surface.mesh.triangles.size();
     tried.cracks = count_cracks(surface.mesh, crack);
-    tried.borders = topology_of(surface.mesh.view()).border_loops;
+    tried.topology = topology_of(surface.mesh.view());
     tried.pieces = small_pieces(surface.mesh);
     measure(surface.mesh, tried);
     return surface;
@@ -167,36 +202,47 @@ class Fit {
   void measure(const TriangleMesh& mesh, TriedSurface& tried) const {
     const ExactMesh exact(mesh.view());
     const std::size_t step = (cloud_.size() + kMeasured - 1) / kMeasured;
-    const double explained = std::max(epsilon_ / 2, kExplained * fit_.scan.noise);
-    std::size_t points = 0, within = 0, unexplained = 0;
+    std::vector<double> distances;
     for (std::size_t i = 0; i < cloud_.size(); i += step) {
-      const double distance = exact.nearest(cloud_[i], epsilon_ / 2).distance.upper;
-      ++points;
-      if (distance <= epsilon_ / 2) ++within;
-      if (distance > explained) ++unexplained;
+      distances.push_back(exact.nearest(cloud_[i], epsilon_ / 2).distance.upper);
       if (settings_.interrupted()) throw Interrupted{};
     }
-    tried.within_half = static_cast<double>(within) / static_cast<double>(points);
-    tried.unexplained = static_cast<double>(unexplained) / static_cast<double>(points);
+    const auto share_beyond = [&](double most) {
+      const auto beyond = std::ranges::count_if(distances, [&](double d) { return d > most; });
+      return static_cast<double>(beyond) / static_cast<double>(distances.size());
+    };
+    tried.within_half = 1 - share_beyond(epsilon_ / 2);
+    tried.joined = share_beyond(joined_beyond(tried.within_half, epsilon_));
     tried.points = cloud_.size();
     // What interpolates the points has their noise.
-    if (tried.chain.method == "gp3" && fit_.scan.noise > kClean * fit_.scan.spacing) {
-      tried.roughness = fit_.scan.noise / fit_.scan.spacing;
-    }
+    if (tried.chain.method == kInterpolatingMethod) tried.roughness = fit_.scan.noise / epsilon_;
   }
 
   std::span<const Point> cloud_;
   double epsilon_;
   const OptimizeSettings& settings_;
   ReferenceFit fit_;
+  std::vector<std::optional<Completed>> completed_;  // of what is tried
+  std::vector<CrackFreeSurface> surfaces_;
 };
 
 }  // namespace
 
+// About the triangles that it costs after decimation (docs/decisions/0014): of a point that is
+// joined, of noise that is interpolated, of edges and borders that are rounded. A fault of topology
+// costs more than that: it is no triangle that is one too many.
 double TriedSurface::cost() const {
-  constexpr double kFault = 100, kPoint = 0.1, kRough = 0.5;
-  return kFault * static_cast<double>(cracks + pieces + excess_borders) +
-         (kPoint * unexplained + kRough * roughness) * static_cast<double>(points);
+  constexpr double kFault = 1000, kJoined = 2, kRough = 1, kRounded = 0.02;
+  const double own = chain.method == kInterpolatingMethod
+                         ? kRough * std::min(1.0, roughness * roughness)
+                         : kRounded;
+  return kFault * static_cast<double>(cracks + pieces + excess) +
+         (kJoined * joined + own) * static_cast<double>(points);
+}
+
+double joined_beyond(double within_half, double epsilon) {
+  constexpr double kNearly = 0.9;
+  return epsilon * (1 - within_half > kMany ? kNearly : 0.5);
 }
 
 std::string describe(const TriedSurface& tried) {

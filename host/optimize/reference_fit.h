@@ -8,6 +8,7 @@
 
 #include "host/decimate/chain_parameters.h"
 #include "host/decimate/crack_free.h"
+#include "host/geometry/mesh_topology.h"
 #include "host/optimize/optimize.h"
 #include "host/reconstruct/scan_estimate.h"
 
@@ -18,17 +19,15 @@ struct TriedSurface {
   ChainSettings chain;  // with kNoDecimator
   std::string failure;  // why there is none; the rest is then 0
   std::size_t triangles = 0;
-  std::size_t cracks = 0;          // count_cracks()
-  std::size_t borders = 0;         // border loops, cracks included
-  std::size_t excess_borders = 0;  // more than the least of all that were tried
-  std::size_t pieces = 0;          // components of less than kPieceOfArea of the area
-  double within_half = 0;          // share of the points within half of epsilon
-  double unexplained = 0;          // share of them farther than that and than noise explains
-  double roughness = 0;            // of a noisy surface through the points: noise over spacing
-  std::size_t points = 0;          // of the cloud
-  // What is wrong with it, in points: a crack, a piece or a border that another surface has not
-  // counts 100, a point that is farther off than noise explains 0.1, and a point whose noise the
-  // surface has 0.5 times its share of the spacing.
+  std::size_t cracks = 0;  // count_cracks()
+  std::size_t pieces = 0;  // components of less than kPieceOfArea of the area
+  MeshTopology topology;
+  std::size_t excess = 0;  // components, borders and handles, more than the least of all tried
+  double within_half = 0;  // share of the points within half of epsilon
+  double joined = 0;       // share of them that will be joined to it, one by one
+  double roughness = 0;    // of a surface through the points: noise over epsilon
+  std::size_t points = 0;  // of the cloud
+  // What is wrong with it, about as triangles: see reference_fit.cpp.
   double cost() const;
 };
 inline constexpr double kPieceOfArea = 0.01;
@@ -37,6 +36,11 @@ inline constexpr double kPieceOfArea = 0.01;
 std::string describe(const TriedSurface& tried);
 
 // The surface that a run holds on to, before its far points are joined.
+// Points farther than this from a surface become its vertices: half of epsilon, which leaves
+// decimation room; where noise alone puts many points there, joining them would only make the
+// surface rough, and it is nearly epsilon.
+double joined_beyond(double within_half, double epsilon);
+
 struct ReferenceFit {
   ScanEstimate scan;
   std::vector<TriedSurface> tried;
@@ -54,7 +58,8 @@ struct ReferenceFit {
 // interpolates the points and fits clean scans, implicit moving least squares smooth noise and span
 // uneven densities. The first is taken at once where nothing is wrong with it; a surface through
 // the points must also be closed for that, as its borders may be cracks too wide to be told from
-// holes by themselves.
+// holes by themselves. Poisson's method is tried where both have faults or are far
+// from many points.
 //
 // Reconstruction runs in workers, the rest here. A pure function of its arguments, for any number
 // of jobs. Throws Error where no surface can be made, and Interrupted.

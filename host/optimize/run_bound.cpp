@@ -30,9 +30,7 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
                : std::vector<std::uint32_t>{};
   };
   bound.outliers = beyond(surface);
-  // Where noise alone puts many points there, joining them would only make the surface rough.
-  constexpr double kOften = 0.02, kNearly = 0.9;
-  fit.joined_beyond = bound.epsilon * (1 - fit.best().within_half > kOften ? kNearly : 0.5);
+  fit.joined_beyond = joined_beyond(fit.best().within_half, bound.epsilon);
   ReferenceSurface joined = reference_surface(surface, points_without(cloud, bound.outliers),
                                               fit.joined_beyond, settings.interrupted);
   bound.reference = std::move(joined.mesh);

@@ -11,7 +11,7 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kSampled = 20'000, kDensity = 10, kFitted = 25, kCoefficients = 6;
+constexpr std::size_t kSampled = 20'000, kDensity = 10, kFitted = 25, kFew = 12, kCoefficients = 6;
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -50,7 +50,7 @@ ScanEstimate estimate_scan(std::span<const Point> cloud) {
   if (cloud.size() < 3) return {};
   const PointTree tree(cloud);
   const std::size_t step = (cloud.size() + kSampled - 1) / kSampled;
-  std::vector<double> spacings, residuals;
+  std::vector<double> spacings, residuals, residuals_of_few;
   std::vector<PointTree::Neighbour> near;
   std::vector<Point> around;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
@@ -62,8 +62,14 @@ ScanEstimate estimate_scan(std::span<const Point> cloud) {
     around.clear();
     for (const PointTree::Neighbour& n : near) around.push_back(cloud[n.index]);
     residuals.push_back(residual(around));
+    residuals_of_few.push_back(residual(std::span(around).first(std::min(kFew, around.size()))));
   }
-  return {median(spacings), median(residuals)};
+  // Medians of chi-squared over its 19 and 6 degrees of freedom.
+  const double all = std::pow(median(residuals), 2) / 0.9651;
+  const double few = std::pow(median(residuals_of_few), 2) / 0.8914;
+  constexpr double kRatio = double{kFitted} / double{kFew}, kGrowth = kRatio * kRatio * kRatio;
+  const double variance = (kGrowth * few - all) / (kGrowth - 1);
+  return {median(spacings), std::sqrt(std::clamp(variance, 0.0, all))};
 }
 
 }  // namespace emax

@@ -33,12 +33,12 @@ TEST(CrackFreeSurface, ClosesCracksAndLeavesHoles) {
   EXPECT_EQ(count_cracks(cracked, 3), 1u);
   EXPECT_EQ(count_cracks(holed, 3), 0u);
 
-  const CrackFreeSurface closed = crack_free_surface(cracked, {}, 0, 0.9, 3);
+  const CrackFreeSurface closed = crack_free_surface(cracked, {}, 0, 0.9, 3, false);
   EXPECT_EQ(closed.closed_cracks, 1u);
   EXPECT_EQ(topology_of(closed.mesh.view()).border_loops, 1u);
   EXPECT_EQ(count_cracks(closed.mesh, 3), 0u);
 
-  const CrackFreeSurface open = crack_free_surface(holed, {}, 0, 0.9, 3);
+  const CrackFreeSurface open = crack_free_surface(holed, {}, 0, 0.9, 3, false);
   EXPECT_EQ(open.closed_cracks, 0u);
   EXPECT_EQ(topology_of(open.mesh.view()).border_loops, 2u);
 }
@@ -54,7 +54,7 @@ TEST(CrackFreeSurface, NamesThePiecesThatNoPointNeeds) {
   mesh.vertices.insert(mesh.vertices.end(), {{5, 5, 0.1}, {7, 5, 0.1}, {5, 6, 0.1}});
   mesh.triangles.push_back({first, first + 1, first + 2});
   const std::vector<Point> cloud = {{5.5, 5.2, 0.05}, {20, 20, 0}};
-  const CrackFreeSurface surface = crack_free_surface(mesh, cloud, 0.2, 0.9, 3);
+  const CrackFreeSurface surface = crack_free_surface(mesh, cloud, 0.2, 0.9, 3, false);
   EXPECT_EQ(surface.dropped_pieces, 1u);
   EXPECT_NEAR(surface.dropped_area, 1, 1e-9);
   EXPECT_EQ(topology_of(surface.mesh.view()).components, 1u);

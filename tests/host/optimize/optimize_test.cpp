@@ -363,7 +363,7 @@ TEST_F(OptimizeTest, TheDecimatorMayBeAGene) {
   settings_.decimator = "auto";
   settings_.config = default_config(chain_parameters("gp3", "auto"));
   settings_.config.search.budget = kBudget;
-  settings_.bound.epsilon = 0.05;
+  settings_.bound.epsilon = 0.04;
   std::set<std::string> decimators;
   RunLog log(path_, kSettings);
   const OptimizeState state = run(&log);

@@ -121,14 +121,22 @@ TEST(ReferenceFit, IsTheSameForAnyNumberOfJobs) {
 
 TEST(ReferenceFit, CountsAgainstASurfaceWhatIsWrongWithIt) {
   TriedSurface good, cracked, bordered, rough, far;
+  for (TriedSurface* tried : {&good, &cracked, &bordered, &rough, &far}) {
+    tried->chain.method = kInterpolatingMethod;
+  }
   good.points = cracked.points = bordered.points = rough.points = far.points = 1000;
-  bordered.excess_borders = 1;
+  bordered.excess = 1;
   cracked.cracks = 1;
-  rough.roughness = 0.1;
-  far.unexplained = 0.1;
+  rough.roughness = 0.3;
+  far.joined = 0.1;
   EXPECT_EQ(good.cost(), 0);
   for (const TriedSurface& other : {cracked, bordered, rough, far})
     EXPECT_GT(other.cost(), good.cost());
+  // What rounds edges and borders is worth it where the noise is not small.
+  TriedSurface rounded = good;
+  rounded.chain.method = "imls";
+  EXPECT_GT(rounded.cost(), good.cost());
+  EXPECT_LT(rounded.cost(), rough.cost());
 }
 
 }  // namespace
