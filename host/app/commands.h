@@ -28,6 +28,7 @@ struct OptimizeOptions {
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
   std::optional<std::uint64_t> target_triangles, stagnation;
   bool polish = true;
+  bool closed = false;  // every hole of the surface is closed
   std::optional<double> evaluation_seconds;
   std::optional<std::uint64_t> evaluation_memory;  // bytes
 };
@@ -46,6 +47,7 @@ struct DecimateOptions {
   std::optional<double> seconds;
   bool two_sided = true;
   bool repair = false;  // what intersects is removed instead of kept
+  bool closed = false;  // every hole is closed
   bool skip_invalid = false;
 };
 int run_decimate(const DecimateOptions& options);

@@ -4,6 +4,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/decimation_progress.h"
+#include "host/app/fit_report.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
@@ -115,7 +116,7 @@ class DecimateCommand {
                               : "");
     write_json();
     if (was_interrupted()) return kExitInterrupted;
-    return feasible_ ? kExitOk : kExitNo;
+    return feasible_ && !(closed_ && !closed_->open.empty()) ? kExitOk : kExitNo;
   }
 
  private:
@@ -143,7 +144,7 @@ class DecimateCommand {
 
   // The reference is the mesh as it was given, but for its order.
   bool given_is_reference() const {
-    return !options_.repair && reference_.dropped == 0 && reference_.split == 0 &&
+    return !options_.repair && !closed_ && reference_.dropped == 0 && reference_.split == 0 &&
            reference_.cut_vertices == 0 && reference_.inserted == 0;
   }
   std::filesystem::path reference_file() const {
@@ -154,8 +155,19 @@ class DecimateCommand {
   // The mesh as it was given, cut apart where it is not manifold; or repaired.
   void make_reference(std::span<const Point> kept) {
     if (!options_.repair) {
-      reference_ =
-          reference_surface(given_, kept, epsilon_ / 2, was_interrupted, MadeManifold::kByCutting);
+      if (!options_.closed) {
+        reference_ = reference_surface(given_, kept, epsilon_ / 2, was_interrupted,
+                                       MadeManifold::kByCutting);
+        return;
+      }
+      CutSurface cut = cut_to_manifold(given_);
+      closed_ = close_surface(std::move(cut.mesh));
+      reference_ = reference_surface(closed_->mesh, kept, epsilon_ / 2, was_interrupted,
+                                     MadeManifold::kByCutting);
+      reference_.dropped += cut.dropped;
+      reference_.split += cut.split;
+      reference_.cut_edges += cut.cut_edges;
+      reference_.cut_vertices += cut.cut_vertices;
       return;
     }
     before_repair_ = topology_of(cut_to_manifold(given_).mesh.view());
@@ -164,6 +176,10 @@ class DecimateCommand {
       ClosedHoles closed = close_holes(std::move(part.mesh), kAnyHole);
       part.mesh = std::move(closed.mesh);
       part.dropped += closed.dropped;
+    }
+    if (options_.closed) {
+      closed_ = close_surface(std::move(part.mesh));
+      part.mesh = closed_->mesh;
     }
     reference_ = reference_surface(part.mesh, kept, epsilon_ / 2, was_interrupted);
     reference_.dropped += part.dropped;
@@ -187,6 +203,7 @@ class DecimateCommand {
     say(r.inserted, r.inserted == 1 ? "point" : "points", "added that the mesh missed");
     fmt::print("reference      {}{}\n", made.empty() ? "as given" : made,
                options_.two_sided ? ": " + reference_file().string() : "");
+    if (closed_) print_closed(closed_->closed, closed_->open);
     if (!before_repair_) return;
     const bool was_closed = before_repair_->border_loops == 0;
     const MeshTopology now = topology_of(reference_.mesh.view());
@@ -338,6 +355,7 @@ class DecimateCommand {
   CertifiedDecimationSettings settings_;
   ReferenceSurface reference_;
   std::optional<MeshTopology> before_repair_;
+  std::optional<ClosedSurface> closed_;  // where that was asked for
   CertifiedDecimation result_;
   EmaxResult kernel_ = {};  // the point is the file's
   std::optional<ReferenceBound> reference_bound_;

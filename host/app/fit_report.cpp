@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "host/app/scan.h"
 
 namespace emax {
@@ -16,16 +19,32 @@ void print_fit(const ReferenceFit& fit, double epsilon) {
     fmt::print("{:<14} {}: {}\n", taken ? "surface" : "not taken", tried.chain.method,
                tried.failure.empty() ? describe(tried) : tried.failure);
   }
-  if (fit.surface.dropped_triangles + fit.surface.dropped_pieces + fit.surface.closed_cracks > 0) {
-    fmt::print(
-        "mended         {} cracks closed, {} needless pieces of {:.3g} area and {} triangles "
-        "dropped\n",
-        grouped(fit.surface.closed_cracks), grouped(fit.surface.dropped_pieces),
-        fit.surface.dropped_area, grouped(fit.surface.dropped_triangles));
-  }
+  std::vector<std::string> mended;
+  const auto say = [&](std::size_t count, const char* one, const char* many, const char* then) {
+    if (count > 0) mended.push_back(grouped(count) + (count == 1 ? one : many) + then);
+  };
+  say(fit.surface.closed_cracks, " crack", " cracks", " closed");
+  say(fit.surface.dropped_pieces, " piece", " pieces",
+      fmt::format(" dropped that no point needs, {:.3g} in area", fit.surface.dropped_area)
+          .c_str());
+  say(fit.surface.dropped_triangles, " triangle", " triangles",
+      " dropped that intersected others or were not manifold");
+  if (!mended.empty()) fmt::print("mended         {}\n", fmt::join(mended, ", "));
   if (fit.joined + fit.left_out > 0) {
     fmt::print("far points     {} farther than {:.3g} joined to it, {} left out\n",
                grouped(fit.joined), fit.joined_beyond, grouped(fit.left_out));
+  }
+}
+
+void print_closed(std::size_t holes, std::span<const OpenBorder> open) {
+  fmt::print("closed         {} {} of the surface\n", grouped(holes),
+             holes == 1 ? "hole" : "holes");
+  for (const OpenBorder& border : open) {
+    fmt::print(
+        "left open      a border of {} edges within {:.4g} of ({:.6g}, {:.6g}, {:.6g}): no patch "
+        "continues the surface without meeting it, or it has more than {} edges\n",
+        grouped(border.edges), border.radius, border.middle.x(), border.middle.y(),
+        border.middle.z(), grouped(kMostClosedEdges));
   }
 }
 

@@ -59,6 +59,10 @@ void add_common(CLI::App& command, CommonOptions& options) {
                    "compare every point with every triangle: slow, with the same result");
 }
 
+constexpr const char* kClosedHelp =
+    "close every hole, so that the result is closed; exit code 2 where one cannot be, which the "
+    "output names (default: holes and borders stay)";
+
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
   command
       .add_option("--method", method,
@@ -139,6 +143,7 @@ int run(int argc, char** argv) {
       .add_option("--stagnation", optimize.stagnation,
                   "stop after so many evaluations without a better mesh")
       ->check(positive("evaluations"));
+  optimize_command.add_flag("--closed", optimize.closed, kClosedHelp);
   CLI::Option& polish = *optimize_command.add_flag(
       "--polish,!--no-polish", optimize.polish,
       "decimate the best mesh once more in the end, deep (default unless "
@@ -198,6 +203,7 @@ int run(int argc, char** argv) {
   decimate_command.add_flag("--repair", decimate.repair,
                             "remove triangles that intersect others or are not manifold, and close "
                             "the holes that leaves in a closed mesh (default: kept, cut apart)");
+  decimate_command.add_flag("--closed", decimate.closed, kClosedHelp);
   decimate_command
       .add_option("--feature-angle", decimate.feature_angle,
                   "keep edges sharp over which the surface turns by more than this many degrees, "

@@ -116,6 +116,11 @@ class OptimizeCommand {
       throw Error(
           "--bound two-sided needs --decimator bounded; the paper's chain bounds the points");
     }
+    if (options.closed && !(two_sided && settings_.method == kFitMethod)) {
+      throw Error(
+          "--closed closes the reference surface: it needs --method fit and a two-sided bound");
+    }
+    settings_.closed = options.closed;
     check_mesh_outputs(options.output, two_sided);
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
     check_distinct({options.output, certificate_path(options.output),
@@ -224,7 +229,7 @@ class OptimizeCommand {
       throw DeviceFailure(state_.device_failure +
                           "; the search ended there, with the result above");
     }
-    return best != nullptr ? kExitOk : kExitNo;
+    return best != nullptr && fit_.open.empty() ? kExitOk : kExitNo;
   }
 
   const BestMesh* best_mesh() const {
@@ -257,6 +262,7 @@ class OptimizeCommand {
   void fix_bound() {
     make_bound();
     print_fit(fit_, epsilon_);
+    if (settings_.closed) print_closed(fit_.closed_holes, fit_.open);
     if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(

@@ -41,6 +41,7 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"method", settings.method},
       {"decimator", settings.decimator},
       {"bound", settings.epsilon_back ? "two-sided" : "one-sided"},
+      {"closed", settings.closed ? "true" : "false"},
       {"mesh.ending", lower_case_ending(settings.output)},
       {"seed", fmt::format("{}", settings.seed)},
   };

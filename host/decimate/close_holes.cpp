@@ -113,8 +113,12 @@ std::vector<bool> cracks_of(const TriangleMesh& mesh, const Adjacency& adjacency
 class Opening {
  public:
   Opening(const TriangleMesh& mesh, const Adjacency& adjacency, double farthest,
-          const std::vector<bool>& cracks)
-      : mesh_(mesh), adjacency_(adjacency), farthest_(farthest), cracks_(cracks) {}
+          std::size_t most_edges, const std::vector<bool>& cracks)
+      : mesh_(mesh),
+        adjacency_(adjacency),
+        farthest_(farthest),
+        most_edges_(most_edges),
+        cracks_(cracks) {}
 
   // False when it cannot be closed.
   bool close(std::uint32_t hole, int rings) {
@@ -222,7 +226,7 @@ class Opening {
   }
 
   bool small_enough(const std::vector<std::uint32_t>& loop) const {
-    if (loop.size() < 3 || loop.size() > kMostHoleEdges) return false;
+    if (loop.size() < 3 || loop.size() > most_edges_) return false;
     Point mean = Point::Zero();
     for (const std::uint32_t v : loop) {
       mean += mesh_.vertices[v] / static_cast<double>(loop.size());
@@ -253,6 +257,7 @@ class Opening {
   const TriangleMesh& mesh_;
   const Adjacency& adjacency_;
   double farthest_;
+  std::size_t most_edges_;
   const std::vector<bool>& cracks_;  // of the holes
   std::unordered_set<std::uint32_t> holes_, dropped_;
   std::vector<std::vector<std::uint32_t>> loops_;
@@ -288,7 +293,7 @@ std::vector<bool> intersecting(const TriangleMesh& mesh, std::span<const Opening
 
 }  // namespace
 
-ClosedHoles close_holes(TriangleMesh mesh, double size, double crack) {
+ClosedHoles close_holes(TriangleMesh mesh, double size, double crack, std::size_t most_edges) {
   ClosedHoles result;
   const double farthest = size * bounds_of(mesh.vertices).width();
   for (int rings = 0; rings <= kRimRings; ++rings) {
@@ -297,7 +302,7 @@ ClosedHoles close_holes(TriangleMesh mesh, double size, double crack) {
     std::vector<Opening> openings;
     std::unordered_set<std::uint32_t> touched;
     for (std::uint32_t hole = 0; hole < adjacency.holes().size(); ++hole) {
-      Opening opening(mesh, adjacency, farthest, cracks);
+      Opening opening(mesh, adjacency, farthest, most_edges, cracks);
       if (!opening.close(hole, rings)) continue;
       const std::vector<std::uint32_t> touches = opening.touched();
       if (std::ranges::any_of(touches, [&](std::uint32_t v) { return touched.contains(v); })) {
@@ -327,6 +332,25 @@ ClosedHoles close_holes(TriangleMesh mesh, double size, double crack) {
   drop_unused(mesh);
   result.mesh = std::move(mesh);
   return result;
+}
+
+ClosedSurface close_surface(TriangleMesh mesh) {
+  constexpr double kAnySize = 1;  // as wide as the mesh
+  ClosedHoles holes = close_holes(std::move(mesh), kAnySize,
+                                  std::numeric_limits<double>::infinity(), kMostClosedEdges);
+  ClosedSurface surface{std::move(holes.mesh), holes.closed, {}};
+  const Adjacency adjacency(surface.mesh);
+  for (const std::vector<std::uint32_t>& loop : adjacency.holes()) {
+    OpenBorder border{loop.size(), Point::Zero(), 0};
+    for (const std::uint32_t v : loop) {
+      border.middle += surface.mesh.vertices[v] / static_cast<double>(loop.size());
+    }
+    for (const std::uint32_t v : loop) {
+      border.radius = std::max(border.radius, (surface.mesh.vertices[v] - border.middle).norm());
+    }
+    surface.open.push_back(border);
+  }
+  return surface;
 }
 
 std::size_t count_cracks(const TriangleMesh& mesh, double crack) {

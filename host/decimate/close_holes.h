@@ -50,13 +50,29 @@ struct ClosedHoles {
 // Closes holes of `mesh`, which is as manifold_part() gives it, without new vertices. Where a
 // hole's rim folds over itself, so that no patch would continue it, up to kRimRings rings of
 // triangles around it are dropped first, if the wider hole can be closed. A hole stays open when it
-// has more than kMostHoleEdges edges or is wider than `size`: when a vertex is farther than that
-// many widths of the mesh from their mean. It also stays open when it is no crack (find_cracks()).
+// has more than `most_edges` edges or is wider than `size`: when a vertex is farther than that many
+// widths of the mesh from their mean. It also stays open when it is no crack (find_cracks()).
 // What comes out is as manifold_part() gives it. O(n log n).
 inline constexpr std::size_t kMostHoleEdges = 400;
 inline constexpr int kRimRings = 4;
 ClosedHoles close_holes(TriangleMesh mesh, double size,
-                        double crack = std::numeric_limits<double>::infinity());
+                        double crack = std::numeric_limits<double>::infinity(),
+                        std::size_t most_edges = kMostHoleEdges);
+
+// close_holes() for all that can be closed, and what cannot. Holes of kMostClosedEdges edges take
+// seconds.
+struct OpenBorder {
+  std::size_t edges = 0;
+  Point middle;       // mean of its vertices
+  double radius = 0;  // their greatest distance from it
+};
+struct ClosedSurface {
+  TriangleMesh mesh;
+  std::size_t closed = 0;        // holes
+  std::vector<OpenBorder> open;  // borders that are left
+};
+inline constexpr std::size_t kMostClosedEdges = 1500;
+ClosedSurface close_surface(TriangleMesh mesh);
 
 // Border loops that are cracks (find_cracks()). For a mesh as manifold_part() gives it.
 std::size_t count_cracks(const TriangleMesh& mesh, double crack);

@@ -29,6 +29,7 @@ struct OptimizeSettings {
   // Of a two-sided bound: how far a mesh may be from the reference.
   std::optional<double> epsilon_back;
   DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings
+  bool closed = false;    // the reference of kFitMethod has its holes closed, close_surface()
   Config config;
   std::uint64_t seed = 1;
   unsigned jobs = 1;                       // worker processes

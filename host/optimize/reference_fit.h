@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/decimate/chain_parameters.h"
+#include "host/decimate/close_holes.h"
 #include "host/decimate/crack_free.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/optimize/optimize.h"
@@ -49,6 +50,9 @@ struct ReferenceFit {
   // Points that were farther than joined_beyond and became vertices, and those that could not.
   double joined_beyond = 0;
   std::size_t joined = 0, left_out = 0;
+  // Where a closed surface was asked for: holes of the scan that were closed, and borders left.
+  std::size_t closed_holes = 0;
+  std::vector<OpenBorder> open;
 
   const TriedSurface& best() const { return tried[chosen]; }
 };

@@ -23,6 +23,12 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
   if (!two_sided && !fitted && constraint.excludable() == 0) return bound;
 
   ReferenceFit fit = fit_reference(cloud, bound.epsilon, settings);
+  if (settings.closed) {
+    ClosedSurface closed = close_surface(std::move(fit.surface.mesh));
+    fit.surface.mesh = std::move(closed.mesh);
+    fit.closed_holes = closed.closed;
+    fit.open = std::move(closed.open);
+  }
   const TriangleMesh& surface = fit.surface.mesh;
   const auto beyond = [&](const TriangleMesh& mesh) {
     return constraint.excludable() > 0

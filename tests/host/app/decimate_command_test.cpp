@@ -280,6 +280,31 @@ TEST_F(DecimateCommand, KeepsTrianglesThatIntersectUnlessToRepairThem) {
   EXPECT_EQ(verify("repaired.ply"), 0);
 }
 
+TEST_F(DecimateCommand, ClosesHolesWhereThatIsAskedFor) {
+  TriangleMesh open = mesh_;
+  const std::uint32_t hole = open.triangles[open.triangles.size() / 2][0];
+  std::erase_if(open.triangles,
+                [&](const Triangle& t) { return std::ranges::find(t, hole) != t.end(); });
+  write_mesh(folder_ / "open.ply", open);
+  ASSERT_EQ(decimate("as_given.ply", {"--effort", "quick"}, "open.ply").exit_code, 0);
+  EXPECT_EQ(certificate("as_given.ply").at("topology").at("border_loops"), 1);
+
+  const ProgramRun run = decimate("closed.ply", {"--effort", "quick", "--closed"}, "open.ply");
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  EXPECT_NE(run.output.find("closed         1 hole of the surface"), std::string::npos);
+  EXPECT_EQ(certificate("closed.ply").at("topology").at("border_loops"), 0);
+  EXPECT_EQ(certificate("closed.ply").at("reference").at("topology").at("border_loops"), 0);
+  EXPECT_EQ(verify("closed.ply"), 0);
+
+  // A single triangle has no inside.
+  write_mesh(folder_ / "flat.ply", {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}});
+  const ProgramRun flat = decimate("flat_out.ply", {"--closed"}, "flat.ply");
+  EXPECT_EQ(flat.exit_code, 2) << flat.output << flat.errors;
+  EXPECT_NE(flat.output.find("left open      a border of 3 edges"), std::string::npos)
+      << flat.output;
+  EXPECT_EQ(verify("flat_out.ply"), 0);
+}
+
 // Stray vertices, which no triangle with an area uses, change neither the task nor the result.
 TEST_F(DecimateCommand, VerticesOfNoTriangleAreNoPartOfTheMesh) {
   TriangleMesh stray = mesh_;

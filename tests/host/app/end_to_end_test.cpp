@@ -97,6 +97,36 @@ TEST_F(EndToEnd, APlanarCloudIsASurface) {
   }
 }
 
+// A scan that lacks what it stood on.
+TEST_F(EndToEnd, ClosesTheSurfaceWhereThatIsAskedFor) {
+  test::write_scan(folder_.path() / "whole.xyz", 4000, 2);
+  std::ifstream whole(folder_ / "whole.xyz");
+  std::ofstream open(folder_ / "open.xyz");
+  double x = 0, y = 0, z = 0;
+  while (whole >> x >> y >> z) {
+    if (z > -0.8) open << fmt::format("{} {} {}\n", x, y, z);
+  }
+  open.close();
+  const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"optimize", "open.xyz", "--max-error", "2%",
+                                          "-o",       output,     "--effort",    "quick"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return emax(arguments);
+  };
+  const ProgramRun as_scanned = run("open.ply", {});
+  ASSERT_EQ(as_scanned.exit_code, 0) << as_scanned.output << as_scanned.errors;
+  EXPECT_EQ(read("open.ply.certificate.json").at("topology").at("border_loops"), 1);
+  const ProgramRun closed = run("closed.ply", {"--closed"});
+  ASSERT_EQ(closed.exit_code, 0) << closed.output << closed.errors;
+  EXPECT_NE(closed.output.find("closed         1 hole of the surface"), std::string::npos);
+  EXPECT_EQ(read("closed.ply.certificate.json").at("topology").at("border_loops"), 0);
+  EXPECT_EQ(emax({"verify", "closed.ply.certificate.json"}).exit_code, 0);
+
+  const ProgramRun other = run("other.ply", {"--closed", "--method", "gp3"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.errors.find("--method fit"), std::string::npos) << other.errors;
+}
+
 TEST_F(EndToEnd, OptimizesOnTheHardware) {
   test::write_scan(folder_.path() / "scan.xyz", 400, 2);
   const test::BoardProgram board(EMAX_BOARD_PROGRAM);

@@ -236,5 +236,48 @@ TEST(CloseHoles, LeavesAHoleThatSomethingRunsThrough) {
   EXPECT_EQ(check_mesh(closed.mesh.view()).boundary_edges, kOuterEdges + 6);
 }
 
+// The holes of a sheet, but not its border, whose patch would fold back.
+TEST(CloseSurface, NamesWhatCannotBeClosed) {
+  const ClosedSurface closed = close_surface(sheet_without({at(4, 4), at(8, 8)}));
+  EXPECT_EQ(closed.closed, 2u);
+  ASSERT_EQ(closed.open.size(), 1u);
+  EXPECT_EQ(closed.open[0].edges, kOuterEdges);
+  EXPECT_NEAR(closed.open[0].middle.x(), 6, 1e-9);
+  EXPECT_NEAR(closed.open[0].middle.y(), 6, 1e-9);
+  EXPECT_GT(closed.open[0].radius, 6 * std::sqrt(2.0));
+  EXPECT_LT(closed.open[0].radius, 12);
+}
+
+// A bowl's rim, longer than that of any hole that is a crack.
+TEST(CloseSurface, ClosesALongRim) {
+  constexpr std::uint32_t kAround = kMostHoleEdges + 20, kRings = 4;
+  TriangleMesh bowl;
+  for (std::uint32_t r = 0; r < kRings; ++r) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround;
+      bowl.vertices.emplace_back((20 + r) * std::cos(angle), (20 + r) * std::sin(angle), r * r);
+    }
+  }
+  const auto middle = static_cast<std::uint32_t>(bowl.vertices.size());
+  bowl.vertices.emplace_back(0, 0, -1);
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const std::uint32_t j = (i + 1) % kAround;
+    bowl.triangles.push_back({middle, i, j});
+    for (std::uint32_t r = 0; r + 1 < kRings; ++r) {
+      const std::uint32_t a = r * kAround + i, b = r * kAround + j;
+      bowl.triangles.push_back({a, a + kAround, b});
+      bowl.triangles.push_back({b, a + kAround, b + kAround});
+    }
+  }
+  ASSERT_TRUE(check_mesh(bowl.view()).valid());
+  EXPECT_EQ(close_holes(bowl, 1).closed, 0u);
+  const ClosedSurface closed = close_surface(bowl);
+  EXPECT_EQ(closed.closed, 1u);
+  EXPECT_TRUE(closed.open.empty());
+  const MeshValidity validity = check_mesh(closed.mesh.view());
+  EXPECT_TRUE(validity.valid());
+  EXPECT_EQ(validity.boundary_edges, 0u);
+}
+
 }  // namespace
 }  // namespace emax::test
