@@ -41,10 +41,12 @@ void print_closed(std::size_t holes, std::span<const OpenBorder> open) {
              holes == 1 ? "hole" : "holes");
   for (const OpenBorder& border : open) {
     fmt::print(
-        "left open      a border of {} edges within {:.4g} of ({:.6g}, {:.6g}, {:.6g}): no patch "
-        "continues the surface without meeting it, or it has more than {} edges\n",
+        "left open      a border of {} edges within {:.4g} of ({:.6g}, {:.6g}, {:.6g}): {}\n",
         grouped(border.edges), border.radius, border.middle.x(), border.middle.y(),
-        border.middle.z(), grouped(kMostClosedEdges));
+        border.middle.z(),
+        border.edges > kMostClosedEdges
+            ? fmt::format("it has more than {} edges", grouped(kMostClosedEdges))
+            : "no patch goes on from the surface without meeting it");
   }
 }
 

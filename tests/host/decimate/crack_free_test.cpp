@@ -43,6 +43,28 @@ TEST(CrackFreeSurface, ClosesCracksAndLeavesHoles) {
   EXPECT_EQ(topology_of(open.mesh.view()).border_loops, 2u);
 }
 
+// Where the sheet turns by 90 degrees, and neither side of the slit faces the other.
+TEST(CrackFreeSurface, ClosesASlitAlongASharpEdge) {
+  constexpr double kEdge = 25;
+  TriangleMesh slit = grid_without(
+      [](const Point& p) { return std::abs(p.x() - kEdge) < 1 && p.y() > 10 && p.y() < 30; });
+  for (Point& p : slit.vertices) {
+    if (p.x() > kEdge) p = {kEdge, p.y(), kEdge - p.x()};
+  }
+  ASSERT_EQ(topology_of(slit.view()).border_loops, 2u);
+  EXPECT_EQ(count_cracks(slit, 3), 1u);
+  const CrackFreeSurface closed = crack_free_surface(slit, {}, 0, 0.9, 3, false);
+  EXPECT_EQ(topology_of(closed.mesh.view()).border_loops, 1u);
+}
+
+// A tongue of the surface is as narrow, but what its border's sides have between them is there.
+TEST(CrackFreeSurface, ATongueIsNoCrack) {
+  const TriangleMesh tongue =
+      grid_without([](const Point& p) { return p.x() > 20 && std::abs(p.y() - 20) > 1; });
+  ASSERT_EQ(topology_of(tongue.view()).border_loops, 1u);
+  EXPECT_EQ(count_cracks(tongue, 3), 0u);
+}
+
 // The fault that the width is there to catch: without it the hole is closed as well.
 TEST(CrackFreeSurface, WouldCloseTheHoleWithoutAWidth) {
   EXPECT_EQ(close_holes(grid_without(in_hole), 0.9).closed, 1u);
