@@ -132,20 +132,21 @@ class Fit {
   }
 
   void choose() {
-    // Poisson's method bridges holes of the scan, so borders that it lacks count against it.
-    MeshTopology least{~std::size_t{0}, ~std::size_t{0}, ~std::size_t{0}};
+    constexpr std::size_t kNone = ~std::size_t{0};
+    MeshTopology least{kNone, kNone, kNone};
     for (const TriedSurface& tried : fit_.tried) {
       if (!tried.failure.empty()) continue;
       least.components = std::min(least.components, tried.topology.components);
       least.genus = std::min(least.genus, tried.topology.genus);
-      if (tried.chain.method == kLastMethod && fit_.tried.size() > 1) continue;
+      // It bridges holes of the scan, so borders that it lacks count against it.
+      if (tried.chain.method == kLastMethod) continue;
       least.border_loops = std::min(least.border_loops, tried.topology.border_loops);
     }
-    for (std::size_t m = 0; m < fit_.tried.size(); ++m) {
-      TriedSurface& tried = fit_.tried[m];
+    for (TriedSurface& tried : fit_.tried) {
       if (!tried.failure.empty()) continue;
       tried.excess =
           tried.topology.components - least.components + tried.topology.genus - least.genus;
+      if (least.border_loops == kNone) continue;
       const std::size_t borders = tried.topology.border_loops;
       tried.excess += std::max(borders, least.border_loops) - std::min(borders, least.border_loops);
     }
