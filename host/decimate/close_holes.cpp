@@ -274,13 +274,8 @@ std::vector<bool> intersecting(const TriangleMesh& mesh, std::span<const Opening
     all.triangles.insert(all.triangles.end(), patches.begin(), patches.end());
     owner.resize(all.triangles.size() - given, o);
   }
-  std::vector<Bounds> boxes;
-  boxes.reserve(all.triangles.size());
-  for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-    boxes.push_back(bounds_of(all.view().corners(t)));
-  }
   std::vector<bool> bad(openings.size(), false);
-  BoxPairs(boxes).for_each([&](std::uint32_t i, std::uint32_t j) {
+  BoxPairs(triangle_boxes(all.view())).for_each([&](std::uint32_t i, std::uint32_t j) {
     if (i > j) std::swap(i, j);
     if (j < given) return;
     const std::uint32_t o = owner[j - given];

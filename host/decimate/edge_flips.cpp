@@ -192,13 +192,8 @@ class Flips {
 // Locks the vertices of changed triangles that intersect others; false where none does.
 bool lock_intersecting(const TriangleMesh& mesh, const std::vector<std::uint8_t>& changed,
                        std::vector<std::uint8_t>& locked) {
-  std::vector<Bounds> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    boxes.push_back(bounds_of(mesh.view().corners(t)));
-  }
   bool found = false;
-  BoxPairs(boxes).for_each([&](std::uint32_t i, std::uint32_t j) {
+  BoxPairs(triangle_boxes(mesh.view())).for_each([&](std::uint32_t i, std::uint32_t j) {
     if (changed[i] + changed[j] == 0 || !intersect_beyond_shared(mesh.view(), i, j)) return;
     found = true;
     for (const std::uint32_t t : {i, j}) {

@@ -294,12 +294,8 @@ void cut_apart(CutSurface& surface) {
 }
 
 std::size_t drop_intersecting(TriangleMesh& mesh) {
-  std::vector<Bounds> boxes;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    boxes.push_back(bounds_of(mesh.view().corners(t)));
-  }
   std::vector<std::vector<std::uint32_t>> meets(mesh.triangles.size());
-  BoxPairs(boxes).for_each([&](std::uint32_t i, std::uint32_t j) {
+  BoxPairs(triangle_boxes(mesh.view())).for_each([&](std::uint32_t i, std::uint32_t j) {
     if (!intersect_beyond_shared(mesh.view(), i, j)) return;
     meets[i].push_back(j);
     meets[j].push_back(i);

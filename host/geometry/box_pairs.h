@@ -13,6 +13,15 @@ inline bool overlap(const Bounds& a, const Bounds& b) {
   return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
 }
 
+inline std::vector<Bounds> triangle_boxes(const MeshView& mesh) {
+  std::vector<Bounds> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    boxes.push_back(bounds_of(mesh.corners(t)));
+  }
+  return boxes;
+}
+
 // All pairs of overlapping (or touching) boxes, by a tree of boxes joined with itself: O(n log n)
 // to build, and near O(n + pairs) to join for the triangles of a surface.
 class BoxPairs {
