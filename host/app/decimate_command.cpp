@@ -144,8 +144,9 @@ class DecimateCommand {
 
   // The reference is the mesh as it was given, but for its order.
   bool given_is_reference() const {
-    return !options_.repair && !closed_ && reference_.dropped == 0 && reference_.split == 0 &&
-           reference_.cut_vertices == 0 && reference_.inserted == 0;
+    const ReferenceSurface& r = reference_;
+    return !options_.repair && !closed_ && r.merged == 0 && r.turned == 0 && r.dropped == 0 &&
+           r.split == 0 && r.cut_vertices == 0 && r.inserted == 0;
   }
   std::filesystem::path reference_file() const {
     if (given_is_reference()) return options_.mesh;
@@ -164,6 +165,8 @@ class DecimateCommand {
       closed_ = close_surface(std::move(cut.mesh));
       reference_ = reference_surface(closed_->mesh, kept, epsilon_ / 2, was_interrupted,
                                      MadeManifold::kByCutting);
+      reference_.merged += cut.merged;
+      reference_.turned += cut.turned;
       reference_.dropped += cut.dropped;
       reference_.split += cut.split;
       reference_.cut_edges += cut.cut_edges;
@@ -193,6 +196,8 @@ class DecimateCommand {
       if (count == 0) return;
       made += fmt::format("{}{} {} {}", made.empty() ? "" : ", ", grouped(count), what, then);
     };
+    say(r.merged, r.merged == 1 ? "vertex" : "vertices", "merged with others at the same place");
+    say(r.turned, r.turned == 1 ? "triangle" : "triangles", "turned to agree with the others");
     say(r.dropped, r.dropped == 1 ? "triangle" : "triangles",
         options_.repair ? "removed (degenerate, not manifold or intersecting others)"
                         : "removed (degenerate or repeated)");

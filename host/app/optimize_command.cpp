@@ -286,6 +286,7 @@ class OptimizeCommand {
     phase_.begin("making the reference surface", reference_seconds(scan_.cloud.points.size()));
     try {
       settings_.bound = decimation_bound(scan_.cloud.points, *constraint_, limited, &fit_);
+      if (!fit_.tried.empty()) settings_.fitted = fit_.fitted_values();
     } catch (const Interrupted&) {
       if (was_interrupted()) throw;
       throw Error(

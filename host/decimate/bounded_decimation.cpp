@@ -71,10 +71,12 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
   ReferenceSurface surface;
   if (how == MadeManifold::kByDropping) {
     ManifoldPart part = manifold_part(mesh);
-    surface = {std::move(part.mesh), part.dropped, 0, 0, 0, 0, {}};
+    surface.mesh = std::move(part.mesh);
+    surface.dropped = part.dropped;
   } else {
     CutSurface cut = cut_to_manifold(mesh);
-    surface = {std::move(cut.mesh), cut.dropped, cut.split, cut.cut_edges, cut.cut_vertices, 0, {}};
+    surface = {std::move(cut.mesh), cut.merged,       cut.turned, cut.dropped, cut.split,
+               cut.cut_edges,       cut.cut_vertices, 0,          {}};
   }
   if (surface.mesh.triangles.empty()) {
     throw Error("the mesh has no triangle of any area that could be decimated; reconstruct first");

@@ -19,10 +19,8 @@ enum class MadeManifold { kByDropping, kByCutting };
 // points of the cloud inserted.
 struct ReferenceSurface {
   TriangleMesh mesh;
-  std::size_t dropped = 0;    // triangles
-  std::size_t split = 0;      // at vertices on their sides
-  std::size_t cut_edges = 0;  // and where it was cut apart
-  std::size_t cut_vertices = 0;
+  // What became of the mesh: counts of CutSurface, or of ManifoldPart.
+  std::size_t merged = 0, turned = 0, dropped = 0, split = 0, cut_edges = 0, cut_vertices = 0;
   std::size_t inserted = 0;             // points that were farther than `far`
   std::vector<std::uint32_t> left_out;  // points that still are, and could not be inserted
 };

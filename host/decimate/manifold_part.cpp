@@ -333,6 +333,14 @@ std::size_t drop_non_manifold(TriangleMesh& mesh) {
   return dropped;
 }
 
+// How many vertices went, of those that triangles use.
+std::size_t merge_all(TriangleMesh& mesh) {
+  drop_unused_vertices(mesh.vertices, mesh.triangles);
+  const std::size_t before = mesh.vertices.size();
+  merge_equal_vertices(mesh.vertices, mesh.triangles);
+  return before - mesh.vertices.size();
+}
+
 }  // namespace
 
 ManifoldPart manifold_part(TriangleMesh mesh) {
@@ -351,13 +359,13 @@ ManifoldPart manifold_part(TriangleMesh mesh) {
 CutSurface cut_to_manifold(TriangleMesh mesh) {
   require_usable(mesh);
   CutSurface surface;
-  merge_equal_vertices(mesh.vertices, mesh.triangles);
+  surface.merged = merge_all(mesh);
   for (std::size_t split = 1; split > 0;) {
     split = split_at_collinear(mesh);
     surface.split += split;
   }
   surface.dropped = drop_degenerate(mesh);
-  orient_consistently(mesh);
+  surface.turned = orient_consistently(mesh);
   surface.mesh = std::move(mesh);
   cut_apart(surface);
   // Where both ends of an edge stay joined around a triangle that was parted from it.

@@ -35,6 +35,8 @@ ManifoldPart manifold_part(TriangleMesh mesh);
 // Triangles that meet each other stay. Throws as manifold_part() does. O(n log n).
 struct CutSurface {
   TriangleMesh mesh;
+  std::size_t merged = 0;        // vertices with others of the same coordinates
+  std::size_t turned = 0;        // triangles that disagreed with their neighbours
   std::size_t dropped = 0;       // triangles without area, repeated, or that no cut made manifold
   std::size_t split = 0;         // triangles, at vertices on their sides
   std::size_t cut_edges = 0;     // at which triangles were parted

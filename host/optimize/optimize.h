@@ -31,6 +31,7 @@ struct OptimizeSettings {
   DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings
   bool closed = false;    // the reference of kFitMethod has its holes closed, close_surface()
   Config config;
+  ParameterValues fitted;  // values to begin with where the configuration has the standard ones
   std::uint64_t seed = 1;
   unsigned jobs = 1;                       // worker processes
   std::optional<EvaluationLimits> limits;  // standard_limits unless given

@@ -246,6 +246,15 @@ double joined_beyond(double within_half, double epsilon) {
   return epsilon * (1 - within_half > kMany ? kNearly : 0.5);
 }
 
+ParameterValues ReferenceFit::fitted_values() const {
+  ParameterValues values = best().chain.parameters;
+  const ParameterValues standard =
+      standard_values(chain_parameters(best().chain.method, kNoDecimator));
+  std::erase_if(values,
+                [&](const auto& value) { return standard.at(value.first) == value.second; });
+  return values;
+}
+
 std::string describe(const TriedSurface& tried) {
   const auto count = [](std::size_t n, const char* what) {
     return (n == 0 ? "no" : std::to_string(n)) + " " + what + (n == 1 ? "" : "s");

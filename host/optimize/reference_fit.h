@@ -55,6 +55,8 @@ struct ReferenceFit {
   std::vector<OpenBorder> open;
 
   const TriedSurface& best() const { return tried[chosen]; }
+  // Of the parameters of its method: those whose values were fitted to the scan.
+  ParameterValues fitted_values() const;
 };
 
 // Reconstructs the cloud with `method`, its standard values fitted to the scan; with kFitMethod

@@ -20,6 +20,21 @@ void add_start(Problem& problem, const ParameterValues& values) {
   if (std::ranges::count(problem.starts, start) == 0) problem.starts.push_back(std::move(start));
 }
 
+// What fits the scan goes before the standard values, but not before a person's own.
+void begin_with_fitted(Problem& problem, const OptimizeSettings& settings) {
+  if (settings.fitted.empty() || !problem.linear.empty()) return;  // which could forbid it
+  const ParameterValues standard =
+      standard_values(chain_parameters(settings.method, settings.decimator));
+  ParameterValues values = settings.fitted;
+  for (const GeneConfig& gene : settings.config.genes) {
+    const auto known = standard.find(gene.gene.name);
+    if (known != standard.end() && gene.standard != known->second) values.erase(gene.gene.name);
+  }
+  const std::size_t before = problem.starts.size();
+  add_start(problem, values);
+  if (problem.starts.size() > before) std::ranges::rotate(problem.starts, problem.starts.end() - 1);
+}
+
 // Greedy projection leaves points out where its neighbourhoods are small for the cloud, and no
 // decimation can come below the distance of such a point. So it also begins where few are left out.
 void add_generous_starts(Problem& problem) {
@@ -92,6 +107,7 @@ Problem search_problem(const OptimizeSettings& settings) {
   // Along it triangles fall and e_max rises.
   const bool named = settings.decimator == "schroeder" && !walked;
   Problem problem = make_problem(settings.config, named ? kReduction : "");
+  begin_with_fitted(problem, settings);
   if (!walked) return problem;
   Gene& gene = problem.genes[*walked];
   gene.upper = gene.lower;

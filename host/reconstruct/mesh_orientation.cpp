@@ -62,11 +62,12 @@ double vote(const TriangleMesh& mesh, std::span<const Eigen::Vector3f> normals, 
 
 }  // namespace
 
-void orient_consistently(TriangleMesh& mesh, std::span<const Eigen::Vector3f> normals) {
+std::size_t orient_consistently(TriangleMesh& mesh, std::span<const Eigen::Vector3f> normals) {
   const auto neighbours = manifold_neighbours(mesh.triangles);
   std::vector<bool> seen(mesh.triangles.size(), false);
   std::vector<bool> turned(mesh.triangles.size(), false);
   std::vector<std::uint32_t> part;
+  std::size_t swapped = 0;
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (seen[seed]) continue;
     part.assign(1, seed);
@@ -83,9 +84,12 @@ void orient_consistently(TriangleMesh& mesh, std::span<const Eigen::Vector3f> no
       }
     }
     for (const std::uint32_t t : part) {
-      if (turned[t] != (votes < 0)) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+      if (turned[t] == (votes < 0)) continue;
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+      ++swapped;
     }
   }
+  return swapped;
 }
 
 void drop_folds(TriangleMesh& mesh) {

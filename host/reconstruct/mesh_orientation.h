@@ -9,8 +9,8 @@ namespace emax {
 // Turns triangles so that the two at every edge of exactly two triangles run through it in opposite
 // directions, wherever the surface can be oriented. A part connected through such edges keeps the
 // side that the greater share of its area votes for: with `normals` (one per vertex) the side they
-// point to, without them the side it had. O(t log t).
-void orient_consistently(TriangleMesh& mesh, std::span<const Eigen::Vector3f> normals = {});
+// point to, without them the side it had. Gives how many were turned. O(t log t).
+std::size_t orient_consistently(TriangleMesh& mesh, std::span<const Eigen::Vector3f> normals = {});
 
 // Drops triangles on the same three vertices in pairs: a fold that encloses nothing, through which
 // its edges would be non-manifold. O(t log t).

@@ -83,7 +83,8 @@ bunny=$'OFF\n2 0 0\n0 0 0\n1 1 1\n'
 building=$'ply\nformat ascii 1.0\nelement vertex 1\nend_header\n0 0 0\n'
 sum() { printf '%s' "$1" | sha256sum | cut -d' ' -f1; }
 sed -i -e "/^fandisk.off /d" -e "s|^\(bunny00.off .*off\) .*|\1 $(sum "$bunny") 2|" \
-  -e "s|^\(building.ply .*ply\) .*|\1 $(sum "$building") 1\"|" "$dev"
+  -e "s|^\(building.ply .*ply\) .*|\1 $(sum "$building") 1\"|" \
+  -e "s|^readonly meshes_sha256=.*|readonly meshes_sha256=$(sum "$bunny")|" "$dev"
 export DEB=$folder/libcgal-demo_9.9-1_all.deb
 # shellcheck disable=SC2016
 stand_in apt-get 'echo "$*" >>"$CALLS"; [ ! -f "$DEB" ] || cp "$DEB" .; exit "${APT_STATUS:-0}"'
@@ -92,10 +93,15 @@ expect_files() { # FILES: data/ holds these and no rest of a download.
 }
 
 pack "$bunny" "$building"
-expect pass "fetching bunny00.off building.ply" "data fetched" "$dev" data
+expect pass "fetching bunny00.off building.ply meshes" "data fetched" "$dev" data
 expect_calls 1 "download libcgal-demo"
-expect_files "./building.ply ./bunny00.off"
+expect_files "./building.ply ./bunny00.off ./meshes ./meshes/bunny00.off"
 expect_silence "$dev" data
+
+printf 'x' >>"$copy/data/meshes/bunny00.off"
+expect pass "fetching meshes from" "a damaged mesh fetched again" "$dev" data
+expect pass "$(sum "$bunny")" "the mesh mended" sha256sum "$copy/data/meshes/bunny00.off"
+: >"$calls"
 
 printf 'x' >>"$copy/data/bunny00.off"
 expect pass "fetching bunny00.off from" "a damaged file fetched again" "$dev" data
@@ -106,7 +112,7 @@ rm "$copy/data/building.ply"
 pack "$bunny" "other data"
 expect fail "building.ply could not be fetched" "a package with other data" "$dev" data
 expect_calls 2 "download libcgal-demo"
-expect_files "./bunny00.off"
+expect_files "./bunny00.off ./meshes ./meshes/bunny00.off"
 
 sed -i "s|$(sum "$building") 1|$(sum "$building") 2|" "$dev"
 pack "$bunny" "$building"
@@ -118,7 +124,7 @@ sed -i "s|$(sum "$building") 2|$(sum "$building") 1|" "$dev"
 expect fail "FAILED" "the pinned version of the package with other bytes" "$dev" data
 rm "$DEB"
 APT_STATUS=100 expect fail "cannot be downloaded" "no network" "$dev" data
-expect_files "./bunny00.off"
+expect_files "./bunny00.off ./meshes ./meshes/bunny00.off"
 
 # The headers. The stand-in for Python makes an environment, whose pip "downloads" WHEEL.
 mkdir -p "$copy/tests/hls/vendor"

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "host/decimate/certified_decimation.h"
+#include "sw_model/error.h"
 #include "tests/benchmarks/bisection/bisection.h"
 #include "tests/benchmarks/decimation/cpu_time.h"
 #include "tests/benchmarks/decimation/measures.h"
@@ -160,6 +162,39 @@ json own_result(const DecimationScan& scan, const OwnWay& way) {
   return result;
 }
 
+// What keeping and certifying every point of the reference within epsilon takes: whole calls beside
+// the same without that direction, in turn.
+json third_direction(const DecimationScan& scan) {
+  constexpr int kRounds = 5;
+  DecimationSettings two;
+  two.epsilon = scan.epsilon;
+  two.fault = DecimationSettings::Fault::kSkipsReference;
+  std::vector<double> whole, without, shares;
+  std::size_t triangles = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    whole.push_back(timed([&] { return decimated(scan, kOwnWays[0]); }).seconds);
+    const CpuTime time;
+    const ExactMesh reference(scan.start.view());
+    const TriangleMesh mesh = BoundedDecimator(scan.start, scan.cloud).run(two).mesh;
+    if (check_mesh(scan.start.view()).valid() != check_mesh(mesh.view()).valid() ||
+        !certify(scan.cloud, mesh.view(), {}).within(scan.epsilon) ||
+        !decided_distance(mesh.view(), reference, scan.epsilon).within(scan.epsilon)) {
+      throw std::logic_error("two directions are not kept");
+    }
+    without.push_back(time.seconds());
+    shares.push_back(whole.back() / without.back() - 1);
+    triangles = mesh.triangles.size();
+  }
+  const auto spread = [](std::vector<double> values) {
+    std::ranges::sort(values);
+    return json{values[values.size() / 2], values.front(), values.back()};
+  };
+  return {{"seconds", spread(whole)},
+          {"without", spread(without)},
+          {"share", spread(shares)},
+          {"triangles_without", triangles}};
+}
+
 // The time of one call; a tool that goes to a number goes to 2000 triangles.
 double call_seconds(const DecimationScan& scan, const Tool& tool) {
   constexpr double kTriangles = 2000;
@@ -180,6 +215,10 @@ json measured(const Options& options) {
                  {"start", scan.start.triangles.size()},
                  {"start_seconds", scan.start_seconds},
                  {"text", scan.text}};
+  if (options.tool == "third-direction") {
+    result.update(third_direction(scan));
+    return result;
+  }
   for (const OwnWay& way : kOwnWays) {
     if (options.tool != way.key) continue;
     result["name"] = way.name;

@@ -1,15 +1,18 @@
 // What a certificate calls a surface (docs/numerics.md), judged by CGAL: on scans and tolerances
 // drawn at random, from far below the distance between points to far above it.
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "host/geometry/merge_vertices.h"
 #include "host/geometry/mesh_file.h"
 #include "tests/host/app/program.h"
 #include "tests/host/geometry/temporary_folder.h"
@@ -29,6 +32,12 @@ json topology_in_json(const CgalMesh& mesh) {
   return {{"components", topology.components},
           {"border_loops", topology.border_loops},
           {"genus", topology.genus}};
+}
+
+std::size_t intersecting_pairs(const CgalMesh& mesh) {
+  std::vector<std::pair<CgalMesh::Face_index, CgalMesh::Face_index>> pairs;
+  pmp::self_intersections(mesh, std::back_inserter(pairs));
+  return pairs.size();
 }
 
 // Corners and random points of every triangle, more in larger ones.
@@ -103,7 +112,10 @@ class CertifiedSurface : public testing::TestWithParam<std::uint64_t> {
     const TriangleMesh mesh = read_mesh(folder_ / mesh_name);
     const TriangleMesh reference = read_mesh(folder_ / reference_name);
     CgalMesh cgal = cgal_mesh(mesh), cgal_reference = cgal_mesh(reference);
-    EXPECT_EQ(c.at("valid"), true);
+    const std::size_t intersections = intersecting_pairs(cgal);
+    EXPECT_EQ(c.at("validity").at("self_intersections"), intersections);
+    EXPECT_EQ(c.at("valid"), intersections == 0);
+    EXPECT_LE(intersections, intersecting_pairs(cgal_reference));
     EXPECT_EQ(topology_in_json(cgal), c.at("topology"));
     EXPECT_EQ(topology_in_json(cgal_reference), c.at("reference").at("topology"));
     EXPECT_EQ(c.at("topology"), c.at("reference").at("topology"));
@@ -139,6 +151,70 @@ TEST_P(CertifiedSurface, HoldsInThreeDirectionsAndInTopology) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drawn, CertifiedSurface, testing::Range<std::uint64_t>(0, 18));
+
+// A mesh as a soup: each triangle with corners of its own, so that CGAL takes what is not manifold.
+CgalMesh soup(const TriangleMesh& mesh) {
+  TriangleMesh apart;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto corners = mesh.view().corners(t);
+    if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() == 0) continue;
+    const auto first = static_cast<std::uint32_t>(apart.vertices.size());
+    apart.vertices.insert(apart.vertices.end(), corners.begin(), corners.end());
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  return cgal_mesh(apart);
+}
+
+// Meshes of CGAL's demos (`./dev data`): polygons, several pieces, borders, vertices of no
+// triangle, repeated and degenerate triangles, self-intersections, edges and vertices that are not
+// manifold.
+class EverydayMeshes : public CertifiedSurface {};
+
+constexpr std::uint64_t kShares = 8;  // so that they run side by side
+constexpr std::uintmax_t kMostBytes = 400'000;
+
+TEST_P(EverydayMeshes, AreDecimatedUnderTheBoundsOrRefused) {
+  const std::filesystem::path meshes = EMAX_DATA_FOLDER "/meshes";
+  const std::vector<std::string> names = files_in(meshes);
+  ASSERT_GE(names.size(), 130) << "./dev data fetches them";
+  constexpr std::array kPercent = {0.05, 0.3, 1.0, 4.0};
+  std::size_t decimated = 0;
+  for (std::size_t i = GetParam(); i < names.size(); i += kShares) {
+    const std::filesystem::path file = meshes / names[i];
+    if (std::filesystem::file_size(file) > kMostBytes) continue;
+    const double percent = kPercent[i / kShares % kPercent.size()];
+    SCOPED_TRACE(fmt::format("{} at {} %", names[i], percent));
+    std::filesystem::copy_file(file, folder_ / names[i]);
+    const ProgramRun run = run_emax(
+        {"decimate", names[i], "--max-error", fmt::format("{}%", percent), "-o", "less.ply"},
+        folder_.path());
+    if (names[i] == "prim.off") {  // of eight faces, where its header says seven
+      EXPECT_EQ(run.exit_code, 1);
+      EXPECT_NE(run.errors.find("prim.off: line 24"), std::string::npos) << run.errors;
+      std::filesystem::remove(folder_ / names[i]);
+      continue;
+    }
+    ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+    ++decimated;
+    // Where the mesh was not manifold, the reference is it cut apart: the same surface.
+    TriangleMesh given = read_mesh(file);
+    drop_unused_vertices(given.vertices, given.triangles);
+    const bool was_cut = std::filesystem::exists(folder_ / "less.ply.reference.ply");
+    const std::string reference = was_cut ? "less.ply.reference.ply" : names[i];
+    expect_surface("less.ply", reference, given.vertices);
+    if (was_cut) {
+      const TriangleMesh cut = read_mesh(folder_ / reference);
+      EXPECT_LE(farthest(samples(cut, 3), soup(given)), 1e-9);
+      EXPECT_LE(farthest(samples(given, 4), soup(cut)), 1e-9);
+    }
+    for (const std::string& made : files_in(folder_.path())) {
+      std::filesystem::remove_all(folder_ / made);
+    }
+  }
+  EXPECT_GE(decimated, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shares, EverydayMeshes, testing::Range<std::uint64_t>(0, kShares));
 
 // What the cases above are judged by sees a hole between the points.
 TEST(CertifiedSurfaceFault, CgalSeesAHole) {

@@ -97,6 +97,24 @@ TEST(ReferenceFit, TakesTheMethodThatIsNamed) {
   }
 }
 
+TEST(ReferenceFit, ASearchBeginsWithTheValuesThatFitTheScan) {
+  const ScanOfShape scan = scan_of_shape({.shape = "torus", .noise = kEpsilon / 2});
+  OptimizeSettings settings = settings_for("imls");
+  settings.fitted = fit_reference(scan.points, kEpsilon, settings).fitted_values();
+  ASSERT_GT(settings.fitted.at("imls.least_reach"), 0);
+  settings.config = default_config(chain_parameters("imls", "bounded"));
+  const auto first_reach = [&] {
+    const Problem problem = search_problem(settings);
+    return chain_of(settings, problem, problem.starts.front()).parameters.at("imls.least_reach");
+  };
+  EXPECT_EQ(first_reach(), settings.fitted.at("imls.least_reach"));
+  // A person's own stays.
+  const auto gene = std::ranges::find(settings.config.genes, "imls.least_reach",
+                                      [](const GeneConfig& g) { return g.gene.name; });
+  gene->standard = 1.25;
+  EXPECT_EQ(first_reach(), 1.25);
+}
+
 TEST(ReferenceFit, LeavesOutliersOut) {
   const ScanOfShape scan = scan_of_shape({.shape = "torus", .noise = 0.1, .outliers = 0.005});
   const Made made = reference_of(scan);
