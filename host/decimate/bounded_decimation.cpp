@@ -24,6 +24,8 @@ constexpr double kMargin = 1e-7;
 constexpr double kBelongs = 0.1;    // of the mesh's width
 constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference have a sample
 
+constexpr std::size_t kFew = 400;  // triangles: searching on takes next to nothing
+
 // Of the time that is thought to be left, what the passes take.
 constexpr double kSweeps = 0.4, kOtherPass = 0.3;
 
@@ -250,7 +252,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     state.reassign();
     tell("relocations", passes.relocate(4));
     relax();
-    const bool deep = settings.effort == Effort::kDeep;
+    const bool deep = settings.effort == Effort::kDeep || state.mesh().triangles() <= kFew;
     // Once, or until nothing is gained; whether anything was.
     const auto mend = [&] {
       bool any = false;

@@ -42,7 +42,8 @@ struct DecimationSettings {
     kSweep,     // edge collapses far below the bounds, which leave a few times the fewest triangles
     kCollapse,  // and the others
     kRelax,     // and vertices relocated, edges flipped, collapses that these make possible
-    kDeep,      // the same until nothing is gained, from several local minima of the energy
+    kDeep,      // the same until nothing is gained, from several local minima of the energy; so
+                // does kRelax where at most 400 triangles are left
   } effort = Effort::kRelax;
 
   double normal_cosine = 0.2;  // least, between a triangle and the one that it replaces
