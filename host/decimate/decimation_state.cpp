@@ -43,7 +43,7 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
     area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
   complete_ = reassign(interrupted);
-  if (complete_ && !reference.empty()) {
+  if (complete_ && !reference.empty() && !guards_.skip_reference) {
     cover_.emplace(reference, cloud_, squared_limit_);
     cover_->begin(mesh_, tree_);
   }
@@ -99,7 +99,7 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
         if (!back_->holds(corners, near)) return false;
       }
     }
-    if (cover_ && !cover_->permits(mesh_, assigned_, edit, tolerant || guards_.skip_reference)) {
+    if (cover_ && !cover_->permits(mesh_, assigned_, edit, tolerant)) {
       return false;
     }
     return true;
