@@ -106,7 +106,7 @@ module fp_add #(
   logic far_3, small_zero_3, lost_3, sign_3, subtract_3;
   logic zero_3, special_3, upper_3, lower_3, opposite_3, negative_3;
   assign smaller_0b = {1'b1, smaller_2, 2'b00};
-  `REGISTERED(CUT[3], smaller_3, smaller_0b >> (shift_2[SHIFT_BITS-1:0] & ~SHIFT_BITS'(7)))
+  `REGISTERED(CUT[3], smaller_3, smaller_0b >> (shift_2[SHIFT_BITS-1:0] & ~(SHIFT_BITS'(7))))
   `REGISTERED(CUT[3], {exponent_3, larger_3}, larger_2)
   `REGISTERED(CUT[3], {
         shift_3, far_3, small_zero_3, lost_3, sign_3, subtract_3,
