@@ -37,7 +37,9 @@ FEATURES = TWO + "-features"
 OWN = [TWO, FEATURES, TWO + "-deep", ONE, ONE + "-deep"]
 # The envelope's test of every collapse would take hours elsewhere; scans have no sharp edges.
 ENVELOPE, ENVELOPE_CASES = "cgal-envelope", [("fandisk", 0.1)]
-ONLY = {ENVELOPE: ENVELOPE_CASES, FEATURES: [("fandisk", percent) for percent in BOUNDS["fandisk"]]}
+# What one of the three directions takes; no tool, it has no triangles of its own.
+THIRD, THIRD_CASES = "third-direction", [("bunny", 0.642), ("bunny", 0.321), ("bunny", 0.0642), ("fandisk", 0.1)]
+ONLY = {ENVELOPE: ENVELOPE_CASES, THIRD: THIRD_CASES, FEATURES: [("fandisk", percent) for percent in BOUNDS["fandisk"]]}
 POINTS = [10000, 30000, 100000, 300000, 1000000]
 POINTS_PERCENT = 0.25
 POINTS_TOOLS = [TWO, ONE, "meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh"]
@@ -235,6 +237,19 @@ def curves(store):
     return plots
 
 
+def third(store):
+    """What keeping the reference near the mesh takes, of whole calls."""
+    told = []
+    for scan, percent in THIRD_CASES:
+        result = store.get(scan, percent, THIRD)
+        if result and "share" in result:
+            middle, least, greatest = (100 * (1 - 1 / (1 + share)) for share in result["share"])
+            told.append(f"{scan} at {percent:g} % {middle:.0f} % ({least:.0f}–{greatest:.0f}) of "
+                        f"{number(result['seconds'][0])} s")
+    return ("Of a two-sided call, keeping and certifying every point of the reference within ε takes (median of five "
+            "calls with and without it in turn, least–greatest): " + "; ".join(told) + ".\n") if told else ""
+
+
 def growth(store):
     """How the time of a point grows, beside that of n log n."""
     text = []
@@ -304,6 +319,8 @@ def section(store, plots):
     if told := growth(store):
         parts.append(f"Time by points: one call on a torus with little noise, ε {POINTS_PERCENT} % of the width; the "
                      f"peers go to 2000 triangles, OpenMesh to its own bound of ε. {told}")
+    if told := third(store):
+        parts.append(told)
     parts.append(f"Every tool in every case: [{DETAILS}]({DETAILS}).\n")
     return "\n".join(parts)
 
@@ -322,7 +339,7 @@ def main(words, is_quick, fetch_dragon, install_python):
     parser = argparse.ArgumentParser(prog="./dev bench --decimate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scans", nargs="+", choices=BOUNDS, default=list(BOUNDS))
-    parser.add_argument("--tools", nargs="+", choices=OWN + PEERS, default=OWN + PEERS)
+    parser.add_argument("--tools", nargs="+", choices=OWN + PEERS + [THIRD], default=OWN + PEERS + [THIRD])
     parser.add_argument("--fresh", action="store_true", help="forget earlier results")
     parser.add_argument("--fresh-own", action="store_true", help="forget emax's own earlier results")
     parser.add_argument("--only-write", action="store_true", help="from the results that are there")
@@ -337,7 +354,7 @@ def main(words, is_quick, fetch_dragon, install_python):
         shutil.rmtree(FOLDER, ignore_errors=True)
     store = Store(FOLDER / "results.jsonl")
     if options.fresh_own:
-        store.results = {key: result for key, result in store.results.items() if key[2] not in OWN}
+        store.results = {key: result for key, result in store.results.items() if key[2] not in OWN + [THIRD]}
     if not options.only_write:
         measure(store, options.scans, options.tools)
     plots = curves(store)

@@ -50,6 +50,12 @@ class DecimationBenchTest(DocumentsCase):
         self.assertIn(told, bench.details(self.store))
         self.assertEqual(len({line.count("|") for line in told.splitlines() if line.startswith("|")}), 1)
 
+    def test_the_third_direction_is_a_share_of_the_call(self):
+        self.assertEqual(bench.third(self.store), "")
+        self.put("fandisk", 0.1, bench.THIRD,
+                 {"seconds": [3, 2.9, 3.2], "without": [2.4, 2.3, 2.5], "share": [0.25, 0.2, 0.3]})
+        self.assertIn("fandisk at 0.1 % 20 % (17–23) of 3.00 s", bench.third(self.store))
+
     def test_what_was_not_measured_is_named(self):
         for scan, bounds in bench.BOUNDS.items():
             for percent in bounds:

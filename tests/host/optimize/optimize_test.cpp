@@ -47,7 +47,8 @@ std::uint64_t seed_of_every_fault(const Config& config) {
 // A search on a small torus.
 class OptimizeTest : public testing::Test {
  protected:
-  OptimizeTest() {
+  explicit OptimizeTest(std::vector<Point> cloud = torus_cloud(30, 12), double epsilon = 0.3)
+      : cloud_(std::move(cloud)), constraint_(cloud_, epsilon, 0) {
     settings_.decimator = "schroeder";
     settings_.config = default_config(chain_parameters("gp3", "schroeder"));
     settings_.config.search.budget = kBudget;
@@ -79,8 +80,8 @@ class OptimizeTest : public testing::Test {
     return folder_ / name;
   }
 
-  const std::vector<Point> cloud_ = torus_cloud(30, 12);
-  ErrorConstraint constraint_{cloud_, 0.3, 0};
+  const std::vector<Point> cloud_;
+  ErrorConstraint constraint_;
   Evaluator* device_ = nullptr;
   OptimizeSettings settings_;
   std::uint64_t measured_ = 0;  // meshes, by the last run
@@ -358,12 +359,20 @@ TEST_F(OptimizeTest, RefusesAFormatThatRoundsTooMuch) {
   EXPECT_EQ(observed, 0);
 }
 
+// On a torus of which more than the 400 triangles are left below which every effort is deep.
+class DeepOptimizeTest : public OptimizeTest {
+ protected:
+  DeepOptimizeTest() : OptimizeTest(torus_cloud(60, 24), kEpsilon) {
+    settings_.bound.epsilon = kEpsilon;
+  }
+  static constexpr double kEpsilon = 0.005;
+};
+
 // Both decimators as categories: what is found is either's, and only the bounded one goes deep.
-TEST_F(OptimizeTest, TheDecimatorMayBeAGene) {
+TEST_F(DeepOptimizeTest, TheDecimatorMayBeAGene) {
   settings_.decimator = "auto";
   settings_.config = default_config(chain_parameters("gp3", "auto"));
   settings_.config.search.budget = kBudget;
-  settings_.bound.epsilon = 0.04;
   std::set<std::string> decimators;
   RunLog log(path_, kSettings);
   const OptimizeState state = run(&log);
@@ -386,24 +395,17 @@ TEST_F(OptimizeTest, TheDecimatorMayBeAGene) {
 }
 
 // The twin is a worker's chain, run here with the best's parameters.
-TEST_F(OptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
+TEST_F(DeepOptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   settings_.decimator = "bounded";
   settings_.config = default_config(chain_parameters("gp3", "bounded"));
   settings_.config.search.budget = 3;
   settings_.polish = false;
-  OptimizeState plain;
-  ChainSettings deep;
-  TriangleMesh twin;
-  for (const double epsilon : {0.05, 0.04, 0.03, 0.02}) {  // until triangles are left to remove
-    settings_.bound.epsilon = epsilon;
-    plain = run();
-    ASSERT_TRUE(plain.best);
-    EXPECT_FALSE(plain.polished);
-    deep = plain.best->chain;
-    EXPECT_EQ(std::exchange(deep.parameters.at(kBoundedEffort), kDeepEffort), 2);
-    twin = Chain(cloud_, settings_.bound, 1 << 20).run(deep).mesh;
-    if (twin.triangles.size() < plain.best->triangles) break;
-  }
+  const OptimizeState plain = run();
+  ASSERT_TRUE(plain.best);
+  EXPECT_FALSE(plain.polished);
+  ChainSettings deep = plain.best->chain;
+  EXPECT_EQ(std::exchange(deep.parameters.at(kBoundedEffort), kDeepEffort), 2);
+  const TriangleMesh twin = Chain(cloud_, settings_.bound, 1 << 20).run(deep).mesh;
   ASSERT_LT(twin.triangles.size(), plain.best->triangles);
 
   settings_.polish = true;
