@@ -11,14 +11,13 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import designs, document
+from synthesis import designs, document, netlists
 from synthesis.tools import Background, Failure, Runner, run_command
 
 FOLDER = Path("build/bitstream")
 DOCUMENT = Path("docs/synthesis.md")
 CONSTRAINTS = designs.ULX3S / "ulx3s.lpf"
 TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
-YOSYS = "-nodsp"  # as in synthesize.py
 # Where two elements meet the clock with the pinned tools (docs/decisions/0007).
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
@@ -28,8 +27,7 @@ SYNTHESIS_MINUTES, SEED_MINUTES = 4, 25
 def build(runner, options, results):
     design = designs.ulx3s(options.elements, TARGET)
     folder = f"ulx3s/{options.elements}"
-    (netlist,) = runner.step("yosys", f"{design.name}, synthesis", f"{folder}/yosys",
-                             ["-p", designs.board_script(design, YOSYS)], design.inputs("ecp5"), ["netlist.json"])
+    netlist, _ = netlists.ecp5_top(runner, design, folder)
 
     def route(seed):
         report, log, placed = runner.step(

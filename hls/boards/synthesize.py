@@ -11,12 +11,11 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import baseline, designs, document
+from synthesis import baseline, designs, document, netlists
 from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
 SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
 FORMS = ["visible_edge", "three_edge", "barycentric"]
-FAMILIES = {"xc7": "7-series", "xcup": "UltraScale+"}
 FORM_FIGURES = ["multiplications", "additions", "latency", "delay_bits"]
 DATAPATH = designs.GENERATED / "emax_distance.sv"
 LOWER = Path("build/kernel/bin/emax_lower")
@@ -27,15 +26,7 @@ OPERATOR_TARGET = 200.0  # a crowded element costs an operator up to a seventh o
 # Minutes of one core for a section at one seed, from a run on a 2-core machine.
 EXPECTED = {"element": 9, "forms": 36, "operators": 5, "xilinx": 6}
 SEED_MINUTES = 6
-# Tried in docs/decisions/0006-synthesis-options.md.
-# The ECP5 mapping names its DSP blocks itself; left alone, Yosys would give small products
-# blocks without registers.
-YOSYS = "-nodsp"
 NEXTPNR = []
-
-
-def slug(name):
-    return name.replace(", latency ", "_").replace(" ", "_")
 
 
 class Ecp5:
@@ -43,15 +34,11 @@ class Ecp5:
 
     def __init__(self, runner, design, seeds, at_once):
         self.runner, self.design, self.seeds, self.at_once = runner, design, seeds, at_once
-        self.folder = f"ecp5/{slug(design.name)}"
+        self.folder = f"ecp5/{netlists.slug(design.name)}"
 
     def run(self):
         design, runner = self.design, self.runner
-        inputs = design.inputs("ecp5")
-        shell = with_ports(runner, design, "ecp5", self.folder, designs.shell)
-        netlist, cells = runner.step(
-            "yosys", f"{design.name}, synthesis for ECP5", f"{self.folder}/yosys",
-            ["-p", designs.ecp5_script(design, shell, YOSYS)], [*inputs, shell], ["netlist.json", "cells.json"])
+        netlist, cells, _ = netlists.ecp5(runner, design)
         # Seeds in order, so that the result does not depend on how many run at once.
         tried = []
         for first in range(1, self.seeds + 1, self.at_once):
@@ -77,21 +64,8 @@ class Ecp5:
         return figures, detail
 
 
-def with_ports(runner, design, family, folder, make):
-    """The path of what `make` writes around the design, given its ports."""
-    (ports,) = runner.step("yosys", f"{design.name}, ports", f"{folder}/ports",
-                           ["-q", "-p", designs.ports_script(design, family)], design.inputs(family), ["ports.json"])
-    path = FOLDER / folder / "top.v"
-    path.write_text(make(design, designs.ports(ports)))
-    return path
-
-
 def run_xilinx(runner, design, family):
-    folder = f"{family}/{slug(design.name)}"
-    wrapper = with_ports(runner, design, "xilinx", folder, designs.wrapper)
-    (netlist,) = runner.step("yosys", f"{design.name}, synthesis for {FAMILIES[family]}", f"{folder}/yosys",
-                             ["-p", designs.xilinx_script(design, wrapper, family)],
-                             [*design.inputs("xilinx"), wrapper], ["netlist.json"])
+    netlist, _ = netlists.xilinx(runner, design, family)
     figures, detail = designs.xilinx_figures(netlist)
     return {"figures": figures, **detail}
 
@@ -168,9 +142,9 @@ def measure(runner, options):
     if "xilinx" in options.only:
         generated, _ = lowered("visible_edge", "xilinx")
         reductions = [designs.GENERATED / f"emax_{name}.sv" for name in ("minimum", "maximum")]
-        for family in FAMILIES:
+        for family in netlists.FAMILIES:
             for design in [designs.element(options.target, [*generated, *reductions]), *operators]:
-                start("xilinx", f"{design.name}, {FAMILIES[family]}", run_xilinx, runner, design, family)
+                start("xilinx", f"{design.name}, {netlists.FAMILIES[family]}", run_xilinx, runner, design, family)
     try:
         work.wait(30 if not sys.stdout.isatty() else 15)
     except KeyboardInterrupt:

@@ -21,6 +21,11 @@ module delay_line #(
   localparam bit DISTRIBUTED = STYLE == LUT_RAM;
   localparam bit BLOCK = STYLE == RAM;
   localparam int PIECE = 17;
+  // A case, as front ends name the blocks of a chain of conditions differently.
+  localparam int WIRES = 0, ONE = 1, PIECES = 2, DISTRIBUTED_RING = 3, BLOCK_RING = 4, REGISTERS = 5;
+  localparam int FORM = DEPTH <= 0 ? WIRES : DEPTH == 1 ? ONE
+      : DISTRIBUTED && DEPTH > PIECE ? PIECES : DISTRIBUTED && DEPTH > 2 ? DISTRIBUTED_RING
+      : BLOCK && DEPTH > 3 ? BLOCK_RING : REGISTERS;
 
   if (STYLE != CHAIN && STYLE != SHIFT && !DISTRIBUTED && !BLOCK) begin : bad_style
     $error("delay_line: STYLE is registers, shift_register, distributed_ram or block_ram");
@@ -29,46 +34,53 @@ module delay_line #(
     $error("delay_line: WIDTH must be at least 1 and DEPTH at least 0");
   end
 
-  if (DEPTH <= 0) begin : wires
-    wire unused = clk;
-    assign q = d;
-  end else if (DEPTH == 1) begin : one
-    always_ff @(posedge clk) q <= d;
-  end else if (DISTRIBUTED && DEPTH > PIECE) begin : pieces
-    logic [WIDTH-1:0] between;
-    delay_line #(.WIDTH(WIDTH), .DEPTH(PIECE), .STYLE(STYLE)) first (.clk, .d, .q(between));
-    delay_line #(.WIDTH(WIDTH), .DEPTH(DEPTH - PIECE), .STYLE(STYLE)) rest (
-        .clk, .d(between), .q
-    );
-  end else if (DISTRIBUTED && DEPTH > 2) begin : distributed
-    localparam int WORDS = DEPTH - 1;
-    localparam int BITS = $clog2(WORDS);
-    localparam logic [BITS-1:0] LAST = BITS'(WORDS - 1);
-    (* ram_style = "distributed" *) logic [WIDTH-1:0] words[WORDS];
-    logic [BITS-1:0] place = '0;
-    always_ff @(posedge clk) begin
-      place <= place == `MUTATED(DELAY_ONE_SHORT, LAST, LAST - 1'b1) ? '0 : place + 1'b1;
-      words[place] <= d;
-      q <= words[place];
+  case (FORM)
+    WIRES: begin : wires
+      wire unused = clk;
+      assign q = d;
     end
-  end else if (BLOCK && DEPTH > 3) begin : block
-    // The place read is the one written next.
-    localparam int WORDS = DEPTH - 1;
-    localparam int BITS = $clog2(WORDS);
-    logic [BITS-1:0] place = '0;
-    logic [BITS-1:0] next;
-    assign next = place == BITS'(WORDS - 1) ? '0 : place + 1'b1;
-    always_ff @(posedge clk) place <= next;
-    block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(BITS)) memory (
-        .clk, .write_enable(1'b1), .write_address(place), .write_data(d), .read_enable(1'b1),
-        .read_address(next), .output_enable(1'b1), .read_data(q));
-  end else begin : chain
-    (* shreg_extract = STYLE == SHIFT ? "yes" : "no" *)
-    logic [WIDTH-1:0] stage[DEPTH];
-    always_ff @(posedge clk) begin
-      stage[0] <= d;
-      for (int i = 1; i < DEPTH; i++) stage[i] <= stage[i-1];
+    ONE: begin : one
+      always_ff @(posedge clk) q <= d;
     end
-    assign q = stage[DEPTH-1];
-  end
+    PIECES: begin : pieces
+      logic [WIDTH-1:0] between;
+      delay_line #(.WIDTH(WIDTH), .DEPTH(PIECE), .STYLE(STYLE)) first (.clk, .d, .q(between));
+      delay_line #(.WIDTH(WIDTH), .DEPTH(DEPTH - PIECE), .STYLE(STYLE)) rest (
+          .clk, .d(between), .q
+      );
+    end
+    DISTRIBUTED_RING: begin : distributed
+      localparam int WORDS = DEPTH - 1;
+      localparam int BITS = $clog2(WORDS);
+      localparam logic [BITS-1:0] LAST = BITS'(WORDS - 1);
+      (* ram_style = "distributed" *) logic [WIDTH-1:0] words[WORDS];
+      logic [BITS-1:0] place = '0;
+      always_ff @(posedge clk) begin
+        place <= place == `MUTATED(DELAY_ONE_SHORT, LAST, LAST - 1'b1) ? '0 : place + 1'b1;
+        words[place] <= d;
+        q <= words[place];
+      end
+    end
+    BLOCK_RING: begin : block
+      // The place read is the one written next.
+      localparam int WORDS = DEPTH - 1;
+      localparam int BITS = $clog2(WORDS);
+      logic [BITS-1:0] place = '0;
+      logic [BITS-1:0] next;
+      assign next = place == BITS'(WORDS - 1) ? '0 : place + 1'b1;
+      always_ff @(posedge clk) place <= next;
+      block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(BITS)) memory (
+          .clk, .write_enable(1'b1), .write_address(place), .write_data(d), .read_enable(1'b1),
+          .read_address(next), .output_enable(1'b1), .read_data(q));
+    end
+    default: begin : chain
+      (* shreg_extract = STYLE == SHIFT ? "yes" : "no" *)
+      logic [WIDTH-1:0] stage[DEPTH];
+      always_ff @(posedge clk) begin
+        stage[0] <= d;
+        for (int i = 1; i < DEPTH; i++) stage[i] <= stage[i-1];
+      end
+      assign q = stage[DEPTH-1];
+    end
+  endcase
 endmodule

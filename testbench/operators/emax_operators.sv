@@ -19,7 +19,7 @@ module emax_operators #(
     output logic                       less
 );
   localparam int W = 1 + EXPONENT + MANTISSA;
-  localparam int LATENCY = 16;
+  localparam int LATENCY = 19;  // the lines of products then fill memories of eight words
 
   delay_line #(.WIDTH(1), .DEPTH(LATENCY)) valid_line (.clk, .d(valid_in), .q(valid));
 

@@ -62,6 +62,48 @@ OperandPair product_pair(Random& random, int sum) {
   return pair;
 }
 
+// Odd a's inverse modulo 2^64, by Newton's iteration: each step doubles the bits that are right.
+std::uint64_t inverse(std::uint64_t a) {
+  std::uint64_t x = a;
+  for (int i = 0; i < 5; ++i) x *= 2 - a * x;
+  return x;
+}
+
+// A root modulo 2^bits of c, which is 1 modulo 8.
+std::uint64_t square_root(std::uint64_t c, int bits) {
+  std::uint64_t root = 1;
+  for (int bit = 3; bit < bits; ++bit) {
+    if (((root * root ^ c) >> bit & 1) != 0) root += 1ull << (bit - 1);
+  }
+  return root;
+}
+
+constexpr std::uint64_t kHidden = 1u << 23;  // of a mantissa
+
+bool is_mantissa(std::uint64_t m) { return m >= kHidden && m < 2 * kHidden; }
+
+// Mantissas whose product is half a unit in the last place and one bit far below it from an even
+// number: that bit alone decides the rounding.
+OperandPair lone_bit_product(Random& random, bool square) {
+  while (true) {
+    const int shift = random.one_in(2) ? 1 : 0;  // the product's from 2 on
+    const int half = 22 + shift,
+              lone = static_cast<int>(random.below(static_cast<std::size_t>(half)));
+    std::uint64_t a = kHidden | (random.bits() & kFractionMask) | 1, b = 0;
+    if (!square) {
+      b = (1ull << half | 1ull << lone) * inverse(a) & ((1ull << (half + 2)) - 1);
+    } else if (lone % 2 == 0 && half - lone >= 3) {
+      // (2^m u)^2, u odd: only even places can be a square's lowest bit.
+      const int m = lone / 2, bits = half + 2 - lone;
+      const std::uint64_t u = square_root(1 | 1ull << (half - lone), bits);
+      a = b = ((random.bits() << (bits - 1)) + u) << m & (2 * kHidden - 1);
+    }
+    if (is_mantissa(a) && is_mantissa(b) && (a * b >> 47) == static_cast<unsigned>(shift)) {
+      return {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)};
+    }
+  }
+}
+
 OperandPair pair_of(Aim aim, Random& random) {
   OperandPair pair = any_pair(random);
   switch (aim) {
@@ -112,6 +154,13 @@ OperandPair pair_of(Aim aim, Random& random) {
       pair.b = compose(pair.b >> 31, exponent_of(pair.a) - below, tail);
       break;
     }
+    case Aim::kLoneBits: {
+      const OperandPair mantissas = lone_bit_product(random, random.one_in(2));
+      const int exponent = 70 + static_cast<int>(random.below(100));
+      pair = {compose(pair.a >> 31, exponent, mantissas.a),
+              compose(pair.b >> 31, exponent, mantissas.b)};
+      break;
+    }
   }
   return random.one_in(2) ? pair : OperandPair{pair.b, pair.a};
 }
@@ -120,8 +169,9 @@ OperandPair pair_of(Aim aim, Random& random) {
 
 const char* aim_name(Aim aim) {
   static constexpr const char* kNames[kAims] = {
-      "any bits",      "near exponents", "cancellation", "small sums",       "large sums",
-      "tiny products", "large products", "squares",      "sparse fractions", "ties"};
+      "any bits",         "near exponents", "cancellation",   "small sums",
+      "large sums",       "tiny products",  "large products", "squares",
+      "sparse fractions", "ties",           "lone bits"};
   return kNames[static_cast<int>(aim)];
 }
 

@@ -22,8 +22,9 @@ enum class Aim {
   kSquares,          // a with its square about either
   kSparseFractions,  // fractions of few ones or few zeros: ties, carries, long runs
   kTies,             // sums half a unit in the last place, or nearly, from a number
+  kLoneBits,         // products and squares whose rounding a single bit far below decides
 };
-constexpr int kAims = 10;
+constexpr int kAims = 11;
 const char* aim_name(Aim aim);
 
 // Fills `pairs` with binary32 pairs of that aim.

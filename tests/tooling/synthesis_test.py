@@ -12,7 +12,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
-from synthesis import baseline, designs, document, tools  # noqa: E402
+import front_ends  # noqa: E402
+from synthesis import baseline, designs, document, netlists, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
 
@@ -142,6 +143,26 @@ class DesignTest(unittest.TestCase):
         text = designs.shell(design, [("clk", "input", 1), ("a", "input", 8), ("b", "input", 1), ("q", "output", 3)])
         for part in [".a(offered[7:0])", ".b(offered[8:8])", ".q(out[2:0])", "reg [8:0] held", "reg [2:0] given, taken", "#(.N(4))"]:
             self.assertIn(part, text)
+
+    def test_a_netlist_is_renamed_only_where_it_is_one_module(self):
+        text = "module \\$paramod\\fp_add\\LATENCY=s32'1 (clk, a);\n  wire module_x;\nendmodule\n"
+        self.assertTrue(netlists.renamed(self.file(text), "n").startswith("module n(clk, a);\n"))
+        for wrong in [text + text, "// nothing\n"]:
+            with self.assertRaises(ValueError):
+                netlists.renamed(self.file(wrong), "n")
+
+    def test_a_source_replaced_is_read_in_its_place(self):
+        source = designs.RTL / "fp_add.sv"
+        design = designs.Design("d", "fp_add", 0, replaced={source: Path("other.sv")})
+        self.assertNotIn(source, design.sources("behavioural"))
+
+    def test_what_a_front_end_remarks_on_is_found(self):
+        permitted = ("Warning: Replacing memory \\stage with list of registers. See x.sv:1\n"
+                     "Build succeeded: 0 errors, 0 warnings\nWarnings: 1 unique messages, 1 total\n")
+        self.assertEqual(front_ends.remarks(permitted), [])
+        self.assertEqual(front_ends.remarks(permitted + "x.sv:3:4: warning: width\nWarning: latch"),
+                         ["x.sv:3:4: warning: width", "Warning: latch"])
+        self.assertEqual(len(front_ends.remarks("Build succeeded: 0 errors, 2 warnings")), 1)
 
     def test_the_critical_path_is_the_clocks_own(self):
         step = lambda kind, delay: {"type": kind, "delay": delay, "from": {"cell": "design.a_TRELLIS_FF_Q"},

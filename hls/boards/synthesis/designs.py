@@ -20,16 +20,36 @@ class Design:
     parameters: dict = field(default_factory=dict)
     generated: list = None  # in place of the sources in hls/rtl/generated
     more: list = field(default_factory=list)  # sources beside hls/rtl
+    replaced: dict = field(default_factory=dict)  # a source, and the file that is read in its place
 
     def sources(self, family):
         """All of the module library: Yosys keeps what the top uses. A module that the family does not
         map has its behavioural description."""
         mapped = {path.name: path for folder in ("behavioural", family) for path in (RTL / folder).glob("*.sv")}
-        return [*sorted(RTL.glob("*.sv")), *(mapped[name] for name in sorted(mapped)),
-                *(self.generated or sorted(GENERATED.glob("*.sv"))), *self.more]
+        sources = [*sorted(RTL.glob("*.sv")), *(mapped[name] for name in sorted(mapped)),
+                   *(self.generated or sorted(GENERATED.glob("*.sv"))), *self.more]
+        return [self.replaced.get(path, path) for path in sources]
 
     def inputs(self, family):
         return [*self.sources(family), *sorted(RTL.glob("*.svh")), *sorted(GENERATED.glob("*.svh"))]
+
+
+# An expression that Yosys 0.70 takes for (~SHIFT_BITS)'(7), Verilator and the standard for
+# ~(SHIFT_BITS'(7)). The adder had it, so every bitstream computed wrong sums while all simulations of
+# the source were right. Whoever compares netlists or front ends is tried on it.
+MISREAD = (RTL / "fp_add.sv", "~(SHIFT_BITS'(7))", "~SHIFT_BITS'(7)")
+
+
+def misread(folder):
+    """{source: file with that expression}, the file written into the folder."""
+    source, right, wrong = MISREAD
+    text = source.read_text()
+    if text.count(right) != 1:
+        raise Failure(f"{source} holds {right} {text.count(right)} times, not once")
+    path = folder / source.name
+    folder.mkdir(parents=True, exist_ok=True)
+    path.write_text(text.replace(right, wrong))
+    return {source: path}
 
 
 def operators(datapath, target):
@@ -45,6 +65,11 @@ def operators(datapath, target):
 
 def element(target, generated=None):
     return Design("emax_element", "emax_element", target, {"SLOT_BITS": 4}, generated)
+
+
+def core(elements):
+    return Design(f"emax_core, elements: {elements}", "emax_core", 0, {"NUM_PE": elements},
+                  more=sorted((RTL / "core").glob("*.sv")))
 
 
 def ulx3s(elements, target):
@@ -145,21 +170,46 @@ def ecp5_script(design, shell_path, options):
     dissolved into the shell for placement."""
     return (f"{_read(design, 'ecp5')} {shell_path}; {_ecp5_mapping('synthesis_shell', options)}"
             "tee -q -o {folder}/cells.json stat -json; "
+            "select c:design %M; write_verilog -noattr -selected {folder}/netlist.v; select -clear; "
             "setattr -unset keep_hierarchy c:design; flatten; opt_clean; "
             "write_json {folder}/netlist.json")
 
 
-def board_script(design, options):
-    """A board's top for ECP5, with its parameters."""
+def _read_with_parameters(design, family):
     parameters = " ".join(f"-set {name} {value}" for name, value in design.parameters.items())
-    return (f"{_read(design, 'ecp5')}; chparam {parameters} {design.top}; {_ecp5_mapping(design.top, options)}"
-            "write_json {folder}/netlist.json")
+    return f"{_read(design, family)}; chparam {parameters} {design.top}; "
+
+
+def top_script(design, options):
+    """A design for ECP5 without a shell: a core, a board."""
+    return (f"{_read_with_parameters(design, 'ecp5')}{_ecp5_mapping(design.top, options)}"
+            "write_verilog -noattr {folder}/netlist.v; write_json {folder}/netlist.json")
+
+
+def words_script(design):
+    """What the front end makes of a design before anything is mapped: operations on words."""
+    return (f"{_read_with_parameters(design, 'behavioural')}prep -flatten -top {design.top}; "
+            "write_verilog -noattr {folder}/netlist.v")
+
+
+def mutants_script(design, mutants, seed):
+    """A design mapped to single gates, and a list of as many faults that may be put into it: Yosys's
+    commands that do so. The module then has an input mutant_select, at which stands the number of the
+    fault that is active, from 1 on, or 0."""
+    return (f"{_read_with_parameters(design, 'behavioural')}synth -flatten -top {design.top}; "
+            f"mutate -list {mutants} -seed {seed} -none -ctrl mutant_select {mutants.bit_length()} 0 "
+            "-o {folder}/mutants.txt; write_rtlil {folder}/gates.il")
+
+
+def mutated_script(gates, mutants):
+    """The gates with those faults put in."""
+    return f"read_rtlil {gates}; script {mutants}; opt_clean; write_verilog -noattr {{folder}}/netlist.v"
 
 
 def xilinx_script(design, wrapper_path, family):
     return (f"{_read(design, 'xilinx')} {wrapper_path}; "
             f"synth_xilinx -family {family} -flatten -noiopad -noclkbuf -top synthesis_wrapper; "
-            "write_json {folder}/netlist.json")
+            "write_verilog -noattr {folder}/netlist.v; write_json {folder}/netlist.json")
 
 
 def xilinx_figures(netlist):

@@ -6,6 +6,7 @@ All paths are relative to the root of the project, which is the working director
 other absolute paths than we do.
 """
 
+import atexit
 import hashlib
 import importlib.metadata
 import os
@@ -63,9 +64,9 @@ class Runner:
         self.lock = threading.Lock()
         self.active = {}  # process -> (title, start, log)
         self.stopped = False
-        temporary = FOLDER / "tmp"
-        shutil.rmtree(temporary, ignore_errors=True)
-        temporary.mkdir(parents=True)
+        temporary = FOLDER / f"tmp/{os.getpid()}"
+        temporary.mkdir(parents=True, exist_ok=True)
+        atexit.register(shutil.rmtree, temporary, ignore_errors=True)
         self.environment = {
             **os.environ,
             "TMPDIR": str(temporary.resolve()),

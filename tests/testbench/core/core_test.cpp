@@ -4,87 +4,12 @@
 
 #include "sw_model/commands.h"
 #include "sw_model/error.h"
-#include "sw_model/triangle_frame.h"
 #include "testbench/core/core_driver.h"
+#include "testbench/core/core_stimuli.h"
 #include "testbench/core/rtl_device.h"
-#include "testbench/stimuli.h"
 
-namespace emax {
+namespace emax::test {
 namespace {
-
-struct Material {
-  std::vector<Vector3<float>> points;
-  std::vector<TriangleRecord<float>> records;
-};
-
-std::vector<Material> materials(std::uint64_t seed) {
-  std::vector<Material> all;
-  for (const test::Stimulus& s : test::all_stimuli(seed)) {
-    const Normalization normalization = normalization_of(s.cloud);
-    all.push_back(
-        {normalized_points(s.cloud, normalization), make_records(s.mesh(), normalization)});
-  }
-  return all;
-}
-
-template <class Value>
-std::vector<Value> any_of(const std::vector<Value>& values, std::size_t count, Random& random) {
-  std::vector<Value> chosen;
-  for (std::size_t i = 0; i < count; ++i) {
-    chosen.push_back(values[random.below(values.size())]);
-  }
-  return chosen;
-}
-
-// Commands in any order: blocks of all sizes, given up, without records, reduced twice; records
-// before points, too many points, unknown opcodes.
-void append_any_command(std::vector<Word>& words, const std::vector<Material>& all,
-                        Random& random) {
-  const Material& m = all[random.below(all.size())];
-  switch (random.below(10)) {
-    case 0:
-    case 1:
-      return append_load_points(words, any_of(m.points, random.below(9), random));
-    case 2:
-      return append_load_points(words, any_of(m.points, random.below(100), random));
-    case 3:
-      if (!random.one_in(12)) return;
-      return append_load_points(words, any_of(m.points, kMaxBlockPoints + random.below(3), random));
-    case 4:
-    case 5:
-    case 6:
-      return append_records(words, any_of(m.records, random.below(12), random));
-    case 7:
-    case 8:
-      return append_reduce(words, random.one_in(2));
-    default:
-      if (random.one_in(3)) words.push_back(command_header(kIdentify, random.below(3)));
-      if (random.one_in(8)) words.push_back(random.word() | 0x40000000u);
-  }
-}
-
-std::vector<Word> any_commands(const std::vector<Material>& all, std::size_t count,
-                               Random& random) {
-  std::vector<Word> words;
-  for (std::size_t i = 0; i < count; ++i) append_any_command(words, all, random);
-  return words;
-}
-
-std::vector<Word> dense_block(const Material& m, std::size_t points, std::size_t records,
-                              bool list_points, Random& random) {
-  std::vector<Word> words;
-  append_load_points(words, any_of(m.points, points, random));
-  append_records(words, any_of(m.records, records, random));
-  append_reduce(words, list_points);
-  return words;
-}
-
-// The C++ top is one element without a clock; a core names its own.
-void name_elements(std::vector<Word>& answers, std::uint32_t elements) {
-  for (std::size_t i = 0; i < answers.size(); i += 1 + header_count(answers[i])) {
-    if (header_opcode(answers[i]) == kIdentify) answers[i + 4] = elements;
-  }
-}
 
 struct CycleCount {
   std::uint64_t busy, stalled, idle;
@@ -283,4 +208,4 @@ TEST(RtlDevice, SaysWhenNothingComes) {
 }
 
 }  // namespace
-}  // namespace emax
+}  // namespace emax::test

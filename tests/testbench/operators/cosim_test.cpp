@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "sw_model/float_bits.h"
 #include "testbench/operators/mutant_list.h"
@@ -105,6 +107,22 @@ TEST(OperatorStimuli, EveryAimReachesWhatItNames) {
   EXPECT_GT(count(Aim::kSmallSums, Operator::kAdd, zero), 50);
   EXPECT_GT(count(Aim::kLargeSums, Operator::kAdd, infinite), 200);
   EXPECT_GT(count(Aim::kCancellation, Operator::kSubtract, zero), 20);
+  // Each of the exact product's low bits alone, beside the half bit.
+  std::set<int> lone, lone_of_square;
+  fill_pairs(Aim::kLoneBits, random, pairs);
+  const auto mantissa = [](std::uint32_t word) {
+    return std::uint64_t{word & 0x7fffffu} | 0x800000u;
+  };
+  for (const OperandPair& pair : pairs) {
+    const std::uint64_t product = mantissa(pair.a) * mantissa(pair.b);
+    const int half = 22 + static_cast<int>(product >> 47);
+    EXPECT_EQ(product >> half & 3, 1u);
+    const std::uint64_t below = product & ((1ull << half) - 1);
+    EXPECT_EQ(std::popcount(below), 1);
+    (pair.a == pair.b ? lone_of_square : lone).insert(std::countr_zero(below));
+  }
+  EXPECT_EQ(lone.size(), 23u);
+  EXPECT_EQ(lone_of_square.size(), 10u);  // even places, three and more below the half bit
 }
 
 }  // namespace

@@ -1,0 +1,73 @@
+"""Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
+
+NAME is KIND_FAMILY: operators, element or core; ecp5, xc7, xcup or words (as the front end reads
+the sources, before anything is mapped); or KIND_mutated, with faults put in and their list beside
+it; or operators_misread, of sources with an expression that Yosys reads as another one. The operators
+are four modules, fp_add_netlist and so on; the others have the source's name.
+"""
+
+import fcntl
+import io
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from synthesis import designs, netlists
+from synthesis.tools import FOLDER, Failure, Runner, run_command
+
+DATAPATH = designs.GENERATED / "emax_distance.sv"
+MUTANTS, SEED = 500, 1
+OPERATORS = Path("testbench/operators/emax_operators.sv")
+BENCH = designs.Design("operators side by side", "emax_operators", 0, {"EXPONENT": 8}, more=[OPERATORS])
+
+
+def netlist_of(runner, design, family):
+    """The path of a design's netlist for simulation."""
+    if family == "words":
+        return netlists.words(runner, design)
+    if family == "ecp5" and design.top == "emax_core":
+        return netlists.ecp5_top(runner, design, f"ecp5/{netlists.slug(design.name)}")[-1]
+    return (netlists.ecp5(runner, design) if family == "ecp5" else netlists.xilinx(runner, design, family))[-1]
+
+
+def text_of(runner, name):
+    """{suffix: text} of what is written for a name."""
+    kind, family = name.rsplit("_", 1)
+    if name == "operators_misread":
+        design = replace(BENCH, name="operators, misread", replaced=designs.misread(FOLDER / "misread"))
+        return {".v": netlists.words(runner, design).read_text()}
+    if family == "mutated":
+        design = {"operators": BENCH, "core": designs.core(1)}[kind]
+        netlist, mutants = netlists.mutated(runner, design, MUTANTS, SEED)
+        return {".v": netlist.read_text(), ".txt": mutants.read_text()}
+    if kind == "operators":
+        parts = [netlists.renamed(netlist_of(runner, design, family), f"{design.top}_netlist")
+                 for design in designs.operators(DATAPATH, 0)]
+        return {".v": "\n".join(parts)}
+    design = {"core": designs.core(1), "element": designs.element(0)}[kind]
+    return {".v": netlists.renamed(netlist_of(runner, design, family), design.top)}
+
+
+def main():
+    folder, names = Path(sys.argv[1]), sys.argv[2:]
+    folder.mkdir(parents=True, exist_ok=True)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with open(FOLDER / "netlists.lock", "w") as lock:  # two builds may want the same ones
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        runner = Runner(2, out=io.StringIO(), name="netlists")
+        runner.prepare()
+        for name in names:
+            for suffix, text in text_of(runner, name).items():
+                path = folder / f"{name}{suffix}"
+                if not path.exists() or path.read_text() != text:
+                    path.write_text(text)
+                else:
+                    path.touch()
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        run_command("netlists", main)
+    except Failure as failure:
+        sys.exit(f"netlists: {failure}")

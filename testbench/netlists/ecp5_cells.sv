@@ -1,0 +1,72 @@
+// What Yosys maps a design to for ECP5, beside the cells that hls/rtl/ecp5 instantiates itself
+// (ecp5_blocks.sv), for simulation: written from Lattice's TN1265 (slices) and FPGA Libraries
+// Reference Guide. A parameter that no netlist of ours uses is refused where a model is elaborated.
+/* verilator lint_off DECLFILENAME */  // several cells
+/* verilator lint_off UNUSEDPARAM */
+/* verilator lint_off UNUSEDSIGNAL */
+
+module LUT4 #(
+    parameter logic [15:0] INIT = 16'h0000
+) (
+    input  logic A, B, C, D,
+    output logic Z
+);
+  assign Z = INIT[{D, C, B, A}];
+endmodule
+
+module PFUMX (
+    input  logic ALUT, BLUT, C0,
+    output logic Z
+);
+  assign Z = C0 ? ALUT : BLUT;
+endmodule
+
+module L6MUX21 (
+    input  logic D0, D1, SD,
+    output logic Z
+);
+  assign Z = SD ? D1 : D0;
+endmodule
+
+// Set or reset by LSR with the clock, before the enable is looked at.
+module TRELLIS_FF #(
+    parameter GSR = "ENABLED",
+    parameter CEMUX = "1",
+    parameter CLKMUX = "CLK",
+    parameter LSRMUX = "LSR",
+    parameter SRMODE = "LSR_OVER_CE",
+    parameter REGSET = "RESET"
+) (
+    input  logic CLK, LSR, CE, DI,
+    output logic Q
+);
+  if (GSR != "DISABLED" || CLKMUX != "CLK" || LSRMUX != "LSR" || SRMODE != "LSR_OVER_CE"
+      || (CEMUX != "1" && CEMUX != "CE") || (REGSET != "SET" && REGSET != "RESET")) begin : unmodelled
+    $error("TRELLIS_FF: this model does not know these parameters");
+  end
+  localparam logic PRESET = REGSET == "SET";
+  initial Q = PRESET;
+  if (CEMUX == "1") begin : always_enabled
+    always_ff @(posedge CLK) Q <= LSR ? PRESET : DI;
+  end else begin : enabled
+    always_ff @(posedge CLK) if (LSR || CE) Q <= LSR ? PRESET : DI;
+  end
+endmodule
+
+// LUT RAM of 16 words of 4 bits: written with the clock, read at once.
+module TRELLIS_DPR16X4 #(
+    parameter logic [63:0] INITVAL = '0,
+    parameter WCKMUX = "WCK",
+    parameter WREMUX = "WRE"
+) (
+    input  logic [3:0] DI, WAD, RAD,
+    input  logic       WRE, WCK,
+    output logic [3:0] DO
+);
+  if (WCKMUX != "WCK" || WREMUX != "WRE") begin : unmodelled
+    $error("TRELLIS_DPR16X4: this model does not know these parameters");
+  end
+  logic [3:0] words[16];
+  always_ff @(posedge WCK) if (WRE) words[WAD] <= DI;
+  assign DO = words[RAD];
+endmodule

@@ -1,0 +1,29 @@
+// The element's netlist beside the model: the tests of the source's co-simulation that are for an
+// element of 16 record slots.
+//
+// Exit code 0 where every word is the model's, else 1.
+#include <Vnetlist_element.h>
+
+#include <cstdio>
+
+#include "testbench/cosimulation.h"
+#include "testbench/verilated_element.h"
+
+int main() {
+  const emax::ElementFactory make = [](std::uint32_t) {
+    return std::make_unique<emax::VerilatedElement<Vnetlist_element, emax::kDeviceSlotBits>>();
+  };
+  std::uint64_t pairs = 0, mismatches = 0;
+  for (const emax::ElementTest& test : emax::element_tests()) {
+    if (test.slot_bits != emax::kDeviceSlotBits) continue;
+    const emax::TestReport report = emax::run_test(test, make, {});
+    std::printf("%s: %llu pairs, %llu mismatches\n", report.name.c_str(),
+                static_cast<unsigned long long>(report.pairs),
+                static_cast<unsigned long long>(report.mismatches));
+    pairs += report.pairs;
+    mismatches += report.mismatches;
+  }
+  std::printf("netlist: %llu pairs, %llu mismatches\n", static_cast<unsigned long long>(pairs),
+              static_cast<unsigned long long>(mismatches));
+  return mismatches == 0 && pairs > 0 ? 0 : 1;
+}
