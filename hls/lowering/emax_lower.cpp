@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hls/lowering/designs.h"
+#include "hls/lowering/identifiers.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/systemverilog.h"
 
@@ -27,7 +28,7 @@ what to write (the datapath unless one of these is given)
   --report            operations, latency and delay bits, as JSON
 
 how to lower
-  --module NAME       name of the datapath's module
+  --module NAME       name of the datapath's module: an identifier of SystemVerilog
   --latency K=N,...   cycles of add (12), multiply (10), square (10), less (3), select (1),
                       zero_compare (0), logic (0); levels=N: lookup tables between registers (2)
   --family FAMILY     ecp5 (the default) or xilinx: what delays are made of
@@ -115,6 +116,11 @@ int run(const std::vector<std::string>& arguments) {
       writer = found->second;
     } else if (argument == "--module") {
       options.module = value();
+      try {
+        check_module_name(options.module);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(argument + ": " + error.what());
+      }
     } else if (argument == "--latency") {
       Latencies& l = options.latencies;
       read_numbers("--latency", value(),
