@@ -31,8 +31,20 @@ expect fail "unknown form 'square': take one of visible_edge" "an unknown form" 
 expect fail "'--fast' is not understood" "an unknown option" "$lower" minimum --fast
 expect fail "--module needs a value" "a missing value" "$lower" minimum --module
 expect fail "with one of add, less" "an unknown latency" "$lower" minimum --latency div=3
-expect fail "is not a number" "a latency of letters" "$lower" minimum --latency add=x
-expect fail "latency add must be 1 to 64, not 0" "a latency of 0" "$lower" minimum --latency add=0
+for limits in "add 1 14" "multiply 2 13" "square 2 13" "less 1 64" "select 0 1" \
+  "zero_compare 0 1" "logic 0 1" "levels 2 1000"; do
+  read -r name least most <<<"$limits"
+  expect pass "$name $(printf '%*s' $((13 - ${#name})) '')$least to $most (" "limits in the help" \
+    grep -F "$name" <("$lower" --help)
+  for cycles in "$least" "$most"; do
+    expect pass "endmodule" "$name=$cycles" "$lower" visible_edge --latency "$name=$cycles"
+  done
+  for cycles in $((least - 1)) $((most + 1)) x "" 1.5 99999; do
+    expect pass "" "$name=$cycles is refused" refused \
+      "--latency $name must be $least to $most, not '$cycles'" \
+      "$lower" minimum --latency "select=1,$name=$cycles"
+  done
+done
 # shellcheck disable=SC2016  # a dollar sign in a name
 for name in 2d a-b "a b" "" 'a$b'; do
   expect pass "" "the module '$name' is refused" refused "--module: '$name' is no SystemVerilog\

@@ -147,5 +147,27 @@ TEST(Module, OfSeveralOutputsIsTheOneCheckedIn) {
   ADD_FAILURE() << file << " differs: copy " << now << " over it";
 }
 
+// The limits of the command line are those of the modules' own checks: each takes the bounds and
+// refuses what is one beyond.
+TEST(Module, LatencyLimitsAreThoseOfTheOperators) {
+  int operators = 0;
+  for (const LatencyLimits& limits : kLatencyLimits) {
+    if (limits.module.empty()) continue;
+    ++operators;
+    for (const int cycles : {limits.least - 1, limits.least, limits.most, limits.most + 1}) {
+      const std::string module(limits.module);
+      const Finished finished = lint("-GLATENCY=" + std::to_string(cycles) + " --top-module " +
+                                     module + " " EMAX_PROJECT "/hls/rtl/" + module + ".sv");
+      const bool permitted = cycles >= limits.least && cycles <= limits.most;
+      EXPECT_EQ(finished.status == 0, permitted) << module << ' ' << cycles << finished.output;
+      const std::string refusal = module + ": LATENCY must be " + std::to_string(limits.least) +
+                                  " to " + std::to_string(limits.most);
+      EXPECT_EQ(finished.output.find(refusal) == std::string::npos, permitted)
+          << module << ' ' << cycles << finished.output;
+    }
+  }
+  EXPECT_EQ(operators, 4);
+}
+
 }  // namespace
 }  // namespace emax
