@@ -7,6 +7,7 @@ source "$3"
 project=$1 verilator=$2
 
 # outside RTL: assertions that are not written as `ASSERT.
+# shellcheck disable=SC2016  # patterns with the RTL's own signs
 outside() {
   grep -rnE '(^|[^`A-Za-z_])(assert|assume|cover)[ ]*(property)?[ ]*\(|else[ ]*\$(error|fatal)' "$1" \
     --include='*.sv' --include='*.svh' | grep -v '/asserted.svh:' | grep -vE ':[ ]*//'
@@ -21,6 +22,7 @@ assertions() {
     tr '\n' ' ' | { grep -oE "$pattern" || true; } | wc -l)
   echo "$found found"
 }
+# shellcheck disable=SC2016
 with_message='assert \([^;]*\) +else +\$error\("[^"]*"\);'
 any='[^_a-z]assert \('
 
