@@ -83,6 +83,18 @@ TEST_F(Failures, BehindTheDatapathNameNoNode) {
   EXPECT_EQ(run_replay(folder, {}), 1);
 }
 
+// The run does not go on to the words that such an element still gives, nor to their end.
+TEST_F(Failures, EndAtTheFirstBrokenContract) {
+  const Failure failure = failure_of("CREDIT_NOT_TAKEN", "blocks: of a few points");
+  EXPECT_EQ(failure.mismatch.stream, "assertion");
+  const auto element = make_mutated_element(kPairsSlotBits);
+  element->set_mutant(failure.mutant);
+  const RunResult result = run_sequence(failure.runs, *element);
+  ASSERT_TRUE(result.mismatch);
+  EXPECT_EQ(result.mismatch->cycle + 1, result.cycles);
+  EXPECT_LT(result.worst, expected_of(failure.runs.back()).worst.size());
+}
+
 TEST_F(Failures, ShrinkToTheBeatsThatMatter) {
   const auto shrunk = [](const char* mutant, const char* test) {
     return shrink(failure_of(mutant, test), make_mutated_element);
