@@ -1,6 +1,9 @@
 // The machinery of a mismatch, on faults put into the design on purpose.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -69,10 +72,31 @@ TEST_F(Failures, LeaveASmallFolderThatReplaysAndPassesUnchanged) {
   EXPECT_NE(report.find("point_triangle.h"), std::string::npos) << report;
   EXPECT_NE(report.find("model   0x"), std::string::npos) << report;
   EXPECT_GT(fs::file_size(folder / "waveform.fst"), 1000u);
-  EXPECT_NE(content(folder / "replay.sh").find("--replay"), std::string::npos);
 
   EXPECT_EQ(run_replay(folder, {}), 1);
   EXPECT_EQ(run_replay(folder, {"--mutant", "0"}), 0);
+}
+
+TEST_F(Failures, ReplayFromAnyFolderWithTheBuildThatWroteThem) {
+  const fs::path folder =
+      keep_failure(failure_of("EDGES_SWAPPED", "pairs: bumpy sphere"), make_mutated_element,
+                   parent_ / "a \"folder\" of $HOME", 300);
+  // Also where the folder was moved to.
+  const fs::path moved = parent_ / "moved";
+  fs::rename(folder, moved);
+  const auto status_of = [&](const std::string& command) {
+    const int status = std::system(("cd / && sh '" + (moved / "replay.sh").string() + "' " +
+                                    command + " >'" + (parent_ / "out").string() + "' 2>&1")
+                                       .c_str());
+    return WEXITSTATUS(status);
+  };
+  EXPECT_EQ(status_of(""), 1);
+  EXPECT_NE(content(parent_ / "out").find("first diverging node: "), std::string::npos);
+  EXPECT_EQ(status_of("--mutant 0"), 0);
+  setenv("EMAX_COSIM_REPLAY", (parent_ / "none").c_str(), 1);
+  EXPECT_EQ(status_of(""), 2);
+  EXPECT_NE(content(parent_ / "out").find("none is not there"), std::string::npos);
+  unsetenv("EMAX_COSIM_REPLAY");
 }
 
 TEST_F(Failures, BehindTheDatapathNameNoNode) {
