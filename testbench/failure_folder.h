@@ -3,8 +3,10 @@
 //
 //   input.txt      test, seed, slot bits, mutant and the runs (element_run.h), after # the reason
 //   replay.sh      replays it, from any folder, with the build that wrote it
-//   report.txt     what the replay found: the mismatch and the first diverging node
+//   report.txt     what the replay found: the mismatch, the pair, the first diverging node and its
+//                  operands
 //   waveform.fst   a window of the failing run
+//   waveform.gtkw  opens it in GTKWave: clock, handshakes, the node, its operands
 //
 // A copy of the folder under tests/testbench/regressions is a test of the unchanged design.
 #pragma once

@@ -43,7 +43,8 @@ fs::path keep_failure(const Failure& failure, const ElementFactory& make_element
   const int code = run_replay(folder, {"--write", "--window", std::to_string(window)});
   if (code == 0) std::printf("the element with probes does not show it; input.txt stands\n");
   const fs::path path = fs::absolute(folder);
-  std::printf("kept in %s; replay: sh %s/replay.sh\n", path.c_str(), path.c_str());
+  std::printf("kept in %s; replay: sh %s/replay.sh; waveform: gtkwave %s/waveform.gtkw\n",
+              path.c_str(), path.c_str(), path.c_str());
   return folder;
 }
 
