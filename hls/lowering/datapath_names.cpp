@@ -49,7 +49,7 @@ DatapathNames::DatapathNames(const LoweredDesign& design) {
   for (const Output& output : graph.outputs()) use(output.node, schedule.latency);
 
   // First what has its name already, from name_nodes; the others make way for it.
-  Identifiers identifiers;
+  Identifiers identifiers(design.options.module);
   std::set<std::string> ports;
   for (const Input& input : graph.inputs()) identifiers.take(input.name);
   for (const Output& output : graph.outputs()) ports.insert(identifiers.take(output.name));

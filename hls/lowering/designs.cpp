@@ -174,7 +174,7 @@ LoweredDesign lower_graph(Form form, DataflowGraph graph, const SourceText& sour
     if (renamed[node] != kNoNode) live[renamed[node]] = label;
   }
   design.schedule = make_schedule(design.graph, options.latencies);
-  name_nodes(design.graph, design.schedule, source_text, live);
+  name_nodes(design.graph, design.schedule, source_text, live, design.options.module);
   for (NodeId id = 0; id < design.graph.nodes().size(); ++id) {
     if (design.graph.is_operation(id)) design.probes.push_back(id);
   }

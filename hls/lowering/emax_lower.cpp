@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -61,7 +62,8 @@ struct Field {
 // "a=1,b=2" into the numbers that `fields` names.
 void read_numbers(const std::string& option, const std::string& text,
                   const std::map<std::string, Field>& fields) {
-  std::istringstream parts(text);
+  // With a comma after each part, an empty text has one part, which is refused.
+  std::istringstream parts(text + ',');
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t equals = part.find('=');
     const auto field = fields.find(part.substr(0, equals));
@@ -116,7 +118,8 @@ void write_file(const std::string& path, const std::string& text) {
 
 int run(const std::vector<std::string>& arguments) {
   LoweringOptions options;
-  std::string form, file, delay;
+  std::string form, file;
+  std::optional<std::string> delay;
   std::string (*writer)(const LoweredDesign&) = datapath_module;
   const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
       {"--unit", unit_module},
@@ -170,10 +173,12 @@ int run(const std::vector<std::string>& arguments) {
   }
   if (form.empty()) throw std::invalid_argument("no form is given");
   DelayStyles& delays = options.delays;  // after the family, wherever it stands
-  read_numbers("--delay", delay,
-               {{"registers", {&delays.registers_up_to, 0, kMaxDelay}},
-                {"narrow_registers", {&delays.narrow_registers_up_to, 0, kMaxDelay}},
-                {"memory", {&delays.memory_up_to, 0, kMaxDelay}}});
+  if (delay) {
+    read_numbers("--delay", *delay,
+                 {{"registers", {&delays.registers_up_to, 0, kMaxDelay}},
+                  {"narrow_registers", {&delays.narrow_registers_up_to, 0, kMaxDelay}},
+                  {"memory", {&delays.memory_up_to, 0, kMaxDelay}}});
+  }
   const std::string text = writer(lower(form_of(form), options));
   if (file.empty()) {
     std::cout << text;

@@ -100,7 +100,7 @@ void check_module_name(const std::string& name) {
   }
 }
 
-Identifiers::Identifiers() {
+Identifiers::Identifiers(const std::string& module) : taken_{module, module + "_unit"} {
   taken_.insert(kFixedNames.begin(), kFixedNames.end());
   taken_.insert(kUsedModules.begin(), kUsedModules.end());
 }

@@ -26,11 +26,12 @@ std::span<const std::string_view> used_modules();
 // have: no identifier, a keyword, or one of used_modules().
 void check_module_name(const std::string& name);
 
-// The names of one generated module. It begins with those that the generator itself writes into
-// modules of every kind (ports, parameters, modules that it instantiates).
+// The names of one generated module. It begins with the module's own name, which simulators give to
+// the instance at the top, and with those that the generator itself writes into modules of every
+// kind (ports, parameters, modules that it instantiates).
 class Identifiers {
  public:
-  Identifiers();
+  explicit Identifiers(const std::string& module);
 
   // A legal name that was not given before: `wanted` where it is legal and free, else the first
   // free one of wanted_2, wanted_3 and so on. A reserved word gets the ending _value; characters

@@ -130,8 +130,12 @@ namespace {
 class Namer {
  public:
   Namer(DataflowGraph& graph, const Schedule& schedule, const SourceText& source_text,
-        const Labels& labels)
-      : graph_(graph), schedule_(schedule), labels_(labels), owner_(graph.nodes().size(), kNoNode) {
+        const Labels& labels, const std::string& module)
+      : graph_(graph),
+        schedule_(schedule),
+        labels_(labels),
+        owner_(graph.nodes().size(), kNoNode),
+        identifiers_(module) {
     for (NodeId id = 0; id < graph.nodes().size(); ++id) {
       const SourcePlace& place = graph.node(id).place;
       statements_.push_back(statement_around(source_text(place.file), place.line, place.column));
@@ -222,8 +226,8 @@ class Namer {
 }  // namespace
 
 void name_nodes(DataflowGraph& graph, const Schedule& schedule, const SourceText& source_text,
-                const Labels& labels) {
-  Namer(graph, schedule, source_text, labels).name_all();
+                const Labels& labels, const std::string& module) {
+  Namer(graph, schedule, source_text, labels, module).name_all();
 }
 
 }  // namespace emax

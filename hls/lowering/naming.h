@@ -27,10 +27,10 @@ using Labels = std::map<NodeId, std::string>;
 // Gives every input, output and operation a name that is unique among them and a legal identifier
 // of SystemVerilog. Inputs and outputs keep theirs where they are legal and unique. A node has the
 // name of its output where it drives the output's port itself: it is ready in the schedule's last
-// cycle, and no other output comes before.
+// cycle, and no other output comes before. `module` is the name of the module that they are for.
 // O(nodes * (log nodes + length of the source)).
 void name_nodes(DataflowGraph& graph, const Schedule& schedule, const SourceText& source_text,
-                const Labels& labels);
+                const Labels& labels, const std::string& module);
 
 // The statement around a place, for what a name is made of.
 struct Statement {

@@ -32,7 +32,7 @@ std::string unit_module(const LoweredDesign& design) {
     const int cycle = schedule.start[input.node] - 1;
     if (input.arrival == Arrival::kMemory && cycle > 0) slots.insert(cycle);
   }
-  Identifiers identifiers;
+  Identifiers identifiers(module);
   for (const Input& input : design.graph.inputs()) identifiers.take(input.name);
   for (const Output& output : design.graph.outputs()) identifiers.take(output.name);
   // The slot as it is presented and delayed to the cycles of `slots`; a write's enable and slot as

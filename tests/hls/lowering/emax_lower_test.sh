@@ -54,6 +54,12 @@ done
 expect fail "'dist' is a SystemVerilog keyword" "a keyword" "$lower" minimum --module dist
 expect fail "'fp_add' is the name of a module of hls/rtl" "a module that is there" \
   "$lower" minimum --module fp_add
+for option in --latency --delay; do
+  for value in "" "," "add" "=3"; do
+    expect fail "$option: '${value%,}' is not NAME=NUMBER" "$option '$value'" \
+      "$lower" minimum "$option" "$value"
+  done
+done
 expect fail "unknown family 'lattice'" "an unknown family" "$lower" minimum --family lattice
 expect fail "one thing to write at a time" "two writers" "$lower" minimum --dot --report
 expect fail "has no record" "a unit of a reduction" "$lower" minimum --unit
@@ -73,6 +79,10 @@ for form in visible_edge three_edge barycentric; do
     expect pass "" "the unit of $form $probes" lint "$folder/lowered_unit.sv" "$probes"
   done
 done
+"$lower" visible_edge --module p_x -o "$folder/p_x.sv"
+"$lower" visible_edge --module p_x --unit -o "$folder/p_x_unit.sv"
+expect pass "" "a module with the name of an input" lint "$folder/p_x.sv"
+expect pass "" "the unit of it" lint "$folder/p_x_unit.sv"
 for form in minimum maximum; do
   "$lower" "$form" --module lowered -o "$folder/lowered.sv"
   expect pass "" "$form" lint "$folder/lowered.sv"

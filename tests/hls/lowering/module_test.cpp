@@ -107,6 +107,7 @@ TEST(Module, CheckSeesEachKindOfFault) {
   EXPECT_EQ(fault(" d, d_at_35", " dist_value, d_at_35"), "dist_value is declared twice");
   EXPECT_EQ(fault("d_adder_2 (", "d_adder ("), "d_adder is declared twice");
   EXPECT_EQ(fault("ONE_2 = ", "ONE = "), "ONE is declared twice");
+  EXPECT_EQ(fault("module several_outputs", "module d"), "d is declared twice");
   EXPECT_EQ(fault(" dist_value,", " dist,"), "dist is a keyword");
   EXPECT_EQ(fault(".a(dist_value_at_1)", ".a(nothing)"), "nothing is used but not declared");
   EXPECT_EQ(fault("  assign through = ", "  assign dist_value = d;\n  assign through = "),

@@ -80,7 +80,7 @@ void take_instance(const std::string& statement, ModuleText& module) {
 }  // namespace
 
 ModuleText module_text(const std::string& text) {
-  static const std::regex head_of("module\\s+\\w+\\s*((?:#\\([^;]*?\\)\\s*)?\\([^;]*\\));");
+  static const std::regex head_of("module\\s+(\\w+)\\s*((?:#\\([^;]*?\\)\\s*)?\\([^;]*\\));");
   static const std::regex process("always_ff @\\(posedge clk\\)\\s*(?:begin\\b)?");
   static const std::regex assignment("^(?:assign\\s+)?(\\w+)\\s*(?:<=|=)\\s*([\\s\\S]*)$");
   static const std::regex parameter("^localparam\\s+\\w+\\s*(?:\\[[^\\]]*\\])?\\s*(\\w+)\\s*=");
@@ -88,7 +88,8 @@ ModuleText module_text(const std::string& text) {
   const std::string code = without_what_is_no_name(text);
   std::smatch head;
   if (!std::regex_search(code, head, head_of)) return module;
-  take_ports(head[1], module);
+  module.name = head[1];
+  take_ports(head[2], module);
   std::string body = std::regex_replace(head.suffix().str(), process, "");
   body = std::regex_replace(body, std::regex("\\bend(module)?\\b"), "");
   std::size_t begin = 0;
@@ -117,7 +118,8 @@ ModuleText module_text(const std::string& text) {
 std::string fault_of_module(const std::string& text) {
   const ModuleText module = module_text(text);
   if (module.outputs.empty()) return "there are no outputs";
-  std::set<std::string> declared;
+  // A simulator gives the module's name to its instance at the top.
+  std::set<std::string> declared = {module.name};
   for (const auto* names :
        {&module.inputs, &module.outputs, &module.signals, &module.parameters, &module.instances}) {
     for (const std::string& name : *names) {

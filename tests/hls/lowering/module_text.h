@@ -8,6 +8,7 @@
 namespace emax::test {
 
 struct ModuleText {
+  std::string name;
   // As often as they are declared.
   std::vector<std::string> inputs, outputs, signals, parameters, instances;
   std::map<std::string, int> drivers;  // by signal or output

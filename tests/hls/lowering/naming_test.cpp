@@ -86,7 +86,8 @@ TEST(Naming, GivesUniqueLegalNames) {
   graph.add_output("out", graph.add_operation(Operation::kMultiply, {difference, second, kNoNode},
                                               {"unknown.h", 1, 1, "int f()"}));
   const Schedule schedule = make_schedule(graph, {});
-  name_nodes(graph, schedule, [&](std::string_view) { return std::string_view(source); }, {});
+  name_nodes(
+      graph, schedule, [&](std::string_view) { return std::string_view(source); }, {}, "module_1");
   EXPECT_EQ(graph.inputs()[1].name, "edge_value");
   EXPECT_EQ(graph.node(b.node()).name, "edge_value");
   EXPECT_EQ(graph.node(sum).name, "edge_value_2");
@@ -106,14 +107,17 @@ TEST(Naming, GivesTheNameOfAnOutputToANodeThatIsReadyWithIt) {
   graph.add_output("early", sum);
   graph.add_output("late", product);
   graph.add_output("late", product);
-  name_nodes(graph, make_schedule(graph, {}), [](std::string_view) { return ""; }, {});
+  name_nodes(
+      graph, make_schedule(graph, {}), [](std::string_view) { return ""; }, {}, "module_1");
   EXPECT_NE(graph.node(sum).name, "early");
   EXPECT_EQ(graph.node(product).name, "late");
   EXPECT_EQ(graph.outputs()[2].name, "late_2");
 }
 
 TEST(Identifiers, AreLegalAndGivenOnce) {
-  Identifiers identifiers;
+  Identifiers identifiers("own");
+  EXPECT_EQ(identifiers.take("own"), "own_2");
+  EXPECT_EQ(identifiers.take("own_unit"), "own_unit_2");
   EXPECT_EQ(identifiers.take("d"), "d");
   EXPECT_EQ(identifiers.take("d"), "d_2");
   EXPECT_EQ(identifiers.take("d_2"), "d_2_2");

@@ -13,12 +13,18 @@ constexpr std::string_view kEndings[] = {
     "",        "",      "_adder",      "_multiplier", "_squarer", "_value", "_value", "_comparator",
     "_at_1",   "_at_2", "_at_3",       "_at_12",      "_delay",   "_2",     "_3",     "_late",
     "_memory", "_1",    "_at_3_delay", "_late_delay"};
-constexpr std::string_view kOthers[] = {
-    "clk",         "probes",     "ONE",          "ZERO",          "WORD_80000000",
-    "ADD_LATENCY", "LATENCY",    "slot",         "datapath",      "MULTIPLY_LATENCY",
-    "LAST_READ",   "SLOT_BITS",  "unused_parts", "fp_add",        "near",
-    "list",        "delay_line", "ONE_2",        "unused_probes", "LESS_LATENCY",
-    "write_slot"};
+constexpr std::string_view kOthers[] = {"adversarial",   "adversarial_unit",
+                                        "clk",           "probes",
+                                        "ONE",           "ZERO",
+                                        "WORD_80000000", "ADD_LATENCY",
+                                        "LATENCY",       "slot",
+                                        "datapath",      "MULTIPLY_LATENCY",
+                                        "LAST_READ",     "SLOT_BITS",
+                                        "unused_parts",  "fp_add",
+                                        "near",          "list",
+                                        "delay_line",    "ONE_2",
+                                        "unused_probes", "LESS_LATENCY",
+                                        "write_slot"};
 
 std::string adversarial_name(Random& random) {
   const auto draw = [&random](const auto& from) {
