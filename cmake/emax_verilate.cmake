@@ -52,7 +52,8 @@ function(emax_verilated target)
   emax_share_runtime(${target})
 endfunction()
 
-# Verilator adds its runtime to every library; those that are alike in TRACE and COVERAGE share one.
+# Verilator adds its runtime to every library; those that are alike in TRACE and COVERAGE share one,
+# which prints only the first messages of failed assertions (testbench/verilator_messages.h).
 function(emax_share_runtime target)
   set(library emax_verilator_runtime)
   set(macros)
@@ -77,6 +78,12 @@ function(emax_share_runtime target)
     # The headers ask for the same macros as the sources.
     target_compile_definitions(${library} PUBLIC ${macros} PRIVATE VM_SC=0)
     target_compile_options(${library} PRIVATE -O2)
+    # What it prints is limited.
+    set(messages ${PROJECT_SOURCE_DIR}/testbench/verilator_messages)
+    target_sources(${library} PRIVATE ${messages}.cpp)
+    target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_compile_options(${library} PRIVATE -include ${messages}.h)
+    target_compile_definitions(${library} PRIVATE VL_PRINTF=emax_verilator_printf)
     if(library MATCHES trace)
       find_package(ZLIB REQUIRED)
       target_link_libraries(${library} PUBLIC ZLIB::ZLIB)

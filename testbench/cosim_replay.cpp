@@ -3,14 +3,19 @@
 //
 //   emax_cosim_replay FOLDER [--mutant N] [--window CYCLES] [--write]
 //
-// --mutant overrides the folder's (0: the unchanged design). --write leaves report.txt and
-// waveform.fst in the folder, the latter of so many cycles before the mismatch (default 300).
+// --mutant overrides the folder's (0: the unchanged design). --write leaves report.txt,
+// waveform.fst and waveform.gtkw in the folder; the waveform begins so many cycles before the
+// mismatch (default 300) and holds the failing node.
 // Exit code 0 when all agrees, 1 on a mismatch, 2 when it cannot run.
 #include <verilated_fst_c.h>
+#include <verilated_syms.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string_view>
 
 #include <Vemax_element_probed.h>
@@ -20,9 +25,11 @@
 #include <Vemax_element_probed_device_emax_mutation.h>
 #include <Vemax_element_probed_emax_mutation.h>
 
+#include "hls/lowering/designs.h"
 #include "sw_model/error.h"
 #include "testbench/diagnosis.h"
 #include "testbench/failure_folder.h"
+#include "testbench/save_file.h"
 #include "testbench/verilated_element.h"
 
 namespace emax {
@@ -37,8 +44,33 @@ class TracedElement : public ProbedElement {
  public:
   virtual void open_waveform(const std::string& path) = 0;
   virtual void record(bool on) = 0;
+  virtual std::uint64_t time() const = 0;  // of the waveform
   // Also before a failure is told: a trace that was not closed cannot be read.
   virtual void close_waveform() = 0;
+};
+
+// The ports of the datapath, which probes.vlt makes readable by name, in the order of the graph's
+// inputs.
+class DatapathInputs {
+ public:
+  explicit DatapathInputs(const VerilatedContext& context) {
+    const VerilatedScope* scope = context.scopeFind("TOP.emax_element.distance.datapath");
+    if (scope == nullptr) throw std::logic_error("the datapath's scope is not readable");
+    for (const Input& input : emax_distance_design().graph.inputs()) {
+      const VerilatedVar* port = scope->varFind(input.name.c_str());
+      if (port == nullptr) throw std::logic_error(input.name + " is missing in probes.vlt");
+      ports_.push_back(port);
+    }
+  }
+
+  Word word(std::size_t i) const {
+    const void* data = ports_[i]->datap();
+    return ports_[i]->vltype() == VLVT_UINT8 ? Word{*static_cast<const CData*>(data)}
+                                             : Word{*static_cast<const IData*>(data)};
+  }
+
+ private:
+  std::vector<const VerilatedVar*> ports_;
 };
 
 template <class Model, std::uint32_t kSlotBits>
@@ -47,11 +79,14 @@ class Traced : public VerilatedElement<Model, kSlotBits>, public TracedElement {
   Traced()
       : VerilatedElement<Model, kSlotBits>([](Model& model, std::uint32_t mutant) {
           model.rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
-        }) {}
+        }),
+        inputs_(this->context()) {}
 
   Word probe(std::size_t i) const override {
     return this->model().rootp->emax_element__DOT__distance__DOT__datapath__DOT__probes[i];
   }
+  Word input(std::size_t i) const override { return inputs_.word(i); }
+  std::uint64_t time() const override { return this->context().time(); }
   void open_waveform(const std::string& path) override {
     this->context().traceEverOn(true);
     this->model().trace(&trace_, 99);
@@ -68,6 +103,7 @@ class Traced : public VerilatedElement<Model, kSlotBits>, public TracedElement {
  private:
   VerilatedFstC trace_;
   bool recording_ = false;
+  const DatapathInputs inputs_;
 };
 
 std::unique_ptr<TracedElement> make_traced(std::uint32_t slot_bits) {
@@ -82,16 +118,21 @@ std::unique_ptr<TracedElement> make_traced(std::uint32_t slot_bits) {
 
 class WindowObserver : public RunObserver {
  public:
-  WindowObserver(TracedElement& element, const Window& window)
-      : element_(element), window_(window) {}
+  // `marked` is the cycle of which mark() tells the waveform's time.
+  WindowObserver(TracedElement& element, const Window& window, std::uint64_t marked)
+      : element_(element), window_(window), marked_(marked) {}
   void pair_accepted(std::size_t, std::uint64_t) override {}
   void cycle_ended(std::uint64_t cycle) override {
     element_.record(cycle + 1 >= window_.from && cycle + 1 <= window_.to);
+    // Two half cycles have passed since the edge that began it.
+    if (cycle + 1 == marked_) mark_ = element_.time() - 2;
   }
+  std::uint64_t mark() const { return mark_; }
 
  private:
   TracedElement& element_;
   Window window_;
+  std::uint64_t marked_, mark_ = 0;
 };
 
 struct Options {
@@ -100,6 +141,31 @@ struct Options {
   std::uint64_t window = 300;
   bool write = false;
 };
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  out.close();
+  if (!out) throw Error(path + ": cannot be written");
+}
+
+void write_findings(const Options& options, const Failure& failure,
+                    const std::optional<NodeMismatch>& divergence, const std::string& report) {
+  const std::string folder = std::filesystem::absolute(options.folder).string();
+  const std::uint64_t end = failure.mismatch.cycle;
+  const std::uint64_t marked = divergence ? divergence->cycle : end;
+  std::uint64_t begin = end > options.window ? end - options.window : 0;
+  if (divergence) begin = std::min(begin, divergence->start);
+  const auto traced = make_traced(failure.slot_bits);
+  traced->set_mutant(failure.mutant);
+  traced->open_waveform(folder + "/waveform.fst");
+  WindowObserver observer(*traced, {begin, end + 1}, marked);
+  run_sequence(failure.runs, *traced, &observer);
+  traced->close_waveform();
+  write_file(folder + "/report.txt", report);
+  write_file(folder + "/waveform.gtkw",
+             save_file(signal_groups(divergence), folder + "/waveform.fst", observer.mark()));
+}
 
 int replay(const Options& options) {
   Failure failure = read_failure(options.folder);
@@ -116,26 +182,16 @@ int replay(const Options& options) {
   }
   failure.mismatch = *result.mismatch;
   std::string report = describe(failure);
-  auto divergence = nodes.first_divergence(failure.runs.back(), result.mismatch->pair);
-  if (!divergence) divergence = nodes.first_divergence(failure.runs.back(), {});
+  const ElementRun& run = failure.runs.back();
+  auto divergence = nodes.first_divergence(run, result.mismatch->pair);
+  if (!divergence) divergence = nodes.first_divergence(run, {});
+  const std::optional<std::size_t> pair = divergence ? divergence->pair : result.mismatch->pair;
+  if (pair) report += describe_pair(run, *pair);
   report += divergence ? describe(*divergence)
                        : "every node of the graph agrees with the model: the fault lies behind or "
                          "beside the datapath\n";
   std::fputs(report.c_str(), stdout);
-  if (!options.write) return 1;
-
-  const std::uint64_t cycle = result.mismatch->cycle;
-  const auto traced = make_traced(failure.slot_bits);
-  traced->set_mutant(failure.mutant);
-  traced->open_waveform(options.folder + "/waveform.fst");
-  WindowObserver observer(*traced,
-                          {cycle > options.window ? cycle - options.window : 0, cycle + 1});
-  run_sequence(failure.runs, *traced, &observer);
-  traced->close_waveform();
-  std::ofstream out(options.folder + "/report.txt");
-  out << report;
-  out.close();
-  if (!out) throw Error(options.folder + "/report.txt: cannot be written");
+  if (options.write) write_findings(options, failure, divergence, report);
   return 1;
 }
 

@@ -153,14 +153,15 @@ RunResult drive(ElementSimulation& element, const ElementRun& run, const Expecte
       element.offer_pair(nullptr);
     }
     if (observer != nullptr) observer->cycle_ended(result.cycles);
+    // What comes after a broken contract means nothing, and may never end.
+    if (element.assertion_failed()) {
+      scoreboard.differ("assertion", 0, {}, "an assertion of the design failed");
+    }
     ++result.cycles;
 
     if (result.pairs == run.pairs.size() && scoreboard.complete()) ++aftermath;
     quiet = record_taken || pair_taken || nearest_taken || worst_taken ? 0 : quiet + 1;
     if (quiet > kPatience && aftermath == 0) scoreboard.nothing_comes();
-  }
-  if (element.assertion_failed()) {
-    scoreboard.differ("assertion", 0, {}, "an assertion of the design failed");
   }
   return result;
 }

@@ -26,12 +26,22 @@ constexpr const char* kUsage =
     "path\n"
     "and serves until Ctrl-C. Hosts may come and go. It sleeps while nobody asks anything of it.\n"
     "\n"
-    "  --link PATH   make PATH a symbolic link to the terminal; it is removed at the end\n"
+    "  --link PATH   make PATH a symbolic link to the terminal; it is removed at the end;\n"
+    "                a link that a killed emax_board left behind is replaced\n"
     "  --help        this text\n";
 
 volatile std::sig_atomic_t stopped = 0;
 
 [[noreturn]] void fail(const std::string& what) { throw Error(what + ": " + std::strerror(errno)); }
+
+// A lock on a pseudo-terminal tells that a board serves it: it ends with the process that holds it,
+// however that ends. Hosts lock terminals with flock, which is apart from these locks.
+struct flock whole_terminal() {
+  struct flock lock = {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
 
 class Terminal {
  public:
@@ -45,7 +55,9 @@ class Terminal {
     termios settings;
     if (slave_ < 0 || tcgetattr(slave_, &settings) != 0) fail(path_ + " cannot be opened");
     cfmakeraw(&settings);
-    if (tcsetattr(slave_, TCSANOW, &settings) != 0 || fcntl(master_, F_SETFL, O_NONBLOCK) != 0)
+    struct flock lock = whole_terminal();
+    if (tcsetattr(slave_, TCSANOW, &settings) != 0 || fcntl(slave_, F_SETLK, &lock) != 0 ||
+        fcntl(master_, F_SETFL, O_NONBLOCK) != 0)
       fail(path_ + " cannot be set up");
   }
   ~Terminal() {
@@ -86,24 +98,66 @@ class Terminal {
   std::string path_;
 };
 
+// What a symbolic link says; empty where there is no link.
+std::string target_of(const std::string& link) {
+  std::array<char, 4096> text;
+  const ssize_t length = readlink(link.c_str(), text.data(), text.size());
+  return length < 0 ? "" : std::string(text.data(), static_cast<std::size_t>(length));
+}
+
+// Who serves the terminal, in words; empty where nobody does: it is gone, or its number belongs to
+// somebody else's terminal by now.
+std::string server_of(const std::string& terminal) {
+  const int descriptor = open(terminal.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) {
+    // A host has the terminal for itself, or it belongs to another user.
+    return errno == EBUSY || errno == EACCES || errno == EPERM ? "another process" : "";
+  }
+  struct flock lock = whole_terminal();
+  const bool known = fcntl(descriptor, F_GETLK, &lock) == 0;
+  close(descriptor);
+  if (!known || lock.l_type == F_UNLCK) return "";
+  return "the emax_board of process " + std::to_string(lock.l_pid);
+}
+
+// The link to the terminal, removed at the end. One that a killed board left behind is replaced.
 class SymbolicLink {
  public:
-  SymbolicLink(const std::string& target, const std::string& path) : path_(path) {
-    if (path_.empty()) return;
-    if (symlink(target.c_str(), path_.c_str()) != 0) {
-      const std::string failed = path_;
-      path_.clear();
-      fail(failed + " cannot be made");
+  SymbolicLink(const std::string& target, const std::string& path) : target_(target) {
+    if (path.empty()) return;
+    if (symlink(target.c_str(), path.c_str()) != 0) {
+      if (errno != EEXIST) fail(path + " cannot be made");
+      remove_if_left_behind(path);
+      if (symlink(target.c_str(), path.c_str()) != 0) fail(path + " cannot be made");
     }
+    path_ = path;
   }
   ~SymbolicLink() {
-    if (!path_.empty()) unlink(path_.c_str());
+    if (!path_.empty() && target_of(path_) == target_) unlink(path_.c_str());
   }
   SymbolicLink(const SymbolicLink&) = delete;
   SymbolicLink& operator=(const SymbolicLink&) = delete;
 
  private:
-  std::string path_;
+  void remove_if_left_behind(const std::string& path) const {
+    const std::string before = target_of(path);
+    if (!before.starts_with("/dev/pts/")) {
+      throw Error(path + " cannot be made: " +
+                  (before.empty() ? "it is there and is no link"
+                                  : "it is a link to " + before + ", which is no pseudo-terminal") +
+                  "; name another path");
+    }
+    // The killed board's terminal may have had the number of this one. It is not opened again: the
+    // close would end the lock on it.
+    const std::string server = before == target_ ? "" : server_of(before);
+    if (!server.empty()) {
+      throw Error(path + " leads to " + before + ", which " + server +
+                  " serves; stop it or name another path");
+    }
+    unlink(path.c_str());
+  }
+
+  std::string target_, path_;
 };
 
 // Moves bytes between the two until a signal comes.

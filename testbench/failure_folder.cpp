@@ -22,7 +22,23 @@ std::string commented(const std::string& text) {
   return all;
 }
 
+// For the shell, as a default value between braces.
+std::string quoted(const std::string& text) {
+  std::string all;
+  for (const char c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' ||
+                       c == '_' || c == '-';
+    all += plain ? std::string(1, c) : std::string("\\") + c;
+  }
+  return all;
+}
+
 }  // namespace
+
+fs::path replay_program() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path() / "emax_cosim_replay";
+}
 
 std::string folder_name(const Failure& failure) {
   std::string name;
@@ -54,9 +70,14 @@ void write_failure(const fs::path& folder, const Failure& failure) {
   out.close();
   require(static_cast<bool>(out), input);
 
+  // From anywhere, with the build that wrote it.
   std::ofstream line(script);
-  line << "#!/bin/sh\nexec \"${EMAX_COSIM:-build/kernel/bin/emax_cosim}\" --replay "
-          "\"$(dirname \"$0\")\" \"$@\"\n";
+  line << "#!/bin/sh\nprogram=${EMAX_COSIM_REPLAY:-" << quoted(replay_program().string())
+       << "}\n[ -x \"$program\" ] || {\n"
+          "  echo \"replay.sh: $program is not there: build it, or set EMAX_COSIM_REPLAY to "
+          "the\"\\\n"
+          "    \"emax_cosim_replay of another build\" >&2\n  exit 2\n}\n"
+          "exec \"$program\" \"$(cd \"$(dirname \"$0\")\" && pwd)\" \"$@\"\n";
   line.close();
   require(static_cast<bool>(line), script);
   fs::permissions(script, fs::perms::owner_all | fs::perms::group_read | fs::perms::others_read,

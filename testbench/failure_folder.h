@@ -2,9 +2,11 @@
 // it:
 //
 //   input.txt      test, seed, slot bits, mutant and the runs (element_run.h), after # the reason
-//   replay.sh      one line that replays it
-//   report.txt     what the replay found: the mismatch and the first diverging node
+//   replay.sh      replays it, from any folder, with the build that wrote it
+//   report.txt     what the replay found: the mismatch, the pair, the first diverging node and its
+//                  operands
 //   waveform.fst   a window of the failing run
+//   waveform.gtkw  opens it in GTKWave: clock, handshakes, the node, its operands
 //
 // A copy of the folder under tests/testbench/regressions is a test of the unchanged design.
 #pragma once
@@ -17,6 +19,9 @@ namespace emax {
 
 // "pairs: random bits", seed 7 -> "pairs-random-bits-7"
 std::string folder_name(const Failure& failure);
+
+// emax_cosim_replay beside the running program.
+std::filesystem::path replay_program();
 
 // Throws Error where the folder cannot be written.
 void write_failure(const std::filesystem::path& folder, const Failure& failure);

@@ -14,9 +14,7 @@ namespace emax {
 namespace fs = std::filesystem;
 
 int run_replay(const fs::path& folder, const std::vector<std::string>& arguments) {
-  std::error_code error;
-  const fs::path program =
-      fs::read_symlink("/proc/self/exe", error).parent_path() / "emax_cosim_replay";
+  const fs::path program = replay_program();
   std::vector<std::string> words = {program.string(), folder.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -44,7 +42,9 @@ fs::path keep_failure(const Failure& failure, const ElementFactory& make_element
   std::printf("%zu pairs, %zu records left\n", run.pairs.size(), run.records.size());
   const int code = run_replay(folder, {"--write", "--window", std::to_string(window)});
   if (code == 0) std::printf("the element with probes does not show it; input.txt stands\n");
-  std::printf("kept in %s; replay: sh %s/replay.sh\n", folder.c_str(), folder.c_str());
+  const fs::path path = fs::absolute(folder);
+  std::printf("kept in %s; replay: sh %s/replay.sh; waveform: gtkwave %s/waveform.gtkw\n",
+              path.c_str(), path.c_str(), path.c_str());
   return folder;
 }
 

@@ -91,6 +91,7 @@ class VerilatedElement : public virtual ElementSimulation {
   Model& model() { return model_; }
   const Model& model() const { return model_; }
   VerilatedContext& context() { return context_; }
+  const VerilatedContext& context() const { return context_; }
   // For waveforms: the time in half cycles.
   virtual void after_edge(std::uint64_t) {}
 

@@ -11,7 +11,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import baseline, designs, document, netlists
+from synthesis import baseline, contracts, designs, document, netlists
 from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
 SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
@@ -181,6 +181,7 @@ def main():
         return 0
     runner = Runner(options.jobs, options.fresh)
     runner.prepare()
+    contracts.check(runner)
     results = measure(runner, options)
     print("\n" + document.tables(results))
     measured, versions = flat(results), runner.versions

@@ -131,6 +131,15 @@ void DataflowGraph::add_output(std::string name, NodeId node) {
   outputs_.push_back({std::move(name), node});
 }
 
+void DataflowGraph::set_input_name(std::size_t input, const std::string& name) {
+  inputs_[input].name = name;
+  set_name(inputs_[input].node, name);
+}
+
+void DataflowGraph::set_output_name(std::size_t output, std::string name) {
+  outputs_[output].name = std::move(name);
+}
+
 std::vector<NodeId> DataflowGraph::remove_dead() {
   std::vector<bool> live(nodes_.size(), false);
   std::vector<NodeId> order;

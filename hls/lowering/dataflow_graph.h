@@ -114,6 +114,9 @@ class DataflowGraph {
   const std::vector<Input>& inputs() const { return inputs_; }
   const std::vector<Output>& outputs() const { return outputs_; }
   void set_name(NodeId id, std::string name) { nodes_[id].name = std::move(name); }
+  // The input's node takes the name as well.
+  void set_input_name(std::size_t input, const std::string& name);
+  void set_output_name(std::size_t output, std::string name);
 
   // The operands a node has: a view of its first ones.
   struct Operands {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "hls/kernel/forms/barycentric.h"
 #include "hls/kernel/forms/three_edge.h"
 #include "hls/kernel/point_triangle.h"
 #include "hls/kernel/reduce.h"
+#include "hls/lowering/identifiers.h"
 #include "hls/lowering/kernel_sources.h"
-#include "hls/lowering/naming.h"
 #include "hls/lowering/recorded_value.h"
 
 namespace emax {
@@ -156,16 +157,24 @@ int LoweredDesign::last_read() const {
 }
 
 LoweredDesign lower(Form form, const LoweringOptions& options) {
-  LoweredDesign design{form, options, DataflowGraph(), {}, {}};
+  DataflowGraph graph;
+  Labels labels;
+  record(form, graph, labels);
+  return lower_graph(form, std::move(graph), kernel_source, labels, options);
+}
+
+LoweredDesign lower_graph(Form form, DataflowGraph graph, const SourceText& source_text,
+                          const Labels& labels, const LoweringOptions& options) {
+  LoweredDesign design{form, options, std::move(graph), {}, {}};
   if (design.options.module.empty()) design.options.module = info(form).module;
-  Labels recorded, labels;
-  record(form, design.graph, recorded);
+  check_module_name(design.options.module);
   const std::vector<NodeId> renamed = design.graph.remove_dead();
-  for (const auto& [node, label] : recorded) {
-    if (renamed[node] != kNoNode) labels[renamed[node]] = label;
+  Labels live;
+  for (const auto& [node, label] : labels) {
+    if (renamed[node] != kNoNode) live[renamed[node]] = label;
   }
-  name_nodes(design.graph, kernel_source, labels);
   design.schedule = make_schedule(design.graph, options.latencies);
+  name_nodes(design.graph, design.schedule, source_text, live, design.options.module);
   for (NodeId id = 0; id < design.graph.nodes().size(); ++id) {
     if (design.graph.is_operation(id)) design.probes.push_back(id);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hls/lowering/dataflow_graph.h"
+#include "hls/lowering/naming.h"
 #include "hls/lowering/schedule.h"
 
 namespace emax {
@@ -57,9 +58,14 @@ struct LoweredDesign {
   int last_read() const;
 };
 
-// Records, shares, names and schedules. Throws std::invalid_argument for latencies that cannot be
-// built.
+// Records, shares, schedules and names. Throws std::invalid_argument for latencies that cannot be
+// built and for a module's name that SystemVerilog does not take.
 LoweredDesign lower(Form form, const LoweringOptions& options);
+
+// The same for a graph that was recorded elsewhere; `form` gives the text's comments and the size
+// of the record. Operations that no output needs are removed.
+LoweredDesign lower_graph(Form form, DataflowGraph graph, const SourceText& source_text,
+                          const Labels& labels, const LoweringOptions& options);
 
 // The design of hls/rtl/generated/emax_distance.sv, emax_distance_unit.sv and
 // emax_distance_schedule.svh, with the options they are generated with.

@@ -4,18 +4,20 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "hls/lowering/designs.h"
+#include "hls/lowering/identifiers.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/systemverilog.h"
 
 namespace emax {
 namespace {
 
-constexpr const char* kHelp = R"(usage: emax_lower FORM [OPTION...] [-o FILE]
+constexpr std::string_view kHelp = R"(usage: emax_lower FORM [OPTION...] [-o FILE]
 
 Lowers a function of the kernel to a pipeline and writes it to FILE, or to standard output.
 FORM is visible_edge (the kernel's), three_edge, barycentric, minimum or maximum.
@@ -27,20 +29,41 @@ what to write (the datapath unless one of these is given)
   --report            operations, latency and delay bits, as JSON
 
 how to lower
-  --module NAME       name of the datapath's module
-  --latency K=N,...   cycles of add (12), multiply (10), square (10), less (3), select (1),
-                      zero_compare (0), logic (0); levels=N: lookup tables between registers (2)
-  --family FAMILY     ecp5 (the default) or xilinx: what delays are made of
+  --module NAME       name of the datapath's module: an identifier of SystemVerilog
+  --latency K=N,...   cycles of each operator, and levels of lookup tables between registers:
+LATENCIES  --family FAMILY     ecp5 (the default) or xilinx: what delays are made of
   --delay K=N,...     longest delay in registers, narrow_registers (of conditions and slots) and
                       memory; longer ones take block RAM
   -o FILE             written whole or not at all
   --help
 )";
 
+std::string help() {
+  std::string latencies;
+  for (const LatencyLimits& limits : kLatencyLimits) {
+    char line[80];
+    std::snprintf(line, sizeof line, "%22s%-13s %d to %d (%d)\n", "",
+                  std::string(limits.name).c_str(), limits.least, limits.most,
+                  Latencies{}.*limits.cycles);
+    latencies += line;
+  }
+  constexpr std::string_view kPlace = "LATENCIES";
+  std::string text(kHelp);
+  return text.replace(text.find(kPlace), kPlace.size(), latencies);
+}
+
+constexpr int kMaxDelay = 9999;
+
+struct Field {
+  int* value;
+  int least, most;
+};
+
 // "a=1,b=2" into the numbers that `fields` names.
 void read_numbers(const std::string& option, const std::string& text,
-                  const std::map<std::string, int*>& fields) {
-  std::istringstream parts(text);
+                  const std::map<std::string, Field>& fields) {
+  // With a comma after each part, an empty text has one part, which is refused.
+  std::istringstream parts(text + ',');
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t equals = part.find('=');
     const auto field = fields.find(part.substr(0, equals));
@@ -51,12 +74,16 @@ void read_numbers(const std::string& option, const std::string& text,
                                   known);
     }
     const std::string number = part.substr(equals + 1);
-    if (number.empty() || number.size() > 4 ||
-        number.find_first_not_of("0123456789") != std::string::npos) {
-      throw std::invalid_argument(option + ": '" + number + "' in '" + part +
-                                  "' is not a number from 0 to 9999");
+    const auto& [value, least, most] = field->second;
+    const bool is_number = !number.empty() && number.size() <= 4 &&
+                           number.find_first_not_of("0123456789") == std::string::npos;
+    const int given = is_number ? std::stoi(number) : -1;
+    if (given < least || given > most) {
+      throw std::invalid_argument(option + " " + field->first + " must be " +
+                                  std::to_string(least) + " to " + std::to_string(most) +
+                                  ", not '" + number + "'");
     }
-    *field->second = std::stoi(number);
+    *value = given;
   }
 }
 
@@ -91,7 +118,8 @@ void write_file(const std::string& path, const std::string& text) {
 
 int run(const std::vector<std::string>& arguments) {
   LoweringOptions options;
-  std::string form, file, delay;
+  std::string form, file;
+  std::optional<std::string> delay;
   std::string (*writer)(const LoweredDesign&) = datapath_module;
   const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
       {"--unit", unit_module},
@@ -106,7 +134,7 @@ int run(const std::vector<std::string>& arguments) {
       return arguments[++i];
     };
     if (argument == "--help" || argument == "-h") {
-      std::cout << kHelp;
+      std::cout << help();
       return 0;
     }
     if (const auto found = writers.find(argument); found != writers.end()) {
@@ -115,17 +143,18 @@ int run(const std::vector<std::string>& arguments) {
       writer = found->second;
     } else if (argument == "--module") {
       options.module = value();
+      try {
+        check_module_name(options.module);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(argument + ": " + error.what());
+      }
     } else if (argument == "--latency") {
-      Latencies& l = options.latencies;
-      read_numbers("--latency", value(),
-                   {{"add", &l.add},
-                    {"multiply", &l.multiply},
-                    {"square", &l.square},
-                    {"less", &l.less},
-                    {"select", &l.select},
-                    {"zero_compare", &l.zero_compare},
-                    {"logic", &l.logic},
-                    {"levels", &l.levels}});
+      std::map<std::string, Field> fields;
+      for (const LatencyLimits& limits : kLatencyLimits) {
+        fields[std::string(limits.name)] = {&(options.latencies.*limits.cycles), limits.least,
+                                            limits.most};
+      }
+      read_numbers(argument, value(), fields);
     } else if (argument == "--family") {
       const std::string family = value();
       if (family != "ecp5" && family != "xilinx") {
@@ -144,10 +173,12 @@ int run(const std::vector<std::string>& arguments) {
   }
   if (form.empty()) throw std::invalid_argument("no form is given");
   DelayStyles& delays = options.delays;  // after the family, wherever it stands
-  read_numbers("--delay", delay,
-               {{"registers", &delays.registers_up_to},
-                {"narrow_registers", &delays.narrow_registers_up_to},
-                {"memory", &delays.memory_up_to}});
+  if (delay) {
+    read_numbers("--delay", *delay,
+                 {{"registers", {&delays.registers_up_to, 0, kMaxDelay}},
+                  {"narrow_registers", {&delays.narrow_registers_up_to, 0, kMaxDelay}},
+                  {"memory", {&delays.memory_up_to, 0, kMaxDelay}}});
+  }
   const std::string text = writer(lower(form_of(form), options));
   if (file.empty()) {
     std::cout << text;

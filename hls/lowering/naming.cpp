@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
-#include <set>
 #include <vector>
+
+#include "hls/lowering/identifiers.h"
 
 namespace emax {
 namespace {
@@ -12,12 +12,6 @@ namespace {
 // The kernel's aggregates whose fields name the elements of a braced initialiser.
 const std::map<std::string_view, std::vector<std::string>> kFields = {{"Vector3", {"x", "y", "z"}},
                                                                       {"Vector2", {"y", "z"}}};
-
-const std::set<std::string_view> kReserved = {
-    "always", "and",    "assign", "begin", "bit",    "buf",    "case", "edge", "end",
-    "final",  "first",  "input",  "join",  "logic",  "module", "nand", "nor",  "not",
-    "or",     "output", "rand",   "real",  "reg",    "table",  "this", "time", "type",
-    "var",    "wait",   "wire",   "with",  "within", "xnor",   "xor",  "clk",  "probes"};
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -135,20 +129,31 @@ namespace {
 
 class Namer {
  public:
-  Namer(DataflowGraph& graph, const SourceText& source_text, const Labels& labels)
-      : graph_(graph), labels_(labels), owner_(graph.nodes().size(), kNoNode) {
+  Namer(DataflowGraph& graph, const Schedule& schedule, const SourceText& source_text,
+        const Labels& labels, const std::string& module)
+      : graph_(graph),
+        schedule_(schedule),
+        labels_(labels),
+        owner_(graph.nodes().size(), kNoNode),
+        identifiers_(module) {
     for (NodeId id = 0; id < graph.nodes().size(); ++id) {
       const SourcePlace& place = graph.node(id).place;
       statements_.push_back(statement_around(source_text(place.file), place.line, place.column));
     }
-    for (const Input& input : graph.inputs()) taken_.insert(input.name);
-    for (const Output& output : graph.outputs()) taken_.insert(output.name);
+    for (std::size_t i = 0; i < graph.inputs().size(); ++i) {
+      graph.set_input_name(i, identifiers_.take(graph.inputs()[i].name));
+    }
+    for (std::size_t i = 0; i < graph.outputs().size(); ++i) {
+      graph.set_output_name(i, identifiers_.take(graph.outputs()[i].name));
+    }
   }
 
   void name_all() {
     find_owners();
     for (const Output& output : graph_.outputs()) {
-      if (graph_.is_operation(output.node) && graph_.node(output.node).name.empty()) {
+      // An earlier node's value is delayed on its way to the port, which is then another signal.
+      if (graph_.is_operation(output.node) && graph_.node(output.node).name.empty() &&
+          schedule_.ready[output.node] == schedule_.latency) {
         graph_.set_name(output.node, output.name);
       }
     }
@@ -157,7 +162,7 @@ class Namer {
       for (NodeId id = 0; id < graph_.nodes().size(); ++id) {
         if (!graph_.is_operation(id) || !graph_.node(id).name.empty()) continue;
         if (inside != (owner_[id] != id)) continue;
-        graph_.set_name(id, unique(inside ? inner_name(id) : result_name(id)));
+        graph_.set_name(id, identifiers_.take(inside ? inner_name(id) : result_name(id)));
       }
     }
   }
@@ -210,26 +215,19 @@ class Namer {
     return graph_.node(owner_[id]).name + '_' + std::string(info(graph_.node(id).operation).result);
   }
 
-  std::string unique(const std::string& wanted) {
-    const std::string name = kReserved.contains(wanted) ? wanted + "_value" : wanted;
-    for (int number = 1;; ++number) {
-      std::string candidate = number == 1 ? name : name + '_' + std::to_string(number);
-      if (taken_.insert(candidate).second) return candidate;
-    }
-  }
-
   DataflowGraph& graph_;
+  const Schedule& schedule_;
   const Labels& labels_;
   std::vector<Statement> statements_;
   std::vector<NodeId> owner_;
-  std::set<std::string> taken_;
+  Identifiers identifiers_;
 };
 
 }  // namespace
 
-void name_nodes(DataflowGraph& graph, const SourceText& source_text, const Labels& labels) {
-  for (const Input& input : graph.inputs()) graph.set_name(input.node, input.name);
-  Namer(graph, source_text, labels).name_all();
+void name_nodes(DataflowGraph& graph, const Schedule& schedule, const SourceText& source_text,
+                const Labels& labels, const std::string& module) {
+  Namer(graph, schedule, source_text, labels, module).name_all();
 }
 
 }  // namespace emax

@@ -5,7 +5,7 @@
 //   return select(...);                           a label if the node has one, else the function
 //   return {{y, f(z - t.length)}, ...};                  a label, else the operands: z_minus_length
 //
-// What would be named twice is numbered from _2 on.
+// What would be named twice is numbered from _2 on (identifiers.h).
 #pragma once
 
 #include <functional>
@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "hls/lowering/dataflow_graph.h"
+#include "hls/lowering/schedule.h"
 
 namespace emax {
 
@@ -23,10 +24,13 @@ using SourceText = std::function<std::string_view(std::string_view path)>;
 // Names for results of functions, which no declaration names: by node.
 using Labels = std::map<NodeId, std::string>;
 
-// Gives every operation a name that is unique among nodes, inputs and outputs, and a legal
-// identifier of SystemVerilog; the node of an output takes the output's name where it can.
+// Gives every input, output and operation a name that is unique among them and a legal identifier
+// of SystemVerilog. Inputs and outputs keep theirs where they are legal and unique. A node has the
+// name of its output where it drives the output's port itself: it is ready in the schedule's last
+// cycle, and no other output comes before. `module` is the name of the module that they are for.
 // O(nodes * (log nodes + length of the source)).
-void name_nodes(DataflowGraph& graph, const SourceText& source_text, const Labels& labels);
+void name_nodes(DataflowGraph& graph, const Schedule& schedule, const SourceText& source_text,
+                const Labels& labels, const std::string& module);
 
 // The statement around a place, for what a name is made of.
 struct Statement {

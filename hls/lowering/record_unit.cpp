@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <map>
 #include <set>
 #include <stdexcept>
 
+#include "hls/lowering/identifiers.h"
 #include "hls/lowering/systemverilog.h"
 #include "hls/lowering/verilog_text.h"
 
@@ -29,6 +32,19 @@ std::string unit_module(const LoweredDesign& design) {
     const int cycle = schedule.start[input.node] - 1;
     if (input.arrival == Arrival::kMemory && cycle > 0) slots.insert(cycle);
   }
+  Identifiers identifiers(module);
+  for (const Input& input : design.graph.inputs()) identifiers.take(input.name);
+  for (const Output& output : design.graph.outputs()) identifiers.take(output.name);
+  // The slot as it is presented and delayed to the cycles of `slots`; a write's enable and slot as
+  // they come and delayed by one cycle for each of `slots`.
+  std::map<int, std::string> slot_at = {{0, "slot"}};
+  std::vector<std::string> enables = {"write_enable"}, write_slots = {"write_slot"};
+  for (const int cycle : slots) {
+    slot_at[cycle] = identifiers.take(at_cycle("slot", cycle));
+    const std::string suffix = "_" + std::to_string(enables.size());
+    enables.push_back(identifiers.take("write_enable" + suffix));
+    write_slots.push_back(identifiers.take("write_slot" + suffix));
+  }
   std::vector<bool> used(static_cast<std::size_t>(record_bits), false);
   std::vector<std::string> reals, conditions, samples, late_reals, late_conditions;
   std::vector<std::string> ports = {".clk"};
@@ -40,7 +56,8 @@ std::string unit_module(const LoweredDesign& design) {
       continue;
     }
     const int cycle = schedule.start[input.node] - 1;
-    const auto late = static_cast<int>(std::distance(slots.begin(), slots.upper_bound(cycle)));
+    const auto late =
+        static_cast<std::size_t>(std::distance(slots.begin(), slots.upper_bound(cycle)));
     const int bits = width(design.graph.node(input.node).kind);
     (bits == 1 ? conditions : reals).push_back(input.name);
     for (int bit = 0; bit < bits; ++bit) used[input.record_bit + static_cast<unsigned>(bit)] = true;
@@ -48,47 +65,40 @@ std::string unit_module(const LoweredDesign& design) {
     const std::string range =
         bits == 1 ? low
                   : std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":" + low;
-    std::string data = "write_record[" + range + "]", suffix;
+    std::string data = "write_record[" + range + "]";
     if (late > 0) {
-      suffix = "_" + std::to_string(late);
-      const std::string name = input.name + "_late";
+      const std::string name = identifiers.take(input.name + "_late");
       (bits == 1 ? late_conditions : late_reals).push_back(name);
-      memories += instance("delay_line #(.WIDTH(" + std::to_string(bits) + "), .DEPTH(" +
-                               std::to_string(late) + "))",
-                           name + "_delay", ".clk, .d(" + data + "), .q(" + name + ")");
+      memories +=
+          instance("delay_line #(.WIDTH(" + std::to_string(bits) + "), .DEPTH(" +
+                       std::to_string(late) + "))",
+                   identifiers.take(name + "_delay"), ".clk, .d(" + data + "), .q(" + name + ")");
       data = name;
     }
     memories +=
         instance("field_memory #(.WIDTH(" + std::to_string(bits) + "), .SLOT_BITS(SLOT_BITS))",
-                 input.name + "_memory",
-                 ".clk, .write_enable(write_enable" + suffix + "), .write_slot(write_slot" +
-                     suffix + "), .write_data(" + data +
-                     "),\n"
-                     "      .read_slot(" +
-                     (cycle > 0 ? at_cycle("slot", cycle) : std::string("slot")) +
+                 identifiers.take(input.name + "_memory"),
+                 ".clk, .write_enable(" + enables[late] + "), .write_slot(" + write_slots[late] +
+                     "), .write_data(" + data + "),\n      .read_slot(" + slot_at.at(cycle) +
                      "), .read_data(" + input.name + ")");
   }
   for (const Output& output : design.graph.outputs()) ports.push_back("." + output.name);
   std::vector<std::string> slot_names;
-  std::string slot_delays, from = "slot";
-  int at = 0;
-  for (const int cycle : slots) {
-    slot_names.push_back(at_cycle("slot", cycle));
-    slot_delays += delay_line(kNarrowBits / 2, "SLOT_BITS", cycle - at, design.options.delays, from,
-                              slot_names.back());
-    from = slot_names.back();
-    at = cycle;
+  std::string slot_delays;
+  for (auto to = std::next(slot_at.begin()); to != slot_at.end(); ++to) {
+    const auto& [at, from] = *std::prev(to);
+    slot_names.push_back(to->second);
+    slot_delays += delay_line(kNarrowBits / 2, "SLOT_BITS", to->first - at, design.options.delays,
+                              identifiers.take(to->second + "_delay"), from, to->second);
   }
-  std::vector<std::string> late_enables, late_slots;
-  std::string writes, before;
-  for (std::size_t late = 1; late <= slots.size(); ++late) {
-    const std::string suffix = "_" + std::to_string(late);
-    late_enables.push_back("write_enable" + suffix);
-    late_slots.push_back("write_slot" + suffix);
-    writes += "    write_enable" + suffix + " <= write_enable" + before + ";\n    write_slot" +
-              suffix + " <= write_slot" + before + ";\n";
-    before = suffix;
+  std::string writes;
+  for (std::size_t late = 1; late < enables.size(); ++late) {
+    for (const auto& names : {enables, write_slots}) {
+      writes += "    " + names[late] + " <= " + names[late - 1] + ";\n";
+    }
   }
+  const std::vector<std::string> late_enables(enables.begin() + 1, enables.end());
+  const std::vector<std::string> late_slots(write_slots.begin() + 1, write_slots.end());
   std::string unused;
   for (int bit = 0; bit < record_bits;) {
     int end = bit;
@@ -101,6 +111,13 @@ std::string unit_module(const LoweredDesign& design) {
   std::string sample_ports;
   for (const std::string& name : samples) {
     sample_ports += "    input  logic [31:0] " + name + ",  // cycle 0\n";
+  }
+  std::string output_ports;
+  for (const Output& output : design.graph.outputs()) {
+    const bool is_last = &output == &design.graph.outputs().back();
+    output_ports += "    output logic " + vector_type(width(design.graph.node(output.node).kind)) +
+                    output.name + (is_last ? "" : ",") + "  // cycle " +
+                    std::to_string(schedule.latency) + "\n";
   }
   std::string text =
       generated_line(design) + "//\n// " + module +
@@ -122,8 +139,7 @@ module )" +
       std::to_string(record_bits - 1) + R"(:0] write_record,
     input  logic [SLOT_BITS-1:0] slot,  // cycle 0
 )" + sample_ports +
-      "    output logic [31:0] squared_distance  // cycle " + std::to_string(schedule.latency) +
-      "\n);\n  localparam int LATENCY = " + std::to_string(schedule.latency) +
+      output_ports + ");\n  localparam int LATENCY = " + std::to_string(schedule.latency) +
       ";\n  localparam int LAST_READ = " + std::to_string(design.last_read()) + ";\n";
   text += declarations("logic [SLOT_BITS-1:0] ", slot_names);
   text += declarations("logic [31:0] ", reals) + declarations("logic ", conditions);

@@ -57,15 +57,16 @@ std::string report_json(const LoweredDesign& design) {
 std::string dot_graph(const LoweredDesign& design) {
   const DataflowGraph& graph = design.graph;
   const Schedule& schedule = design.schedule;
-  std::string text = "digraph " + design.options.module +
-                     " {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
+  // In quotes, as words like `node` mean something else to Graphviz.
+  std::string text = "digraph \"" + design.options.module +
+                     "\" {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
   std::map<int, std::string> ranks;
   std::string edges;
   for (NodeId id = 0; id < graph.nodes().size(); ++id) {
     const Node& node = graph.node(id);
     if (node.operation == Operation::kConstant) continue;
     ranks[schedule.start[id]] +=
-        "    " + node.name + " [label=\"" + node.name + "\\n" +
+        "    \"" + node.name + "\" [label=\"" + node.name + "\\n" +
         (node.operation == Operation::kInput
              ? "cycle " + std::to_string(schedule.start[id]) + "\", style=dashed"
              : std::string(info(node.operation).name) + ", " + std::to_string(schedule.start[id]) +
@@ -74,7 +75,7 @@ std::string dot_graph(const LoweredDesign& design) {
     for (const NodeId operand : graph.operands(id)) {
       if (graph.node(operand).operation == Operation::kConstant) continue;
       const int wait = schedule.start[id] - schedule.ready[operand];
-      edges += "  " + graph.node(operand).name + " -> " + node.name +
+      edges += "  \"" + graph.node(operand).name + "\" -> \"" + node.name + "\"" +
                (wait > 0 ? " [label=\"" + std::to_string(wait) + "\"]" : "") + ";\n";
     }
   }

@@ -52,6 +52,16 @@ int Latencies::levels_of(Operation operation) const {
   }
 }
 
+void check_latencies(const Latencies& latencies) {
+  for (const LatencyLimits& limits : kLatencyLimits) {
+    const int cycles = latencies.*limits.cycles;
+    if (cycles >= limits.least && cycles <= limits.most) continue;
+    throw std::invalid_argument(std::string(limits.name) + " must be " +
+                                std::to_string(limits.least) + " to " +
+                                std::to_string(limits.most) + ", not " + std::to_string(cycles));
+  }
+}
+
 namespace {
 
 // A value, the node that uses it, and the cycles that must lie between being ready and the use: 1
@@ -60,25 +70,6 @@ struct Use {
   NodeId value, user;
   int gap;
 };
-
-void check(const Latencies& l) {
-  const auto require = [](bool holds, const std::string& message) {
-    if (!holds) throw std::invalid_argument(message);
-  };
-  for (const auto& [name, cycles] : {std::pair{"add", l.add},
-                                     {"multiply", l.multiply},
-                                     {"square", l.square},
-                                     {"less", l.less}}) {
-    require(cycles >= 1 && cycles <= 64,
-            std::string("latency ") + name + " must be 1 to 64, not " + std::to_string(cycles));
-  }
-  for (const auto& [name, cycles] :
-       {std::pair{"select", l.select}, {"zero_compare", l.zero_compare}, {"logic", l.logic}}) {
-    require(cycles == 0 || cycles == 1,
-            std::string("latency ") + name + " must be 0 or 1, not " + std::to_string(cycles));
-  }
-  require(l.levels >= 2, "levels must be at least 2: a comparison with zero takes two");
-}
 
 // Cut where levels would exceed their limit if every combinational node shared its operands' cycle:
 // more registers than a given schedule needs at times, but then any schedule that keeps the gaps is
@@ -105,7 +96,7 @@ class Scheduler {
  public:
   Scheduler(const DataflowGraph& graph, const Latencies& latencies)
       : graph_(graph), latencies_(latencies) {
-    check(latencies);
+    check_latencies(latencies);
     uses_ = uses_with_gaps(graph, latencies);
     start_.assign(graph.nodes().size(), 0);
     for (const Input& input : graph.inputs()) {

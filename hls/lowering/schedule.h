@@ -9,6 +9,7 @@
 // schedules of that latency the one found has the fewest delay bits (sum of width * cycles waited).
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "hls/lowering/dataflow_graph.h"
@@ -25,12 +26,33 @@ struct Latencies {
   int select = 1;        // 0 or 1
   int zero_compare = 0;  // 0 or 1
   int logic = 0;         // 0 or 1
-  int levels = 2;
+  int levels = 2;        // of lookup tables
 
   int of(Operation operation) const;
   // Levels of lookup tables between an operand and the operator's first register, or its result.
   int levels_of(Operation operation) const;
 };
+
+// What each latency may be. Those of the operators are what the modules of hls/rtl take.
+struct LatencyLimits {
+  std::string_view name;  // on the command line
+  int Latencies::*cycles;
+  int least, most;
+  std::string_view module;  // of hls/rtl, which refuses the others; empty for plain logic
+};
+constexpr LatencyLimits kLatencyLimits[] = {
+    {"add", &Latencies::add, 1, 14, "fp_add"},
+    {"multiply", &Latencies::multiply, 2, 13, "fp_multiply"},
+    {"square", &Latencies::square, 2, 13, "fp_square"},
+    {"less", &Latencies::less, 1, 64, "fp_less"},
+    {"select", &Latencies::select, 0, 1, ""},
+    {"zero_compare", &Latencies::zero_compare, 0, 1, ""},
+    {"logic", &Latencies::logic, 0, 1, ""},
+    {"levels", &Latencies::levels, 2, 1000, ""},  // a comparison with zero takes two
+};
+
+// Throws std::invalid_argument, with name, value and limits, for a latency beyond its limits.
+void check_latencies(const Latencies& latencies);
 
 struct Schedule {
   std::vector<int> start, ready;  // by node; constants at 0
@@ -39,7 +61,7 @@ struct Schedule {
   long delay_bits = 0;
 };
 
-// Throws std::invalid_argument for latencies that cannot be built.
+// Throws std::invalid_argument for latencies beyond their limits.
 // O(latency * nodes * edges) at worst; milliseconds for the kernel's forms.
 Schedule make_schedule(const DataflowGraph& graph, const Latencies& latencies);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "hls/lowering/datapath_names.h"
 #include "hls/lowering/kernel_sources.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/verilog_text.h"
@@ -19,12 +20,8 @@ std::string padded(const std::string& text, std::size_t length) {
 class DatapathWriter {
  public:
   explicit DatapathWriter(const LoweredDesign& design)
-      : design_(design), graph_(design.graph), schedule_(design.schedule) {
-    for (NodeId id = 0; id < graph_.nodes().size(); ++id) {
-      for (const NodeId operand : graph_.operands(id)) use(operand, schedule_.start[id]);
-      clocked_ = clocked_ || schedule_.ready[id] > 0;
-    }
-    for (const Output& output : graph_.outputs()) use(output.node, schedule_.latency);
+      : design_(design), graph_(design.graph), schedule_(design.schedule), names_(design) {
+    for (const int ready : schedule_.ready) clocked_ = clocked_ || ready > 0;
     find_canonical();
   }
 
@@ -33,13 +30,6 @@ class DatapathWriter {
   }
 
  private:
-  // Constants are there at all times.
-  void use(NodeId value, int cycle) {
-    if (graph_.node(value).operation != Operation::kConstant && cycle > schedule_.ready[value]) {
-      taps_[value].insert(cycle);
-    }
-  }
-
   // Results of arithmetic are never subnormal, and NaN only as 0x7fc00000: comparing them with zero
   // takes fewer bits.
   void find_canonical() {
@@ -132,19 +122,17 @@ class DatapathWriter {
     latency("MULTIPLY", latencies.multiply, used.contains(Operation::kMultiply));
     latency("SQUARE", latencies.square, used.contains(Operation::kSquare));
     latency("LESS", latencies.less, used.contains(Operation::kLess));
+    for (const auto& [word, name] : names_.constants()) {
+      char value[16];
+      std::snprintf(value, sizeof value, "32'h%08x", static_cast<unsigned>(word));
+      text += "  localparam logic [31:0] " + name + " = " + value + ";\n";
+    }
     std::map<ValueKind, std::vector<std::string>> names;
     for (const NodeId id : by_start()) {
       const Node& node = graph_.node(id);
-      if (node.operation == Operation::kConstant) {
-        char value[16];
-        std::snprintf(value, sizeof value, "32'h%08x", static_cast<unsigned>(node.word));
-        text += "  localparam logic [31:0] " + constant(id) + " = " + value + ";\n";
-      }
       if (graph_.is_operation(id) && !is_output(node.name)) names[node.kind].push_back(node.name);
-      if (const auto taps = taps_.find(id); taps != taps_.end()) {
-        for (const int cycle : taps->second) {
-          names[node.kind].push_back(at_cycle(node.name, cycle));
-        }
+      for (const int cycle : names_.taps(id)) {
+        names[node.kind].push_back(names_.signal(id, cycle));
       }
     }
     for (const auto& [kind, list] : names) {
@@ -161,7 +149,7 @@ class DatapathWriter {
       text += lines;
     }
     for (const Output& output : graph_.outputs()) {
-      const std::string value = signal(output.node, schedule_.latency);
+      const std::string& value = names_.signal(output.node, schedule_.latency);
       if (value != output.name) text += "  assign " + output.name + " = " + value + ";\n";
     }
     if (clocked_) text += probes();
@@ -181,11 +169,11 @@ class DatapathWriter {
   std::string operation(NodeId id) const {
     const Node& node = graph_.node(id);
     const auto in = [&](std::size_t operand) {
-      return signal(node.operands[operand], schedule_.start[id]);
+      return names_.signal(node.operands[operand], schedule_.start[id]);
     };
-    const auto binary = [&](const std::string& module, const char* part, const char* result) {
+    const auto binary = [&](const std::string& module, const char* result) {
       return instance(
-          module, node.name + part,
+          module, names_.instance(id),
           ".clk, .a(" + in(0) + "), .b(" + in(1) + "), ." + result + "(" + node.name + ")");
     };
     switch (node.operation) {
@@ -193,16 +181,16 @@ class DatapathWriter {
       case Operation::kConstant:
         return "";
       case Operation::kAdd:
-        return binary("fp_add #(.LATENCY(ADD_LATENCY))", "_adder", "sum");
+        return binary("fp_add #(.LATENCY(ADD_LATENCY))", "sum");
       case Operation::kSubtract:
-        return binary("fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY))", "_adder", "sum");
+        return binary("fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY))", "sum");
       case Operation::kMultiply:
-        return binary("fp_multiply #(.LATENCY(MULTIPLY_LATENCY))", "_multiplier", "product");
+        return binary("fp_multiply #(.LATENCY(MULTIPLY_LATENCY))", "product");
       case Operation::kSquare:
-        return instance("fp_square #(.LATENCY(SQUARE_LATENCY))", node.name + "_squarer",
+        return instance("fp_square #(.LATENCY(SQUARE_LATENCY))", names_.instance(id),
                         ".clk, .a(" + in(0) + "), .square(" + node.name + ")");
       case Operation::kLess:
-        return binary("fp_less #(.LATENCY(LESS_LATENCY))", "_comparator", "less");
+        return binary("fp_less #(.LATENCY(LESS_LATENCY))", "less");
       case Operation::kMagnitude:
         return logic(id, "{1'b0, " + in(0) + "[30:0]}");
       case Operation::kLessZero:
@@ -244,34 +232,18 @@ class DatapathWriter {
   }
 
   std::string delays(NodeId id) const {
-    const auto taps = taps_.find(id);
-    if (taps == taps_.end()) return "";
     const Node& node = graph_.node(id);
     const int bits = width(node.kind);
     std::string text, from = node.name;
     int cycle = schedule_.ready[id];
-    for (const int tap : taps->second) {
-      const std::string to = at_cycle(node.name, tap);
-      text += delay_line(bits, std::to_string(bits), tap - cycle, design_.options.delays, from, to);
+    for (const int tap : names_.taps(id)) {
+      const std::string& to = names_.signal(id, tap);
+      text += delay_line(bits, std::to_string(bits), tap - cycle, design_.options.delays,
+                         names_.delay(id, tap), from, to);
       from = to;
       cycle = tap;
     }
     return text;
-  }
-
-  std::string signal(NodeId id, int cycle) const {
-    const Node& node = graph_.node(id);
-    if (node.operation == Operation::kConstant) return constant(id);
-    return cycle > schedule_.ready[id] ? at_cycle(node.name, cycle) : node.name;
-  }
-
-  std::string constant(NodeId id) const {
-    const std::uint32_t word = graph_.node(id).word;
-    if (word == 0) return "ZERO";
-    if (word == 0x3f800000u) return "ONE";
-    char name[24];
-    std::snprintf(name, sizeof name, "WORD_%08X", static_cast<unsigned>(word));
-    return name;
   }
 
   bool is_output(const std::string& name) const {
@@ -291,7 +263,7 @@ class DatapathWriter {
   const LoweredDesign& design_;
   const DataflowGraph& graph_;
   const Schedule& schedule_;
-  std::map<NodeId, std::set<int>> taps_;  // cycles later than ready at which a value is used
+  DatapathNames names_;
   std::vector<bool> canonical_;
   bool clocked_ = false;
 };

@@ -43,10 +43,10 @@ std::string instance(const std::string& module_and_parameters, const std::string
 }
 
 std::string delay_line(int bits, const std::string& width, int cycles, const DelayStyles& styles,
-                       const std::string& from, const std::string& to) {
+                       const std::string& name, const std::string& from, const std::string& to) {
   return instance("delay_line #(.WIDTH(" + width + "), .DEPTH(" + std::to_string(cycles) +
                       "), .STYLE(\"" + std::string(styles.style(bits, cycles)) + "\"))",
-                  to + "_delay", ".clk, .d(" + from + "), .q(" + to + ")");
+                  name, ".clk, .d(" + from + "), .q(" + to + ")");
 }
 
 std::string at_cycle(const std::string& name, int cycle) {

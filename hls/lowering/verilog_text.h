@@ -27,11 +27,11 @@ std::string declarations(const std::string& type, const std::vector<std::string>
 std::string instance(const std::string& module_and_parameters, const std::string& name,
                      const std::string& connections);
 
-// A delay line of `cycles` for `bits`, written as `width`, that drives `to`.
+// A delay line of `cycles` for `bits`, written as `width`; its instance is `name`, it drives `to`.
 std::string delay_line(int bits, const std::string& width, int cycles, const DelayStyles& styles,
-                       const std::string& from, const std::string& to);
+                       const std::string& name, const std::string& from, const std::string& to);
 
-// The name of a value delayed to a cycle.
+// The name of a value delayed to a cycle, where no other name is in the way (identifiers.h).
 std::string at_cycle(const std::string& name, int cycle);
 
 }  // namespace emax

@@ -3,6 +3,8 @@
 // `push` has no handshake: whoever pushes has seen to it that there is room (credit_counter).
 // A word comes out five cycles after its push at the earliest; one word a cycle. Memory contents are
 // not reset, pointers are.
+`include "asserted.svh"
+
 module axis_fifo #(
     parameter int WIDTH = 32,
     parameter int DEPTH_BITS = 7
@@ -34,8 +36,8 @@ module axis_fifo #(
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
     if (!reset && push)
-      assert (write_pointer - read_pointer != (DEPTH_BITS + 1)'(1) << DEPTH_BITS)
-      else $error("a word was pushed into a full FIFO");
+      `ASSERT(write_pointer - read_pointer != (DEPTH_BITS + 1)'(1) << DEPTH_BITS,
+              "a word was pushed into a full FIFO");
   end
 `endif
 endmodule

@@ -3,6 +3,7 @@
 // register that says whether a beat may take a credit in this cycle. One take and one give a cycle;
 // each counts a cycle later, for they come from far apart, and `room` is low when two credits are
 // left, so that it need not know of the last two takes.
+`include "asserted.svh"
 `include "mutation.svh"
 
 module credit_counter #(
@@ -33,8 +34,8 @@ module credit_counter #(
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
     if (!reset) begin
-      assert (!(taken && credits == 0)) else $error("a credit was taken where there was none");
-      assert (!(given && credits == ALL)) else $error("a credit came back that nobody had taken");
+      `ASSERT(!(taken && credits == 0), "a credit was taken where there was none");
+      `ASSERT(!(given && credits == ALL), "a credit came back that nobody had taken");
     end
   end
 `endif

@@ -27,6 +27,7 @@
 // (emax_distance_schedule.svh), its minimum two later, the block's worst point four later; out of the
 // FIFOs five cycles after that at the earliest. aresetn: synchronous; the datapath is not reset, but
 // nothing that was accepted before a reset comes out after it.
+`include "asserted.svh"
 `include "mutation.svh"
 `include "emax_distance_schedule.svh"
 
@@ -170,11 +171,11 @@ module emax_element #(
     for (int i = 1; i < READ_MODIFY_WRITE - 1; ++i) recent_index[i] <= recent_index[i-1];
     if (aresetn && accepted) begin
       for (int i = 0; i < READ_MODIFY_WRITE - 1; ++i) begin
-        assert (s_axis_point_tuser[POINT_BITS+2] || !recent[i] ||
-                recent_index[i] != s_axis_point_tuser[POINT_BITS-1:0])
-        else $error("two pairs of one point follow each other too closely for its running minimum");
+        `ASSERT(s_axis_point_tuser[POINT_BITS+2] || !recent[i] ||
+                    recent_index[i] != s_axis_point_tuser[POINT_BITS-1:0],
+                "two pairs of one point follow each other too closely for its running minimum");
       end
-      assert (final_pair || !s_axis_point_tlast) else $error("a block ends with a pair that is not final");
+      `ASSERT(final_pair || !s_axis_point_tlast, "a block ends with a pair that is not final");
     end
   end
 `endif

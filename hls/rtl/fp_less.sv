@@ -1,4 +1,4 @@
-// less = a < b, LATENCY clock edges later (at least 1), a pair every cycle. Subnormals count as zero,
+// less = a < b, LATENCY clock edges later (1 to 64), a pair every cycle. Subnormals count as zero,
 // -0 equals +0, nothing is less than or greater than a NaN.
 `include "mutation.svh"
 `include "registered.svh"
@@ -15,8 +15,8 @@ module fp_less #(
 );
   localparam int W = 1 + EXPONENT + MANTISSA;
 
-  if (LATENCY < 1) begin : bad_latency
-    $error("fp_less: LATENCY must be at least 1");
+  if (LATENCY < 1 || LATENCY > 64) begin : bad_latency
+    $error("fp_less: LATENCY must be 1 to 64");
   end
 
   // Steps: what each operand shows and which comes first, the comparison, the decision. Registers

@@ -7,6 +7,7 @@
 // of them LAST_READ cycles after the pair entered: only then is the slot free again. `loaded_next`
 // says whether the next cycle has a record to read. s_axis_record_tready is a register. A different
 // record every cycle is sustained when 2^SLOT_BITS >= LAST_READ + 6.
+`include "asserted.svh"
 `include "mutation.svh"
 
 module record_ring #(
@@ -66,7 +67,7 @@ module record_ring #(
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
     if (!reset) begin
-      assert (!(advance && loaded == 0)) else $error("a pair entered where no record was");
+      `ASSERT(!(advance && loaded == 0), "a pair entered where no record was");
     end
   end
 `endif

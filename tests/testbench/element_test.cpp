@@ -6,6 +6,7 @@
 #include "sw_model/error.h"
 #include "testbench/cosimulation.h"
 #include "testbench/verilated_variants.h"
+#include "testbench/verilator_messages.h"
 
 namespace emax {
 namespace {
@@ -93,6 +94,37 @@ TEST(Element, AssertsTheDistanceOfAPointsPairs) {
     EXPECT_TRUE(asserts_at(distance, false)) << distance;
     EXPECT_FALSE(asserts_at(distance, true)) << distance;
   }
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+// Of twelve elements that break a contract in each of many cycles, three lines; the program's end
+// tells of the others.
+TEST(Element, PrintsOnlyTheFirstMessagesOfAssertions) {
+  const auto break_contracts = [] {
+    for (int i = 0; i < 12; ++i) asserts_at(1, false);
+  };
+  const unsigned long before = emax_verilator_errors();
+  testing::internal::CaptureStdout();
+  break_contracts();
+  const std::string output = testing::internal::GetCapturedStdout();
+  const unsigned long shown = before < kShownErrors ? kShownErrors - before : 0;
+  EXPECT_EQ(count_of(output, "%Error"), shown) << output;
+  EXPECT_EQ(count_of(output, "follow each other too closely"), shown) << output;
+  EXPECT_GE(emax_verilator_errors(), before + 12);
+  EXPECT_EQ(count_of(output, "$stop"), 0u) << output;
+  EXPECT_EXIT(
+      {
+        break_contracts();
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "[0-9]+ more %Error lines of the simulated hardware");
 }
 
 TEST(Driver, AcceptsOnePairACycle) {

@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
 import front_ends  # noqa: E402
-from synthesis import baseline, designs, document, netlists, tools  # noqa: E402
+from synthesis import baseline, contracts, designs, document, netlists, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
 
@@ -49,6 +49,38 @@ class BaselineTest(unittest.TestCase):
             self.assertEqual(known, {**FIGURES, "xilinx: f": {"lut": 5}})
             baseline.write(path, versions, FIGURES, True)
             self.assertEqual(list(baseline.read(path)[baseline.key(versions)]), ["element: e"])
+
+
+class ContractsTest(unittest.TestCase):
+    """What Yosys reads of the assertions is compared with their text."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.source, self.netlist = Path(self.folder.name, "a.sv"), Path(self.folder.name, "a.json")
+        self.source.write_text("// `ASSERT(in, a comment)\n`ASSERT(a, \"x\");\n  if (b) `ASSERT(b,\n    \"y\");\n")
+
+    def netlist_of(self, *places):
+        cells = {place: {"type": "$check", "parameters": {"FLAVOR": "assert"}, "attributes": {"src": place}}
+                 for place in places}
+        cells["other"] = {"type": "$add", "parameters": {}, "attributes": {"src": "a.sv:1.1-1.2"}}
+        twice = {"once": {"cells": cells}, "again": {"cells": cells}}  # two instances of one module
+        self.netlist.write_text(json.dumps({"modules": twice}))
+        return contracts.read(self.netlist)
+
+    def test_each_assertion_is_counted_once(self):
+        path = str(self.source)
+        self.assertEqual(contracts.written([self.source]), {path: 2})
+        self.assertEqual(self.netlist_of(f"{path}:2.1-2.9", f"{path}:4.1-4.9"), {path: 2})
+        contracts.compare({path: 2}, {path: 2})
+
+    def test_a_lost_assertion_is_a_failure(self):
+        with self.assertRaisesRegex(tools.Failure, "a.sv has 2 assertions, of which Yosys reads 1"):
+            contracts.compare({"a.sv": 2}, {"a.sv": 1})
+        with self.assertRaisesRegex(tools.Failure, "a.sv has 0 assertions, of which Yosys reads 1"):
+            contracts.compare({"b.sv": 1}, {"b.sv": 1, "a.sv": 1})
+        with self.assertRaisesRegex(tools.Failure, "no assertion"):
+            contracts.compare({}, {})
 
 
 class StepTest(unittest.TestCase):

@@ -9,6 +9,8 @@
 // One sequencer serves all elements: it reads a row of points for all of them at once, into a FIFO
 // before each, while those have room; a record goes to all of them when all have room for it. What
 // crosses the chip between them does so between registers.
+`include "asserted.svh"
+
 module emax_core #(
     parameter int NUM_PE = 1,
     parameter int CLOCK_KHZ = 0  // 0: not known
@@ -84,7 +86,7 @@ module emax_core #(
   end
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
-    assert (!record_taken || &record_tready) else $error("a record came to a ring without room");
+    `ASSERT(!record_taken || &record_tready, "a record came to a ring without room");
   end
 `endif
 

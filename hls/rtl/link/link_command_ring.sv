@@ -2,6 +2,7 @@
 // what counts; `commit` makes those since the last `rollback` or `commit` count, `rollback` forgets
 // them. The writer keeps within `room`, the words that fit beyond those that count; it follows a
 // commit by two cycles and a read by one.
+`include "asserted.svh"
 `include "mutation.svh"
 
 module link_command_ring #(
@@ -44,7 +45,7 @@ module link_command_ring #(
 `ifndef SYNTHESIS
   always_ff @(posedge clk) begin
     if (!reset && write)
-      assert (ahead - read_pointer != ALL) else $error("a command word was written where no room was");
+      `ASSERT(ahead - read_pointer != ALL, "a command word was written where no room was");
   end
 `endif
 endmodule

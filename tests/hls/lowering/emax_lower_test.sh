@@ -1,12 +1,27 @@
 #!/usr/bin/env bash
-# emax_lower's command line: emax_lower_test.sh EMAX_LOWER EXPECT
+# emax_lower's command line: emax_lower_test.sh EMAX_LOWER EXPECT PROJECT VERILATOR
 # shellcheck source-path=SCRIPTDIR source=../../tooling/expect.sh
 source "$2"
-lower=$1
+lower=$1 project=$3 verilator=$4
+
+# refused LINE COMMAND...: exit code 2, and this one line.
+refused() {
+  local line=$1 status=0 output
+  shift
+  output=$("$@" 2>&1) || status=$?
+  [ "$status" = 2 ] || { echo "exit code $status" && return 1; }
+  [ "$output" = "emax_lower: $line (emax_lower --help)" ] || { echo "$output" && return 1; }
+}
+
+# lint FILE [OPTION...]: Verilator takes the module of the file's name without a warning.
+lint() {
+  "$verilator" --lint-only -Wall -I"$project/hls/rtl" -I"$project/hls/rtl/behavioural" \
+    -I"$folder" --top-module "$(basename "$1" .sv)" "$@"
+}
 expect pass "usage: emax_lower FORM" "help" "$lower" --help
 expect pass "module emax_minimum (" "a form to standard output" "$lower" minimum
 expect pass '"multiplications": 24' "the report of a form" "$lower" three_edge --report
-expect pass "digraph emax_distance {" "the graph" "$lower" visible_edge --dot
+expect pass 'digraph "emax_distance" {' "the graph" "$lower" visible_edge --dot
 expect pass "ADD_LATENCY = 9;" "latencies" "$lower" visible_edge --latency add=9,square=7
 expect pass '.STYLE("shift_register")' "the family" "$lower" visible_edge --family xilinx
 expect pass '.DEPTH(12), .STYLE("registers")' "delay styles" \
@@ -16,8 +31,35 @@ expect fail "unknown form 'square': take one of visible_edge" "an unknown form" 
 expect fail "'--fast' is not understood" "an unknown option" "$lower" minimum --fast
 expect fail "--module needs a value" "a missing value" "$lower" minimum --module
 expect fail "with one of add, less" "an unknown latency" "$lower" minimum --latency div=3
-expect fail "is not a number" "a latency of letters" "$lower" minimum --latency add=x
-expect fail "latency add must be 1 to 64, not 0" "a latency of 0" "$lower" minimum --latency add=0
+for limits in "add 1 14" "multiply 2 13" "square 2 13" "less 1 64" "select 0 1" \
+  "zero_compare 0 1" "logic 0 1" "levels 2 1000"; do
+  read -r name least most <<<"$limits"
+  expect pass "$name $(printf '%*s' $((13 - ${#name})) '')$least to $most (" "limits in the help" \
+    grep -F "$name" <("$lower" --help)
+  for cycles in "$least" "$most"; do
+    expect pass "endmodule" "$name=$cycles" "$lower" visible_edge --latency "$name=$cycles"
+  done
+  for cycles in $((least - 1)) $((most + 1)) x "" 1.5 99999; do
+    expect pass "" "$name=$cycles is refused" refused \
+      "--latency $name must be $least to $most, not '$cycles'" \
+      "$lower" minimum --latency "select=1,$name=$cycles"
+  done
+done
+# shellcheck disable=SC2016  # a dollar sign in a name
+for name in 2d a-b "a b" "" 'a$b'; do
+  expect pass "" "the module '$name' is refused" refused "--module: '$name' is no SystemVerilog\
+ identifier; a module's name is a letter or _, then letters, digits and _" \
+    "$lower" minimum --module "$name"
+done
+expect fail "'dist' is a SystemVerilog keyword" "a keyword" "$lower" minimum --module dist
+expect fail "'fp_add' is the name of a module of hls/rtl" "a module that is there" \
+  "$lower" minimum --module fp_add
+for option in --latency --delay; do
+  for value in "" "," "add" "=3"; do
+    expect fail "$option: '${value%,}' is not NAME=NUMBER" "$option '$value'" \
+      "$lower" minimum "$option" "$value"
+  done
+done
 expect fail "unknown family 'lattice'" "an unknown family" "$lower" minimum --family lattice
 expect fail "one thing to write at a time" "two writers" "$lower" minimum --dot --report
 expect fail "has no record" "a unit of a reduction" "$lower" minimum --unit
@@ -26,4 +68,33 @@ expect fail "is its folder there and writable?" "a missing folder" \
 expect pass "" "a file" "$lower" minimum -o "$folder/minimum.sv"
 expect pass "endmodule" "the file is whole" cat "$folder/minimum.sv"
 expect fail "" "nothing partial stays" ls "$folder"/*.partial
+
+# What is written is sound to Verilator, with and without probes; so is a module whose inputs,
+# outputs and variables have names that SystemVerilog reserves or the generator makes.
+for form in visible_edge three_edge barycentric; do
+  "$lower" "$form" --module lowered -o "$folder/lowered.sv"
+  "$lower" "$form" --module lowered --unit -o "$folder/lowered_unit.sv"
+  for probes in -DEMAX_NO_PROBES -DEMAX_PROBES; do
+    expect pass "" "$form $probes" lint "$folder/lowered.sv" "$probes"
+    expect pass "" "the unit of $form $probes" lint "$folder/lowered_unit.sv" "$probes"
+  done
+done
+"$lower" visible_edge --module p_x -o "$folder/p_x.sv"
+"$lower" visible_edge --module p_x --unit -o "$folder/p_x_unit.sv"
+expect pass "" "a module with the name of an input" lint "$folder/p_x.sv"
+expect pass "" "the unit of it" lint "$folder/p_x_unit.sv"
+for form in minimum maximum; do
+  "$lower" "$form" --module lowered -o "$folder/lowered.sv"
+  expect pass "" "$form" lint "$folder/lowered.sv"
+done
+several=$project/tests/hls/lowering/several_outputs.sv
+expect pass "" "names that collide" lint "$several"
+expect pass "" "names that collide, with probes" lint "$several" -DEMAX_PROBES
+sed 's/dist_value/dist/' "$several" >"$folder/several_outputs.sv"
+expect fail "syntax error" "a keyword as a name" lint "$folder/several_outputs.sv"
+sed 's/ d_adder_2 (/ d_adder (/' "$several" >"$folder/several_outputs.sv"
+expect fail "d_adder" "an instance with the name of a signal" lint "$folder/several_outputs.sv"
+sed '/assign early =/p' "$several" | sed '0,/assign early =/s/assign early = .*/assign early = d;/' \
+  >"$folder/several_outputs.sv"
+expect fail "MULTIDRIVEN" "an output with two drivers" lint "$folder/several_outputs.sv"
 finish

@@ -163,7 +163,8 @@ TEST(Lowering, ReportAndGraphNameEveryNode) {
             std::string::npos)
       << report;
   for (const NodeId node : design.probes) {
-    EXPECT_NE(dot.find("\n    " + design.graph.node(node).name + " [label="), std::string::npos);
+    EXPECT_NE(dot.find("\n    \"" + design.graph.node(node).name + "\" [label="),
+              std::string::npos);
   }
   EXPECT_EQ(std::count(dot.begin(), dot.end(), '{'), std::count(dot.begin(), dot.end(), '}'));
 }

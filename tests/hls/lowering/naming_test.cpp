@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
+#include "hls/lowering/identifiers.h"
 #include "hls/lowering/recorded_value.h"
 
 namespace emax {
@@ -67,7 +70,8 @@ TEST(Naming, FindsTheFunctionInASignature) {
             "edge_residual");
 }
 
-// Three calls of one function, an operator that Verilog reserves, and a name that an input has.
+// Two calls of one function, a keyword as an input's name and as a variable's, and a variable with
+// the name of an input.
 TEST(Naming, GivesUniqueLegalNames) {
   DataflowGraph graph;
   const Recording recording(graph);
@@ -81,11 +85,59 @@ TEST(Naming, GivesUniqueLegalNames) {
   const NodeId second = graph.add_operation(Operation::kSubtract, {sum, b.node(), kNoNode}, at(2));
   graph.add_output("out", graph.add_operation(Operation::kMultiply, {difference, second, kNoNode},
                                               {"unknown.h", 1, 1, "int f()"}));
-  name_nodes(graph, [&](std::string_view) { return std::string_view(source); }, {});
-  EXPECT_EQ(graph.node(sum).name, "edge_value");
+  const Schedule schedule = make_schedule(graph, {});
+  name_nodes(
+      graph, schedule, [&](std::string_view) { return std::string_view(source); }, {}, "module_1");
+  EXPECT_EQ(graph.inputs()[1].name, "edge_value");
+  EXPECT_EQ(graph.node(b.node()).name, "edge_value");
+  EXPECT_EQ(graph.node(sum).name, "edge_value_2");
   EXPECT_EQ(graph.node(difference).name, "a_2");
   EXPECT_EQ(graph.node(second).name, "a_3");
   EXPECT_EQ(graph.node(graph.outputs()[0].node).name, "out");
+}
+
+// Only the last of them drives its port itself.
+TEST(Naming, GivesTheNameOfAnOutputToANodeThatIsReadyWithIt) {
+  DataflowGraph graph;
+  const NodeId a = graph.add_input("a", ValueKind::kReal, Arrival::kSample);
+  const NodeId sum =
+      graph.add_operation(Operation::kAdd, {a, a, kNoNode}, {"f.h", 1, 1, "int f()"});
+  const NodeId product =
+      graph.add_operation(Operation::kMultiply, {sum, a, kNoNode}, {"f.h", 2, 1, "int g()"});
+  graph.add_output("early", sum);
+  graph.add_output("late", product);
+  graph.add_output("late", product);
+  name_nodes(
+      graph, make_schedule(graph, {}), [](std::string_view) { return ""; }, {}, "module_1");
+  EXPECT_NE(graph.node(sum).name, "early");
+  EXPECT_EQ(graph.node(product).name, "late");
+  EXPECT_EQ(graph.outputs()[2].name, "late_2");
+}
+
+TEST(Identifiers, AreLegalAndGivenOnce) {
+  Identifiers identifiers("own");
+  EXPECT_EQ(identifiers.take("own"), "own_2");
+  EXPECT_EQ(identifiers.take("own_unit"), "own_unit_2");
+  EXPECT_EQ(identifiers.take("d"), "d");
+  EXPECT_EQ(identifiers.take("d"), "d_2");
+  EXPECT_EQ(identifiers.take("d_2"), "d_2_2");
+  EXPECT_EQ(identifiers.take("clk"), "clk_2");
+  EXPECT_EQ(identifiers.take("fp_add"), "fp_add_2");
+  EXPECT_EQ(identifiers.take("near"), "near_value");
+  EXPECT_EQ(identifiers.take("a.b c"), "a_b_c");
+  EXPECT_EQ(identifiers.take("2d"), "value_2d");
+  EXPECT_EQ(identifiers.take(""), "value");
+  for (const std::string_view keyword : keywords()) {
+    EXPECT_EQ(identifiers.take(keyword), std::string(keyword) + "_value");
+  }
+}
+
+TEST(Identifiers, ModulesHaveNamesThatSystemVerilogTakes) {
+  EXPECT_NO_THROW(check_module_name("emax_distance_2"));
+  EXPECT_NO_THROW(check_module_name("_x"));
+  for (const char* name : {"", "2d", "a b", "a-b", "a$b", "dist", "module", "fp_add"}) {
+    EXPECT_THROW(check_module_name(name), std::invalid_argument) << name;
+  }
 }
 
 }  // namespace
