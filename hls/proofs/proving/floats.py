@@ -185,10 +185,10 @@ class Rules:
 
 
 def readable(value, rule, width):
-    """ = the number, for words of binary32 and binary16."""
+    """ (the number), for words of binary32 and binary16."""
     import struct
     formats = {(8, 23): ("<I", "<f"), (5, 10): ("<H", "<e")}
     pack = formats.get((rule.exponent, rule.mantissa))
     if pack is None or width != 1 + rule.exponent + rule.mantissa:
         return ""
-    return f" = {struct.unpack(pack[1], struct.pack(pack[0], value))[0]!r}"
+    return f" ({struct.unpack(pack[1], struct.pack(pack[0], value))[0]!r})"

@@ -42,6 +42,15 @@ class Function:
         return result
 
 
+class Product(Function):
+    """The function of two words that a multiplier is: for counterexamples, which are to be those of true products."""
+
+    def apply(self, *operands):
+        size = sum(operand.sort().bv_size() for operand in operands)
+        wide = [self.terms.op(Kind.BV_ZERO_EXTEND, word, indices=[size - word.sort().bv_size()]) for word in operands]
+        return self.terms.op(Kind.BV_MUL, *wide)
+
+
 class Instance:
     """For Unrolling.replaced: the function of an instance's operands in the same step."""
 
@@ -153,7 +162,7 @@ def induction(proof, system, refute=False):
     return Outcome(covered=reached(system, covers, proof.reach, proof.limit), properties=len(system.bad))
 
 
-def pipeline(proof, system, initial_values=False):
+def pipeline(proof, system, refute):
     """Of a pipeline: its inputs in step 0 and its output `depth` edges later, from any state of its registers. What
     holds so holds in every step after `depth` edges, whatever was in the pipeline before."""
     terms, rule, facts = Terms(), proof.rule, []
@@ -165,7 +174,7 @@ def pipeline(proof, system, initial_values=False):
         if system.nodes[result].kind not in ("state", "input") or result in system.next:
             raise Failure(f"{instance}.result is not free: its module was not left out")
         if name not in functions:
-            functions[name] = Function(terms, name, [system.nodes[number].sort for number in numbers],
+            functions[name] = (Product if refute else Function)(terms, name, [system.nodes[number].sort for number in numbers],
                                        system.nodes[result].sort, rules.facts(name))
         replaced[result] = Instance(functions[name], numbers)
     unrolling = Unrolling(system, terms, False, replaced)
@@ -238,8 +247,26 @@ def delays(proof, system, refute=False):
     return Outcome(covered=[f"{len(proof.rule)} lines"], properties=len(proof.rule))
 
 
+def expected(proof, values):
+    """The word that the rule wants for the operands of a counterexample, in words."""
+    terms, rule = Terms(), proof.rule
+    rules = floats.Rules(terms, rule.exponent, rule.mantissa)
+    bits = rule.mantissa + 1
+    functions = {name: Product(terms, name, [bits, bits], 2 * bits) for _, name, _ in rule.functions}
+    _, width = values[rule.output]
+    inputs = [terms.bv(values[name][1], values[name][0]) for name in rule.inputs]
+    output, solver = terms.const(width, "expected"), Solver(terms, proof.limit)
+    right, _ = rules.rule(rule.name, inputs, output, functions)
+    if not solver.possible(right):
+        raise Failure("the rule allows no result for the operands of the counterexample")
+    want = solver.number(output)
+    if want == values[rule.output][0]:
+        raise Failure("the rule allows the result of the counterexample")
+    return f" for {want:0{(width + 3) // 4}x}{floats.readable(want, rule, width)}"
+
+
 def words(proof, system, refute=False):
-    terms, unrolling, solver, inputs, output, right, cases = pipeline(proof, system)
+    terms, unrolling, solver, inputs, output, right, cases = pipeline(proof, system, refute)
     if solver.possible(terms.negated(right)):
         values = {name: (solver.number(term), term.sort().bv_size()) for name, term in
                   [*zip(proof.rule.inputs, inputs), (proof.rule.output, output)]}
@@ -247,9 +274,12 @@ def words(proof, system, refute=False):
         trace = trace_of(solver, unrolling, proof.depth + 1)
         if trace.value(proof.rule.output, proof.depth) != values[proof.rule.output][0]:
             raise Failure("the counterexample does not replay")
-        lines = [f"{name:10} {value:0{(width + 3) // 4}x}{floats.readable(value, proof.rule, width)}"
-                 for name, (value, width) in values.items()]
-        return Outcome(trace, proof.rule.name, "\n".join([*lines, f"by the rule: {', '.join(named) or 'an ordinary result'}"]) + "\n")
+        shown = {name: f"{value:0{(width + 3) // 4}x}{floats.readable(value, proof.rule, width)}"
+                 for name, (value, width) in values.items()}
+        given = ", ".join(f"{name} {shown[name]}" for name in proof.rule.inputs)
+        want = expected(proof, values) if refute else ""
+        text = f"{given}: {shown[proof.rule.output]}{want}; by the rule {', '.join(named) or 'an ordinary result'}\n"
+        return Outcome(trace, proof.rule.name, text)
     covered = []
     for name, case in cases.items():
         if name in proof.rule.without:

@@ -14,8 +14,8 @@ ROOT = Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(ROOT / "hls/proofs"), str(ROOT / "hls/boards")]
 import prove  # noqa: E402
 from bitwuzla import Kind, Result  # noqa: E402
-from proving import btor, document, floats, methods, netlist, prover, solve, unroll  # noqa: E402
-from proving.proof import Fault, Proof, Words  # noqa: E402
+from proving import btor, document, floats, methods, netlist, prover, solve, split, unroll  # noqa: E402
+from proving.proof import Fault, Parts, Proof, Words  # noqa: E402
 from synthesis.tools import Failure  # noqa: E402
 from table import PROOFS  # noqa: E402
 
@@ -131,6 +131,85 @@ class RuleTest(unittest.TestCase):
             self.words(text, functions=(("dut", "product", ("a",)),))
         with self.assertRaisesRegex(Failure, "no signal 'other.a'"):
             self.words(text, functions=(("other", "product", ("a",)),))
+
+
+class PipelineTest(unittest.TestCase):
+    # A memory of two words, whose place alternates: what is read was written two steps before, then a register.
+    LINE = """1 sort bitvec 2
+2 sort bitvec 1
+3 input 1 d
+4 state 2 place
+5 zero 2
+6 init 2 4 5
+7 not 2 4
+8 next 2 4 7
+9 sort array 2 1
+10 state 9 memory
+11 write 9 10 4 3
+12 next 9 10 11
+13 read 1 10 4
+14 state 1 third
+15 next 1 14 13
+16 state 1 first
+17 next 1 16 3
+18 sort bitvec 4
+19 concat 18 13 16
+20 sort bitvec 6
+21 concat 20 14 19
+22 uext 20 21 0 q
+"""
+
+    def test_lines_of_right_and_wrong_depth(self):
+        system = btor.System(self.LINE)
+        self.assertEqual(methods.counters(system), {4: [0, 1]})
+        self.assertIsNone(methods.delays(proof("delays", depth=3, rule=(1, 2, 3)), system).trace)
+        late = btor.System(self.LINE.replace("15 next 1 14 13", "15 next 1 14 3"))
+        self.assertIn("a line of 3 edges", methods.delays(proof("delays", depth=3, rule=(1, 2, 3)), late).text)
+        with self.assertRaisesRegex(Failure, "looks at no line"):
+            methods.delays(proof("delays", depth=3, rule=()), system)
+
+    def test_a_line_that_gives_one_word_is_a_failure(self):
+        stuck = btor.System(self.LINE.replace("17 next 1 16 3", "17 next 1 16 23").replace("3 input 1 d", "3 input 1 d\n23 zero 1"))
+        with self.assertRaisesRegex(Failure, "never gives 1"):
+            methods.delays(proof("delays", depth=1, rule=(1,)), stuck)
+
+    def split(self, factor, total):
+        """Four bits by four out of parts of two bits, with one part's factor and the sum as given."""
+        text = """1 sort bitvec 4
+2 sort bitvec 2
+3 sort bitvec 8
+4 input 1 a
+5 input 1 b
+6 slice 2 4 3 2
+7 slice 2 5 3 2
+8 slice 2 4 1 0
+9 slice 2 5 1 0
+10 uext 1 6 2
+11 uext 1 7 2
+12 uext 1 8 2
+13 uext 1 9 2
+14 mul 1 10 11
+15 mul 1 10 13
+16 mul 1 12 FACTOR
+17 mul 1 12 13
+18 concat 3 14 17
+19 uext 3 15 4
+20 uext 3 16 4
+21 add 3 19 20
+22 constd 3 2
+23 sll 3 21 22
+24 add 3 18 TOTAL
+25 uext 3 24 0 p
+""".replace("FACTOR", factor).replace("TOTAL", total)
+        halves = ((0, 2), (2, 2))
+        with mock.patch.object(split, "SMALL", 1):
+            return split.split(proof("split", depth=0, rule=Parts(("a", "b"), "p", halves, halves)), btor.System(text))
+
+    def test_partial_products(self):
+        self.assertIsNone(self.split("11", "23").trace)
+        self.assertIsNotNone(self.split("11", "21").trace)
+        with self.assertRaisesRegex(Failure, "nothing multiplies the parts at 0 and 2"):
+            self.split("13", "23")
 
 
 class VerdictTest(unittest.TestCase):
