@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hls/lowering/designs.h"
+#include "hls/lowering/graph_json.h"
 #include "hls/lowering/identifiers.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/systemverilog.h"
@@ -27,6 +28,7 @@ what to write (the datapath unless one of these is given)
   --schedule          macros with the schedule's figures for what stands beside the unit
   --dot               the graph, for Graphviz
   --report            operations, latency and delay bits, as JSON
+  --graph             the graph with its schedule, as JSON
 
 how to lower
   --module NAME       name of the datapath's module: an identifier of SystemVerilog
@@ -125,7 +127,8 @@ int run(const std::vector<std::string>& arguments) {
       {"--unit", unit_module},
       {"--schedule", schedule_header},
       {"--dot", dot_graph},
-      {"--report", report_json}};
+      {"--report", report_json},
+      {"--graph", graph_json}};
   bool has_writer = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];

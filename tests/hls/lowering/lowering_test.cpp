@@ -8,6 +8,7 @@
 #include "hls/kernel/reduce.h"
 #include "hls/lowering/designs.h"
 #include "hls/lowering/evaluate.h"
+#include "hls/lowering/graph_json.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/systemverilog.h"
 #include "tests/hls/lowering/samples.h"
@@ -167,6 +168,30 @@ TEST(Lowering, ReportAndGraphNameEveryNode) {
               std::string::npos);
   }
   EXPECT_EQ(std::count(dot.begin(), dot.end(), '{'), std::count(dot.begin(), dot.end(), '}'));
+}
+
+TEST(Lowering, GraphAsJsonHasEveryNodeOperandAndCycle) {
+  const LoweredDesign& design = emax_distance_design();
+  const std::string json = graph_json(design);
+  std::size_t from = 0;
+  for (NodeId id = 0; id < design.graph.nodes().size(); ++id) {
+    const Node& node = design.graph.node(id);
+    std::string operands;
+    for (const NodeId operand : design.graph.operands(id)) {
+      operands += (operands.empty() ? "" : ", ") + std::to_string(operand);
+    }
+    const std::string line =
+        "{\"operation\": \"" + std::string(info(node.operation).name) + "\", \"name\": \"" +
+        node.name + "\", \"width\": " + std::to_string(width(node.kind)) + ", \"operands\": [" +
+        operands + "], \"word\": " + std::to_string(node.word) +
+        ", \"start\": " + std::to_string(design.schedule.start[id]) +
+        ", \"ready\": " + std::to_string(design.schedule.ready[id]) + "}";
+    from = json.find(line, from);
+    ASSERT_NE(from, std::string::npos) << line;
+  }
+  EXPECT_NE(json.find("\"outputs\": [{\"name\": \"squared_distance\", \"node\": " +
+                      std::to_string(design.graph.outputs().front().node) + "}]}"),
+            std::string::npos);
 }
 
 TEST(Lowering, DelayStylesFollowTheirThresholds) {

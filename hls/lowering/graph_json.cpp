@@ -1,0 +1,31 @@
+#include "hls/lowering/graph_json.h"
+
+namespace emax {
+
+std::string graph_json(const LoweredDesign& design) {
+  const DataflowGraph& graph = design.graph;
+  const auto quoted = [](std::string_view text) { return "\"" + std::string(text) + "\""; };
+  std::string text = "{\"module\": " + quoted(design.options.module) +
+                     ", \"latency\": " + std::to_string(design.schedule.latency) + ", \"nodes\": [";
+  for (NodeId id = 0; id < graph.nodes().size(); ++id) {
+    const Node& node = graph.node(id);
+    std::string operands;
+    for (const NodeId operand : graph.operands(id)) {
+      operands += (operands.empty() ? "" : ", ") + std::to_string(operand);
+    }
+    text += std::string(id > 0 ? "," : "") +
+            "\n  {\"operation\": " + quoted(info(node.operation).name) +
+            ", \"name\": " + quoted(node.name) + ", \"width\": " + std::to_string(width(node.kind)) +
+            ", \"operands\": [" + operands + "], \"word\": " + std::to_string(node.word) +
+            ", \"start\": " + std::to_string(design.schedule.start[id]) +
+            ", \"ready\": " + std::to_string(design.schedule.ready[id]) + "}";
+  }
+  text += "],\n\"outputs\": [";
+  for (const Output& output : graph.outputs()) {
+    text += std::string(&output == &graph.outputs().front() ? "" : ", ") +
+            "{\"name\": " + quoted(output.name) + ", \"node\": " + std::to_string(output.node) + "}";
+  }
+  return text + "]}\n";
+}
+
+}  // namespace emax

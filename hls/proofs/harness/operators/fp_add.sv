@@ -1,0 +1,19 @@
+// In place of fp_add: any function of its operands, with its latency. The driver of the proofs ties
+// `result` to them.
+module fp_add #(
+    parameter int EXPONENT = 8,
+    parameter int MANTISSA = 23,
+    parameter int LATENCY = 13,
+    parameter bit SUBTRACT = 0
+) (
+    input  logic                       clk,
+    (* keep *) input logic [EXPONENT+MANTISSA:0] a,
+    (* keep *) input logic [EXPONENT+MANTISSA:0] b,
+    output logic [EXPONENT+MANTISSA:0] sum
+);
+  localparam int W = 1 + EXPONENT + MANTISSA;
+  (* keep *) logic [W-1:0] result, addend;
+  assign addend = {b[W-1] ^ SUBTRACT, b[W-2:0]};
+  assign result = $anyseq;
+  delay_line #(.WIDTH(W), .DEPTH(LATENCY)) pipeline (.clk, .d(result), .q(sum));
+endmodule

@@ -1,0 +1,17 @@
+// In place of fp_multiply: any function of its operands, with its latency. The driver of the proofs ties
+// `result` to them.
+module fp_multiply #(
+    parameter int EXPONENT = 8,
+    parameter int MANTISSA = 23,
+    parameter int LATENCY = 9
+) (
+    input  logic                       clk,
+    (* keep *) input logic [EXPONENT+MANTISSA:0] a,
+    (* keep *) input logic [EXPONENT+MANTISSA:0] b,
+    output logic [EXPONENT+MANTISSA:0] product
+);
+  localparam int W = 1 + EXPONENT + MANTISSA;
+  (* keep *) logic [W-1:0] result;
+  assign result = $anyseq;
+  delay_line #(.WIDTH(W), .DEPTH(LATENCY)) pipeline (.clk, .d(result), .q(product));
+endmodule

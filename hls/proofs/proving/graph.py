@@ -1,0 +1,131 @@
+"""The generated datapath beside the kernel's dataflow graph. The operators are unknown functions of their operands,
+the same on both sides, so that what is compared is which value meets which, and when."""
+
+import json
+import subprocess
+from pathlib import Path
+
+from bitwuzla import Kind
+
+from synthesis.tools import Failure
+
+from . import floats
+from .solve import Solver, trace_of
+from .unroll import Terms, Unrolling
+
+lower_program = Path("build/kernel/bin/emax_lower")
+# The modules that are left out, with their operands in the harness, by what the graph calls them.
+MODULES = {"add": ("addend", "a"), "multiply": ("a", "b"), "square": ("a",), "less": ("a", "b")}
+
+
+def read_graph(form):
+    """The graph of a form of the distance, from the kernel's source through emax_lower."""
+    lower = lower_program
+    if not lower.exists():
+        raise Failure(f"{lower} is not there: ./dev build kernel emax_lower makes it")
+    result = subprocess.run([lower, form, "--graph"], capture_output=True, text=True)
+    if result.returncode != 0:
+        raise Failure(f"{lower} failed: {result.stderr.strip()}")
+    return json.loads(result.stdout)
+
+
+class Meaning:
+    """What a node of the graph is for the terms of its operands."""
+
+    def __init__(self, terms, rules, functions):
+        self.t, self.rules, self.functions = terms, rules, functions
+
+    def node(self, node, operands):
+        t, rules, name = self.t, self.rules, node["operation"]
+        if name in ("add", "subtract"):
+            a, b = operands
+            if name == "subtract":
+                b = t.concat(t.op(Kind.BV_NOT, rules.sign(b)), t.slice(b, rules.width - 2, 0))
+            return self.functions["add"].apply(b, a)
+        if name in ("multiply", "square"):
+            return self.functions[name].apply(*operands)
+        if name == "less":
+            return self.functions["less"].apply(*operands)
+        if name == "magnitude":
+            return t.concat(t.bv(1, 0), t.slice(rules.flushed(operands[0]), rules.width - 2, 0))
+        if name in ("less_zero", "greater_zero"):
+            value, zero = rules.value(operands[0]), rules.number(t.bv(rules.width, 0))
+            order = (value, zero) if name == "less_zero" else (zero, value)
+            return t.bit(t.op(Kind.FP_LT, *order))
+        if name == "select":
+            return t.ite(t.true(operands[0]), operands[1], operands[2])
+        kinds = {"both": Kind.BV_AND, "either": Kind.BV_OR, "negated": Kind.BV_NOT}
+        if name not in kinds:
+            raise Failure(f"the graph has an operation '{name}' that the proof does not know")
+        return t.op(kinds[name], *operands)
+
+
+def graph(proof, system, refute=False):
+    from .methods import Function, Instance, Outcome
+    terms = Terms()
+    rules = floats.Rules(terms, 8, 23)
+    design = read_graph(proof.rule.name)
+    functions = {
+        name: Function(terms, name, [32] * len(operands), 1 if name == "less" else 32,
+                       None if name == "less" else lambda result, *_: rules.canonical(result))
+        for name, operands in MODULES.items()}
+    replaced = {}
+    for signal in system.names:
+        instance, _, leaf = signal.rpartition(".")
+        if leaf != "result" or "." in instance:
+            continue
+        module = next((m for m, last in (("add", "_adder"), ("multiply", "_multiplier"), ("square", "_squarer"),
+                                         ("less", "_comparator")) if instance.endswith(last)), None)
+        if module is None:
+            raise Failure(f"{instance} is an operator that the proof does not know")
+        result = system.named(signal)
+        replaced[result] = Instance(functions[module], [system.named(f"{instance}.{o}") for o in MODULES[module]])
+    operations = sum(node["operation"] in ("add", "subtract", *MODULES) for node in design["nodes"])
+    if len(replaced) != operations or operations == 0:
+        raise Failure(f"the datapath has {len(replaced)} operators and the graph {operations}")
+
+    unrolling, values = Unrolling(system, terms, False, replaced), []
+    meaning = Meaning(terms, rules, functions)
+    for node in design["nodes"]:
+        if node["operation"] == "input":
+            values.append(unrolling.named(node["name"], node["start"]))
+        elif node["operation"] == "constant":
+            values.append(terms.bv(node["width"], node["word"]))
+        else:
+            values.append(meaning.node(node, [values[i] for i in node["operands"]]))
+    solver = Solver(terms, proof.limit)
+    named, wrong = [], []
+    for output in design["outputs"]:
+        got = unrolling.named(output["name"], design["latency"])
+        wrong.append(terms.negated(terms.eq(got, values[output["node"]])))
+    if proof.depth != design["latency"]:
+        raise Failure(f"the datapath's latency is {design['latency']}, the table's {proof.depth}")
+    for function in functions.values():
+        solver.assume(*function.known)
+    if not wrong:
+        raise Failure("the graph has no output")
+    if not solver.possible():
+        raise Failure("what is assumed of the operators contradicts itself")
+    if solver.possible(terms.either(*wrong)):
+        trace = trace_of(solver, unrolling, design["latency"] + 1)
+        # The first named value that differs. What the solver chose is what the operators do, the same on both sides.
+        text = ""
+        for node, value in zip(design["nodes"], values):
+            if node["operation"] in ("input", "constant") or node["name"] not in system.names:
+                continue
+            want, got = solver.number(value), trace.value(node["name"], node["ready"])
+            if want != got:
+                text = (f"{node['name']} ({node['operation']}, cycle {node['ready']}): {got:08x} for {want:08x}, "
+                        "for operators chosen by the solver\n")
+                break
+        if not text:
+            raise Failure("the counterexample does not replay")
+        return Outcome(trace, "squared_distance", text)
+    # Each choice of the kernel goes both ways, or a wrong branch would not be seen.
+    for node, value in zip(design["nodes"], values):
+        if node["width"] == 1:
+            for bit in (0, 1):
+                if not solver.possible(terms.eq(value, terms.bv(1, bit))):
+                    raise Failure(f"the condition {node['name']} is never {bit}: the proof says nothing of it")
+            named.append(node["name"])
+    return Outcome(covered=[f"{len(named)} conditions, each both ways"], properties=len(wrong))
