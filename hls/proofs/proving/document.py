@@ -34,7 +34,7 @@ The methods:
 {assumptions}
 
 All of them trust that Yosys reads SystemVerilog as synthesis does, and that Bitwuzla's "no" is right. The cells of ECP5 are
-those of `tests/testbench/operators/ecp5_cells.sv`, written from the vendor's description.
+those of `testbench/netlists/ecp5_blocks.sv`, written from the vendor's description.
 
 ## What is not proven
 
