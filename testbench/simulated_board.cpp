@@ -1,14 +1,13 @@
 #include "testbench/simulated_board.h"
 
-#include <Vemax_ulx3s_board.h>
-
 #include <algorithm>
 #include <deque>
+
+#include "testbench/board_simulation.h"
 
 namespace emax {
 namespace {
 
-constexpr int kClocksPerBit = 2;  // as testbench/CMakeLists.txt builds it
 constexpr std::uint64_t kClockMhz = 120;
 constexpr std::size_t kWaitingBytes = 4096;
 // With nothing on the line for this long, the board has worked off all that its memories hold: the
@@ -18,21 +17,13 @@ constexpr std::uint64_t kSettledCycles = 1u << 18;
 }  // namespace
 
 struct SimulatedBoard::Model {
-  Model() {
-    top->ftdi_txd = 1;
-    press();
-  }
-  ~Model() {
-    if (!top) return;
-    // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
-    Verilated::threadContextp(&context);
-    top->final();
-  }
+  Model() { press(); }
 
   void press() {
-    top->reset_button = 1;
+    board->set_line(true);
+    board->press_reset(true);
     for (int i = 0; i < 32; ++i) clock();
-    top->reset_button = 0;
+    board->press_reset(false);
     for (int i = 0; i < 64; ++i) clock();
     restart_line();
   }
@@ -46,10 +37,7 @@ struct SimulatedBoard::Model {
 
   void clock() {
     send();
-    top->clk_25mhz = 0;
-    top->eval();
-    top->clk_25mhz = 1;
-    top->eval();
+    board->clock();
     receive();
     ++cycles;
     ++quiet;
@@ -61,30 +49,30 @@ struct SimulatedBoard::Model {
       if (to_board.empty()) return;
       bits_out = static_cast<unsigned>(to_board.front()) << 1 | 1u << 9;
       to_board.pop_front();
-      sending = 10 * kClocksPerBit;
+      sending = 10 * clocks_per_bit;
     }
     quiet = 0;
-    top->ftdi_txd = bits_out & 1;
-    if (--sending % kClocksPerBit == 0) bits_out >>= 1;
+    board->set_line((bits_out & 1) != 0);
+    if (--sending % clocks_per_bit == 0) bits_out >>= 1;
   }
 
   // The host's receiver looks at the first clock of each bit: the clocks are the same.
   void receive() {
     if (receiving == 0) {
-      if (top->ftdi_rxd) return;
-      receiving = 10 * kClocksPerBit;
+      if (board->line()) return;
+      receiving = 10 * clocks_per_bit;
       bits_in = 0;
     }
     quiet = 0;
-    if (receiving % kClocksPerBit == 0)
-      bits_in |= static_cast<unsigned>(top->ftdi_rxd) << (10 - receiving / kClocksPerBit);
+    if (receiving % clocks_per_bit == 0)
+      bits_in |= static_cast<unsigned>(board->line()) << (10 - receiving / clocks_per_bit);
     if (--receiving == 0) from_board.push_back(static_cast<std::uint8_t>(bits_in >> 1));
   }
 
   bool settled() const { return quiet >= kSettledCycles && to_board.empty(); }
 
-  VerilatedContext context;
-  std::unique_ptr<Vemax_ulx3s_board> top = std::make_unique<Vemax_ulx3s_board>(&context);
+  std::unique_ptr<BoardSimulation> board = make_board();
+  const int clocks_per_bit = board->clocks_per_bit();
   std::deque<std::uint8_t> to_board, from_board;
   int sending = 0, receiving = 0;  // clocks left of the byte on the line
   unsigned bits_out = 0, bits_in = 0;

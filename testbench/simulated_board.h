@@ -8,9 +8,9 @@
 namespace emax {
 
 // The whole ULX3S design (hls/boards/ulx3s/emax_ulx3s.sv: UART, link, core of one element),
-// Verilated, at the host's end of its serial line. Its line has two clocks a bit, so that
-// simulation is fast: what is 3 Mbaud on the board is 60 here. Time is the board's, 120 MHz, and
-// passes in read(). Equal calls give equal bytes.
+// Verilated (board_simulation.h), at the host's end of its serial line. Its line has two clocks a
+// bit, so that simulation is fast: what is 3 Mbaud on the board is 60 here. Time is the board's,
+// 120 MHz, and passes in read(). Equal calls give equal bytes.
 class SimulatedBoard : public ByteChannel {
  public:
   SimulatedBoard();

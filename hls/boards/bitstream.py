@@ -11,7 +11,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import designs, document, netlists
+from synthesis import comparison, designs, document, netlists
 from synthesis.tools import Background, Failure, Runner, run_command
 
 FOLDER = Path("build/bitstream")
@@ -21,13 +21,19 @@ TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
 # Where two elements meet the clock with the pinned tools (docs/decisions/0007).
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
-SYNTHESIS_MINUTES, SEED_MINUTES = 4, 25
+SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 4, 10, 25
+FRAMES = 30  # into the netlist, damaged ones among them, and a block that must be answered rightly
 
 
 def build(runner, options, results):
     design = designs.ulx3s(options.elements, TARGET)
     folder = f"ulx3s/{options.elements}"
-    netlist, _ = netlists.ecp5_top(runner, design, folder)
+    netlist, text = netlists.ecp5_top(runner, design)
+    name = f"board{options.elements}_ecp5"
+    runner.say(f"{name}: driving the whole netlist in lockstep with its source, about {LOCKSTEP_MINUTES} min")
+    driven = comparison.drive(name, ["--frames", FRAMES])
+    comparison.same(name, [netlists.renamed(text, design.top)])
+    runner.say(f"{name}: {driven}")
 
     def route(seed):
         report, log, placed = runner.step(
@@ -44,7 +50,7 @@ def build(runner, options, results):
     tried = first_that_meets(route, range(options.first_seed, options.first_seed + options.seeds),
                              options.jobs, TARGET)
     best = max(tried, key=lambda result: result["figures"]["fmax"])
-    best.update(elements=options.elements, target=TARGET,
+    best.update(elements=options.elements, target=TARGET, driven=driven,
                 tried={str(result["seed"]): result["figures"]["fmax"] for result in tried})
     if best["figures"]["fmax"] >= TARGET:
         (best["bitstream"],) = runner.step(
@@ -80,6 +86,8 @@ def arguments():
     parser.add_argument("--fresh", action="store_true", help="run every step again")
     parser.add_argument("--plan", action="store_true", help="say what would be done and how long it takes, and stop")
     options = parser.parse_args()
+    if options.elements > 2:
+        parser.error("--elements must be 1 or 2: testbench/netlists drives the netlists of these alone")
     if min(options.elements, options.seeds, options.first_seed, options.jobs) < 1:
         parser.error("--elements, --seeds, --first-seed and --jobs must be positive")
     return options
@@ -89,7 +97,8 @@ def main():
     options = arguments()
     target = FOLDER / f"{options.board}.bit"
     if options.plan:
-        print(f"bitstream: {target} with {options.elements} elements: synthesis about {SYNTHESIS_MINUTES} min, then up to"
+        print(f"bitstream: {target} with {options.elements} elements: synthesis about {SYNTHESIS_MINUTES} min,"
+              f" its netlist in lockstep with the source {LOCKSTEP_MINUTES} min, then up to"
               f" {options.seeds} placements of about {SEED_MINUTES} min, {options.jobs} at a time; what has not changed"
               " is not run again", flush=True)
         return 0

@@ -1,7 +1,7 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
-NAME is KIND_FAMILY: operators, element or core; ecp5, xc7, xcup or words (as the front end reads
-the sources, before anything is mapped); or KIND_mutated, with faults put in and their list beside
+NAME is KIND_FAMILY: operators, element, core, board1 or board2 (with so many elements); ecp5, xc7,
+xcup or words (as the front end reads the sources, before anything is mapped); or KIND_mutated, with faults put in and their list beside
 it; or operators_misread, of sources with an expression that Yosys reads as another one. The operators
 are four modules, fp_add_netlist and so on; the others have the source's name.
 """
@@ -25,8 +25,8 @@ def netlist_of(runner, design, family):
     """The path of a design's netlist for simulation."""
     if family == "words":
         return netlists.words(runner, design)
-    if family == "ecp5" and design.top == "emax_core":
-        return netlists.ecp5_top(runner, design, f"ecp5/{netlists.slug(design.name)}")[-1]
+    if family == "ecp5" and design.top in ["emax_core", "emax_ulx3s"]:
+        return netlists.ecp5_top(runner, design)[-1]
     return (netlists.ecp5(runner, design) if family == "ecp5" else netlists.xilinx(runner, design, family))[-1]
 
 
@@ -44,7 +44,8 @@ def text_of(runner, name):
         parts = [netlists.renamed(netlist_of(runner, design, family), f"{design.top}_netlist")
                  for design in designs.operators(DATAPATH, 0)]
         return {".v": "\n".join(parts)}
-    design = {"core": designs.core(1), "element": designs.element(0)}[kind]
+    design = {"core": designs.core(1), "element": designs.element(0), "board1": designs.ulx3s(1, 0),
+              "board2": designs.ulx3s(2, 0)}[kind]
     return {".v": netlists.renamed(netlist_of(runner, design, family), design.top)}
 
 

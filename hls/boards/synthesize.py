@@ -11,7 +11,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import baseline, contracts, designs, document, netlists
+from synthesis import baseline, comparison, contracts, designs, document, netlists
 from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
 SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
@@ -153,6 +153,28 @@ def measure(runner, options):
     return results
 
 
+def drive(runner, options):
+    """Drives the netlists of the sections beside the model (comparison.drive). {name: what was said}"""
+    operators = designs.operators(DATAPATH, OPERATOR_TARGET)
+    element = designs.element(options.target)
+    wanted = {}  # the program of testbench/netlists: the netlists that were placed or counted
+    if "element" in options.only:
+        wanted["element_ecp5"] = [(netlists.ecp5(runner, element)[-1], element.top)]
+    if "operators" in options.only:
+        wanted["operators_ecp5"] = [(netlists.ecp5(runner, o)[-1], f"{o.top}_netlist") for o in operators]
+    if "xilinx" in options.only:
+        for family in netlists.FAMILIES:
+            wanted[f"operators_{family}"] = [(netlists.xilinx(runner, o, family)[-1], f"{o.top}_netlist")
+                                             for o in operators]
+    said = {}
+    for name, parts in wanted.items():
+        runner.say(f"{name}: driving the netlist beside the model")
+        said[name] = comparison.drive(name)
+        comparison.same(name, [netlists.renamed(path, top) for path, top in parts])
+        runner.say(f"{name}: {said[name]}")
+    return said
+
+
 def flat(results):
     """{subject: figures} for the baseline."""
     figures = {}
@@ -183,11 +205,13 @@ def main():
     runner.prepare()
     contracts.check(runner)
     results = measure(runner, options)
+    driven = drive(runner, options)
     print("\n" + document.tables(results))
     measured, versions = flat(results), runner.versions
     if options.complete:
         before = DOCUMENT.read_text() if DOCUMENT.exists() else ""
-        DOCUMENT.write_text(document.page(results, versions, baseline.TOLERANCES, document.board_of(before)))
+        DOCUMENT.write_text(document.page(results, versions, baseline.TOLERANCES, driven,
+                                          document.board_of(before)))
         runner.say(f"{DOCUMENT} written")
     if options.update_baseline:
         baseline.write(BASELINE, versions, measured, options.complete)

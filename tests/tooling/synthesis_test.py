@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
 import front_ends  # noqa: E402
-from synthesis import baseline, contracts, designs, document, netlists, tools  # noqa: E402
+from synthesis import baseline, comparison, contracts, designs, document, netlists, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
 
@@ -151,6 +151,50 @@ class StepTest(unittest.TestCase):
         self.assertEqual(tools.stage_of("none"), "")
 
 
+class ComparisonTest(unittest.TestCase):
+    """A program that says what it is told to in the place of one that drives a netlist."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.build = Path(self.folder.name)
+        for name in ["bin", "netlists", "tools"]:
+            (self.build / name).mkdir()
+        self.addCleanup(os.environ.__setitem__, "PATH", os.environ["PATH"])
+        os.environ["PATH"] = f"{self.build / 'tools'}:{os.environ['PATH']}"
+        self.program("tools/cmake", "exit 0")
+
+    def program(self, name, body):
+        path = self.build / name
+        path.write_text(f"#!/bin/sh\n{body}\n")
+        path.chmod(0o755)
+
+    def drive(self, body):
+        self.program("bin/netlist_x", body)
+        return comparison.drive("x", ["--frames", 3], self.build)
+
+    def test_a_netlist_that_is_its_source_passes(self):
+        self.assertEqual(self.drive("echo 'netlist: 12 results, 0 mismatches'"), "netlist: 12 results, 0 mismatches")
+        self.assertIn("5 answers", self.drive("echo 'fuzz: seed 1, 30 frames, 5 answers right, 0 wrong'"))
+
+    def test_everything_else_is_refused(self):
+        for body in ["echo 'netlist: 12 results, 1 mismatches'; exit 1", "echo 'netlist: 12 results, 3 mismatches'",
+                     "echo 'netlist: 0 results, 0 mismatches'", "true", "exit 1",
+                     "echo 'fuzz: seed 1, 30 frames, 0 answers right, 0 wrong'",
+                     "echo 'fuzz: seed 1, 30 frames, 4 answers right, 1 wrong'"]:
+            with self.subTest(body), self.assertRaises(tools.Failure):
+                self.drive(body)
+        self.program("tools/cmake", "echo cannot build; exit 1")
+        with self.assertRaisesRegex(tools.Failure, "cannot build"):
+            self.drive("echo 'netlist: 12 results, 0 mismatches'")
+
+    def test_another_netlist_than_the_one_driven_is_refused(self):
+        (self.build / "netlists/x.v").write_text("a\nb")
+        comparison.same("x", ["a", "b"], self.build)
+        with self.assertRaises(tools.Failure):
+            comparison.same("x", ["a", "c"], self.build)
+
+
 class DesignTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -240,7 +284,7 @@ class DocumentTest(unittest.TestCase):
         self.assertIn("175 met", document.tables({"element": {"e": {**result, "target": 175.0}}}))
 
     def test_the_boards_section_is_the_pages_last_and_stands_once(self):
-        board = {"figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
+        board = {"driven": "fuzz: 3 answers right", "figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
                  "target": 120.0, "seed": 3, "tried": {"1": 110.0, "3": 121.0}}
         section = document.board_section(board, {"yosys": "1"})
         self.assertIn("Clock: 121.0 MHz, target 120 MHz met, seed 3 (tried 1: 110.0 MHz, 3: 121.0 MHz).", section)

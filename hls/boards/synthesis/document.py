@@ -88,13 +88,27 @@ def tables(results):
                        for section, subjects in results.items())
 
 
-def page(results, versions, tolerances, board=""):
-    """The whole page; `board` is a board_section or nothing."""
+DRIVEN = """## What was driven
+
+A netlist is what Yosys made of the sources, the one that was placed or counted. Before this page was
+written these were simulated and driven with the stimuli of the sources' co-simulation:
+
+{table}
+
+The netlists of the forms, and of the element on 7-series and UltraScale+, were not driven.
+"""
+
+
+def page(results, versions, tolerances, driven, board=""):
+    """The whole page; `driven` is what was said of each netlist that was driven, `board` is a
+    board_section or nothing."""
     limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
     parts = [INTRODUCTION.format(tools=", ".join(f"{tool} {version}" for tool, version in versions.items()),
                                  tolerances=limits)]
     for section, (title, note) in SECTIONS.items():
         parts.append(f"## {title}\n\n{note}\n\n{section_table(section, results[section])}\n")
+    rows = [[name.replace("_", ", "), verdict.removeprefix("netlist: ")] for name, verdict in driven.items()]
+    parts.append(DRIVEN.format(table=table(["netlist", "compared"], rows)))
     return with_board("\n".join(parts), board)
 
 
@@ -114,6 +128,7 @@ def board_section(result, versions):
         "Written by `./dev bitstream ulx3s`; never edit. The whole design, UART, link and core"
         f" (elements: {result['elements']}) on ECP5-85F, speed 6, placed and routed with the board's pins; not yet run on a"
         f" board. Tools: {tools}.",
+        f"Simulated in lockstep with its source before it was written: {result['driven']}.",
         f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}"
         f" (tried {seeds}).",
         table(["resource", "used", "there", "share"], rows),

@@ -39,9 +39,9 @@ def ecp5(runner, design):
                        ["netlist.json", "cells.json", "netlist.v"])
 
 
-def ecp5_top(runner, design, folder):
+def ecp5_top(runner, design):
     """A design without a shell for ECP5: for nextpnr and for simulation."""
-    return runner.step("yosys", f"{design.name}, synthesis", f"{folder}/yosys",
+    return runner.step("yosys", f"{design.name}, synthesis for ECP5", f"ecp5/{slug(design.name)}/yosys",
                        ["-p", designs.top_script(design, ECP5_OPTIONS)], design.inputs("ecp5"),
                        ["netlist.json", "netlist.v"])
 

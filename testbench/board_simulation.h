@@ -1,0 +1,25 @@
+// The ULX3S design (hls/boards/ulx3s/emax_ulx3s.sv) as the testbench sees it: its pins, one clock
+// cycle at a time, whichever Verilated variant stands behind.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+namespace emax {
+
+class BoardSimulation {
+ public:
+  virtual ~BoardSimulation() = default;
+
+  virtual int clocks_per_bit() const = 0;  // of the serial line
+  virtual void press_reset(bool pressed) = 0;
+  virtual void set_line(bool from_host) = 0;
+  virtual void clock() = 0;
+  virtual bool line() const = 0;           // to the host
+  virtual std::uint8_t lamps() const = 0;  // the highest is lit when the design is out of reset
+};
+
+// The board of the program's variant. Linked in by whoever makes a SimulatedBoard.
+std::unique_ptr<BoardSimulation> make_board();
+
+}  // namespace emax
