@@ -1,9 +1,10 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
-NAME is KIND_FAMILY: operators, element, core, board1 or board2 (with so many elements); ecp5, xc7,
+NAME is KIND_FAMILY: operators, element, form_FORM, core, board1 or board2 (with so many elements); ecp5, xc7,
 xcup or words (as the front end reads the sources, before anything is mapped); or KIND_mutated, with faults put in and their list beside
 it; or operators_misread, of sources with an expression that Yosys reads as another one. The operators
-are four modules, fp_add_netlist and so on; the others have the source's name.
+are four modules, fp_add_netlist and so on; a form is form_netlist, and its source stands beside it;
+the others have the source's name.
 """
 
 import fcntl
@@ -12,7 +13,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from synthesis import designs, netlists
+from synthesis import designs, lowered, netlists
 from synthesis.tools import FOLDER, Failure, Runner, run_command
 
 DATAPATH = designs.GENERATED / "emax_distance.sv"
@@ -44,6 +45,12 @@ def text_of(runner, name):
         parts = [netlists.renamed(netlist_of(runner, design, family), f"{design.top}_netlist")
                  for design in designs.operators(DATAPATH, 0)]
         return {".v": "\n".join(parts)}
+    if kind.startswith("form_"):
+        design, _ = lowered.form(kind.removeprefix("form_"), 0)
+        return {".v": "\n".join([*(path.read_text() for path in design.generated),
+                                 netlists.renamed(netlist_of(runner, design, family), "form_netlist")])}
+    if kind == "element" and family != "ecp5":
+        return {".v": netlists.renamed(netlist_of(runner, lowered.xilinx_element(0), family), "emax_element")}
     design = {"core": designs.core(1), "element": designs.element(0), "board1": designs.ulx3s(1, 0),
               "board2": designs.ulx3s(2, 0)}[kind]
     return {".v": netlists.renamed(netlist_of(runner, design, family), design.top)}

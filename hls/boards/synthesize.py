@@ -5,20 +5,16 @@ only). Writes docs/synthesis.md and compares with the checked-in baseline.
 """
 
 import argparse
-import json
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import baseline, comparison, contracts, designs, document, netlists
+from synthesis import baseline, comparison, contracts, designs, document, lowered, netlists
 from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
 SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
-FORMS = ["visible_edge", "three_edge", "barycentric"]
 FORM_FIGURES = ["multiplications", "additions", "latency", "delay_bits"]
 DATAPATH = designs.GENERATED / "emax_distance.sv"
-LOWER = Path("build/kernel/bin/emax_lower")
 BASELINE = Path("hls/boards/synthesis_baseline.json")
 DOCUMENT = Path("docs/synthesis.md")
 TARGET = 175.0  # MHz, of the element and the forms
@@ -70,27 +66,8 @@ def run_xilinx(runner, design, family):
     return {"figures": figures, **detail}
 
 
-def lowered(form, family):
-    """The sources of a form's unit, lowered for a family into the build folder, and emax_lower's
-    report on it."""
-    folder = FOLDER / "lowered" / family
-    folder.mkdir(parents=True, exist_ok=True)
-
-    def lower(*options):
-        run = subprocess.run([LOWER, form, "--family", family, *options], capture_output=True, text=True)
-        if run.returncode != 0:
-            raise Failure(f"{LOWER} {form} {' '.join(map(str, options))}: {run.stderr.strip()}")
-        return run.stdout
-
-    files = [folder / f"{form}.sv", folder / f"{form}_unit.sv"]
-    lower("-o", files[0])
-    lower("--unit", "-o", files[1])
-    return files, json.loads(lower("--report"))
-
-
 def place_form(runner, form, target):
-    files, report = lowered(form, "ecp5")
-    design = designs.Design(form, f"{report['module']}_unit", target, {"SLOT_BITS": 4}, files)
+    design, report = lowered.form(form, target)
     return {**Ecp5(runner, design, 1, 1).run(), "report": report}
 
 
@@ -134,16 +111,14 @@ def measure(runner, options):
         alone = options.jobs if len(options.only) == 1 else 1
         start("element", element.name, Ecp5(runner, element, options.seeds, alone).run)
     if "forms" in options.only:
-        for form in FORMS:
+        for form in lowered.FORMS:
             start("forms", form, place_form, runner, form, options.target)
     if "operators" in options.only:
         for operator in operators:
             start("operators", operator.name, Ecp5(runner, operator, 1, 1).run)
     if "xilinx" in options.only:
-        generated, _ = lowered("visible_edge", "xilinx")
-        reductions = [designs.GENERATED / f"emax_{name}.sv" for name in ("minimum", "maximum")]
         for family in netlists.FAMILIES:
-            for design in [designs.element(options.target, [*generated, *reductions]), *operators]:
+            for design in [lowered.xilinx_element(options.target), *operators]:
                 start("xilinx", f"{design.name}, {netlists.FAMILIES[family]}", run_xilinx, runner, design, family)
     try:
         work.wait(30 if not sys.stdout.isatty() else 15)
@@ -166,11 +141,17 @@ def drive(runner, options):
         for family in netlists.FAMILIES:
             wanted[f"operators_{family}"] = [(netlists.xilinx(runner, o, family)[-1], f"{o.top}_netlist")
                                              for o in operators]
+            counted = lowered.xilinx_element(options.target)
+            wanted[f"element_{family}"] = [(netlists.xilinx(runner, counted, family)[-1], counted.top)]
+    if "forms" in options.only:
+        for name in lowered.FORMS:
+            design, _ = lowered.form(name, options.target)
+            wanted[f"form_{name}_ecp5"] = [(netlists.ecp5(runner, design)[-1], "form_netlist")]
     said = {}
     for name, parts in wanted.items():
         runner.say(f"{name}: driving the netlist beside the model")
         said[name] = comparison.drive(name)
-        comparison.same(name, [netlists.renamed(path, top) for path, top in parts])
+        comparison.holds(name, [netlists.renamed(path, top) for path, top in parts])
         runner.say(f"{name}: {said[name]}")
     return said
 

@@ -41,16 +41,14 @@ module TRELLIS_FF #(
     output logic Q
 );
   if (GSR != "DISABLED" || CLKMUX != "CLK" || LSRMUX != "LSR" || SRMODE != "LSR_OVER_CE"
-      || (CEMUX != "1" && CEMUX != "CE") || (REGSET != "SET" && REGSET != "RESET")) begin : unmodelled
+      || (CEMUX != "1" && CEMUX != "CE" && CEMUX != "INV") || (REGSET != "SET" && REGSET != "RESET")) begin : unmodelled
     $error("TRELLIS_FF: this model does not know these parameters");
   end
   localparam logic PRESET = REGSET == "SET";
+  logic enable;
+  assign enable = CEMUX == "1" || (CE ^ (CEMUX == "INV"));
   initial Q = PRESET;
-  if (CEMUX == "1") begin : always_enabled
-    always_ff @(posedge CLK) Q <= LSR ? PRESET : DI;
-  end else begin : enabled
-    always_ff @(posedge CLK) if (LSR || CE) Q <= LSR ? PRESET : DI;
-  end
+  always_ff @(posedge CLK) if (LSR || enable) Q <= LSR ? PRESET : DI;
 endmodule
 
 // LUT RAM of 16 words of 4 bits: written with the clock, read at once.

@@ -1,6 +1,6 @@
-// What Yosys maps the operators to for 7-series and UltraScale+, for simulation: written from
-// AMD's UG953 and UG974 (libraries), UG479 and UG579 (DSP48). What no netlist of ours uses is refused
-// where a model is elaborated.
+// What Yosys maps operators and element to for 7-series and UltraScale+, but for block RAM
+// (xilinx_memories.sv), for simulation: written from AMD's UG953 and UG974 (libraries), UG479 and UG579
+// (DSP48). What no netlist of ours uses is refused where a model is elaborated.
 /* verilator lint_off DECLFILENAME */  // several cells
 /* verilator lint_off UNUSEDPARAM */
 /* verilator lint_off UNUSEDSIGNAL */
@@ -112,6 +112,81 @@ module SRL16E #(
   logic [15:0] held;
   always_ff @(posedge CLK) if (CE) held <= {held[14:0], D};
   assign Q = held[{A3, A2, A1, A0}];
+endmodule
+
+module SRLC32E #(
+    parameter logic [31:0] INIT = '0,
+    parameter logic IS_CLK_INVERTED = 1'b0
+) (
+    input  logic [4:0] A,
+    input  logic       CE, CLK, D,
+    output logic       Q, Q31
+);
+  if (IS_CLK_INVERTED) begin : unmodelled
+    $error("SRLC32E: this model knows a rising clock alone");
+  end
+  logic [31:0] held;
+  always_ff @(posedge CLK) if (CE) held <= {held[30:0], D};
+  assign Q = held[A];
+  assign Q31 = held[31];
+endmodule
+
+// LUT RAM of 32 words: written at ADDRD with the clock, each pair of bits read at once at an
+// address of its own.
+module RAM32M #(
+    parameter logic [63:0] INIT_A = '0, INIT_B = '0, INIT_C = '0, INIT_D = '0
+) (
+    input  logic [4:0] ADDRA, ADDRB, ADDRC, ADDRD,
+    input  logic [1:0] DIA, DIB, DIC, DID,
+    input  logic       WE, WCLK,
+    output logic [1:0] DOA, DOB, DOC, DOD
+);
+  logic [1:0] words_A[32], words_B[32], words_C[32], words_D[32];
+  always_ff @(posedge WCLK) begin
+    if (WE) begin
+      words_A[ADDRD] <= DIA;
+      words_B[ADDRD] <= DIB;
+      words_C[ADDRD] <= DIC;
+      words_D[ADDRD] <= DID;
+    end
+  end
+  assign DOA = words_A[ADDRA];
+  assign DOB = words_B[ADDRB];
+  assign DOC = words_C[ADDRC];
+  assign DOD = words_D[ADDRD];
+endmodule
+
+// LUT RAM of 32 words: written at ADDRH with the clock, each pair of bits read at once at an
+// address of its own.
+module RAM32M16 #(
+    parameter logic [63:0] INIT_A = '0, INIT_B = '0, INIT_C = '0, INIT_D = '0, INIT_E = '0, INIT_F = '0, INIT_G = '0, INIT_H = '0
+) (
+    input  logic [4:0] ADDRA, ADDRB, ADDRC, ADDRD, ADDRE, ADDRF, ADDRG, ADDRH,
+    input  logic [1:0] DIA, DIB, DIC, DID, DIE, DIF, DIG, DIH,
+    input  logic       WE, WCLK,
+    output logic [1:0] DOA, DOB, DOC, DOD, DOE, DOF, DOG, DOH
+);
+  logic [1:0] words_A[32], words_B[32], words_C[32], words_D[32], words_E[32], words_F[32], words_G[32], words_H[32];
+  always_ff @(posedge WCLK) begin
+    if (WE) begin
+      words_A[ADDRH] <= DIA;
+      words_B[ADDRH] <= DIB;
+      words_C[ADDRH] <= DIC;
+      words_D[ADDRH] <= DID;
+      words_E[ADDRH] <= DIE;
+      words_F[ADDRH] <= DIF;
+      words_G[ADDRH] <= DIG;
+      words_H[ADDRH] <= DIH;
+    end
+  end
+  assign DOA = words_A[ADDRA];
+  assign DOB = words_B[ADDRB];
+  assign DOC = words_C[ADDRC];
+  assign DOD = words_D[ADDRD];
+  assign DOE = words_E[ADDRE];
+  assign DOF = words_F[ADDRF];
+  assign DOG = words_G[ADDRG];
+  assign DOH = words_H[ADDRH];
 endmodule
 
 // The multiplier of both DSP blocks and the adder behind it: A times B, and above it nothing or the

@@ -46,7 +46,7 @@ stand_in id 'echo "${FAKE_ID:-0}"'
 # shellcheck disable=SC2016
 stand_in sudo 'echo "sudo $*" >>"$CALLS"; "$@"'
 export CALLS=$calls
-all="cmake g++ libeigen3-dev libgtest-dev ninja-build verilator zlib1g-dev"
+all="cmake g++ libeigen3-dev libgtest-dev make ninja-build python3-venv verilator zlib1g-dev"
 
 export INSTALLED=$all
 expect_silence "$dev" setup kernel
