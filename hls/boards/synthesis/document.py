@@ -95,7 +95,7 @@ written these were simulated and driven with the stimuli of the sources' co-simu
 
 {table}
 
-The netlists of the forms, and of the element on 7-series and UltraScale+, were not driven.
+The design as nextpnr routes it was not simulated.
 """
 
 
