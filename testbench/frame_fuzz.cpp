@@ -2,8 +2,9 @@
 // came, the board must take a reset in time, answer a block rightly after it, and never answer a
 // question that was asked in order with a wrong word.
 //
-//   emax_frame_fuzz [--frames N] [--seed N]
+//   emax_frame_fuzz [--frames N] [--blocks N] [--seed N]
 //
+// --blocks: so many blocks are asked after every 200 frames (1).
 // Exit code 0 when nothing was wrong, 1 otherwise, 2 for wrong arguments.
 #include <array>
 #include <cstdio>
@@ -159,7 +160,7 @@ std::vector<Word> any_block(Random& random) {
   return words;
 }
 
-int run(std::uint64_t frames, std::uint64_t seed) {
+int run(std::uint64_t frames, std::uint64_t blocks, std::uint64_t seed) {
   Random random(named_seed("frames", seed));
   Host host;
   std::uint64_t sent = 0, right = 0, wrong = 0;
@@ -174,9 +175,12 @@ int run(std::uint64_t frames, std::uint64_t seed) {
       if (!random.one_in(8)) ++turn;
     }
     host.reset(++session);
-    const auto block = any_block(random);
-    const auto expected = answers_of_kernel(block);
-    ++(host.ask(block, expected.size()) == expected ? right : wrong);
+    for (std::uint64_t i = 0; i < blocks; ++i) {
+      if (i > 0) host.reset(++session);
+      const auto block = any_block(random);
+      const auto expected = answers_of_kernel(block);
+      ++(host.ask(block, expected.size()) == expected ? right : wrong);
+    }
   }
   std::printf("fuzz: seed %llu, %llu frames, %llu answers right, %llu wrong\n",
               static_cast<unsigned long long>(seed), static_cast<unsigned long long>(sent),
@@ -188,20 +192,20 @@ int run(std::uint64_t frames, std::uint64_t seed) {
 }  // namespace emax
 
 int main(int argc, char** argv) {
-  std::uint64_t frames = 2000, seed = 1;
+  std::uint64_t frames = 2000, blocks = 1, seed = 1;
   for (int i = 1; i < argc; i += 2) {
     const std::string option = argv[i];
     char* end = nullptr;
     const std::uint64_t value = i + 1 < argc ? std::strtoull(argv[i + 1], &end, 10) : 0;
     if (end == nullptr || *end != '\0' || value == 0 ||
-        (option != "--frames" && option != "--seed")) {
-      std::fprintf(stderr, "usage: emax_frame_fuzz [--frames N] [--seed N]\n");
+        (option != "--frames" && option != "--blocks" && option != "--seed")) {
+      std::fprintf(stderr, "usage: emax_frame_fuzz [--frames N] [--blocks N] [--seed N]\n");
       return 2;
     }
-    (option == "--frames" ? frames : seed) = value;
+    (option == "--frames" ? frames : option == "--blocks" ? blocks : seed) = value;
   }
   try {
-    return emax::run(frames, seed);
+    return emax::run(frames, blocks, seed);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "fuzz: %s\n", error.what());
     return 1;

@@ -22,7 +22,8 @@ TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
 SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 4, 10, 25
-FRAMES = 30  # into the netlist, damaged ones among them, and a block that must be answered rightly
+# Into the netlist: frames, damaged ones among them, and blocks whose distances must be answered rightly.
+DRIVEN = ["--frames", 30, "--blocks", 6]
 
 
 def build(runner, options, results):
@@ -31,7 +32,7 @@ def build(runner, options, results):
     netlist, text = netlists.ecp5_top(runner, design)
     name = f"board{options.elements}_ecp5"
     runner.say(f"{name}: driving the whole netlist in lockstep with its source, about {LOCKSTEP_MINUTES} min")
-    driven = comparison.drive(name, ["--frames", FRAMES])
+    driven = comparison.drive(name, DRIVEN)
     comparison.holds(name, [netlists.renamed(text, design.top)])
     runner.say(f"{name}: {driven}")
 

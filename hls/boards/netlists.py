@@ -2,9 +2,9 @@
 
 NAME is KIND_FAMILY: operators, element, form_FORM, core, board1 or board2 (with so many elements); ecp5, xc7,
 xcup or words (as the front end reads the sources, before anything is mapped); or KIND_mutated, with faults put in and their list beside
-it; or operators_misread, of sources with an expression that Yosys reads as another one. The operators
-are four modules, fp_add_netlist and so on; a form is form_netlist, and its source stands beside it;
-the others have the source's name.
+it; or KIND_misread, unmapped, of sources with an expression that Yosys reads as another one. The
+operators of a family are four modules, fp_add_netlist and so on; a form is form_netlist, and its source
+stands beside it; the others have the source's name.
 """
 
 import fcntl
@@ -26,6 +26,11 @@ def netlist_of(runner, design, family):
     """The path of a design's netlist for simulation."""
     if family == "words":
         return netlists.words(runner, design)
+    if family == "misread":
+        clock = "ulx3s_clock.sv"  # whose PLL is a cell of a family
+        replaced = {**designs.misread(FOLDER / "misread"),
+                    designs.ULX3S / clock: designs.ULX3S / "behavioural" / clock}
+        return netlists.words(runner, replace(design, name=f"{design.name}, misread", replaced=replaced))
     if family == "ecp5" and design.top in ["emax_core", "emax_ulx3s"]:
         return netlists.ecp5_top(runner, design)[-1]
     return (netlists.ecp5(runner, design) if family == "ecp5" else netlists.xilinx(runner, design, family))[-1]
@@ -34,14 +39,11 @@ def netlist_of(runner, design, family):
 def text_of(runner, name):
     """{suffix: text} of what is written for a name."""
     kind, family = name.rsplit("_", 1)
-    if name == "operators_misread":
-        design = replace(BENCH, name="operators, misread", replaced=designs.misread(FOLDER / "misread"))
-        return {".v": netlists.words(runner, design).read_text()}
     if family == "mutated":
         design = {"operators": BENCH, "core": designs.core(1)}[kind]
         netlist, mutants = netlists.mutated(runner, design, MUTANTS, SEED)
         return {".v": netlist.read_text(), ".txt": mutants.read_text()}
-    if kind == "operators":
+    if kind == "operators" and family != "misread":
         parts = [netlists.renamed(netlist_of(runner, design, family), f"{design.top}_netlist")
                  for design in designs.operators(DATAPATH, 0)]
         return {".v": "\n".join(parts)}
@@ -49,9 +51,9 @@ def text_of(runner, name):
         design, _ = lowered.form(kind.removeprefix("form_"), 0)
         return {".v": "\n".join([*(path.read_text() for path in design.generated),
                                  netlists.renamed(netlist_of(runner, design, family), "form_netlist")])}
-    if kind == "element" and family != "ecp5":
+    if kind == "element" and family in netlists.FAMILIES:
         return {".v": netlists.renamed(netlist_of(runner, lowered.xilinx_element(0), family), "emax_element")}
-    design = {"core": designs.core(1), "element": designs.element(0), "board1": designs.ulx3s(1, 0),
+    design = {"operators": BENCH, "core": designs.core(1), "element": designs.element(0), "board1": designs.ulx3s(1, 0),
               "board2": designs.ulx3s(2, 0)}[kind]
     return {".v": netlists.renamed(netlist_of(runner, design, family), design.top)}
 
@@ -67,10 +69,8 @@ def main():
         for name in names:
             for suffix, text in text_of(runner, name).items():
                 path = folder / f"{name}{suffix}"
-                if not path.exists() or path.read_text() != text:
+                if not path.exists() or path.read_text() != text:  # else what is made of it stands
                     path.write_text(text)
-                else:
-                    path.touch()
     return 0
 
 

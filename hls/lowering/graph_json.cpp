@@ -15,15 +15,17 @@ std::string graph_json(const LoweredDesign& design) {
     }
     text += std::string(id > 0 ? "," : "") +
             "\n  {\"operation\": " + quoted(info(node.operation).name) +
-            ", \"name\": " + quoted(node.name) + ", \"width\": " + std::to_string(width(node.kind)) +
-            ", \"operands\": [" + operands + "], \"word\": " + std::to_string(node.word) +
+            ", \"name\": " + quoted(node.name) +
+            ", \"width\": " + std::to_string(width(node.kind)) + ", \"operands\": [" + operands +
+            "], \"word\": " + std::to_string(node.word) +
             ", \"start\": " + std::to_string(design.schedule.start[id]) +
             ", \"ready\": " + std::to_string(design.schedule.ready[id]) + "}";
   }
   text += "],\n\"outputs\": [";
   for (const Output& output : graph.outputs()) {
     text += std::string(&output == &graph.outputs().front() ? "" : ", ") +
-            "{\"name\": " + quoted(output.name) + ", \"node\": " + std::to_string(output.node) + "}";
+            "{\"name\": " + quoted(output.name) + ", \"node\": " + std::to_string(output.node) +
+            "}";
   }
   return text + "]}\n";
 }

@@ -1,5 +1,6 @@
-// The netlist of a form of the distance, with its record memory, beside its source: random records and
-// points, a pair every cycle. The source itself is held against the kernel by the tests of the lowering.
+// The netlist of a form of the distance, with its record memory, beside its source: random records
+// and points, a pair every cycle. The source itself is held against the kernel by the tests of the
+// lowering.
 //
 // Exit code 0 where every distance is the source's, else 1.
 #include <Vnetlist_form.h>
@@ -55,8 +56,8 @@ int run() {
       ++pairs;
       if (model.source == model.netlist) continue;
       if (mismatches++ == 0) {
-        std::printf("pair %llu: source %08x, netlist %08x\n", static_cast<unsigned long long>(pairs),
-                    model.source, model.netlist);
+        std::printf("pair %llu: source %08x, netlist %08x\n",
+                    static_cast<unsigned long long>(pairs), model.source, model.netlist);
       }
     }
   }
