@@ -96,6 +96,15 @@ OPERATOR_PROOFS = [
 CREDIT_FAULTS = (*mutants("CREDIT_NOT_TAKEN", "CREDIT_NOT_GIVEN"),
                  Fault("credits are lent to the last", patch=("credit_counter.sv", "credits > 2", "credits > 0")))
 RING_FAULTS = mutants("SLOT_FREED_EARLY", "RING_SKIPS_A_SLOT", "RING_OVERFILLED")
+DECODER_FAULTS = (*mutants("ONE_POINT_TOO_MANY", "REDUCE_LEAVES_BLOCK_OPEN"),
+                  Fault("a record's words in the wrong order",
+                        patch=("command_decoder.sv", "{word, assembled[639:32]}", "{assembled[607:0], word}")),
+                  Fault("points come while the block before is read",
+                        patch=("command_decoder.sv", "sequencer_idle && !finish && !drop && !block", "!finish && !drop && !block")),
+                  Fault("the first of the faults is answered",
+                        patch=("command_decoder.sv", "if (!fits) fault", "if (!fits && fault == '0) fault")),
+                  Fault("an answered fault stays", patch=("command_decoder.sv", "fault  <= '0;\n          block", "block")),
+                  Fault("records without a block meet the elements", patch=("command_decoder.sv", "block ? RECORD : SKIP", "RECORD")))
 
 STREAM_PROOFS = [
     stream("axis_register", "words leave in order, none lost or doubled; tvalid and tdata stay while tready is low; a reset empties it", 1,
@@ -121,6 +130,15 @@ STREAM_PROOFS = [
            (*mutants("LINK_ANY_ACKNOWLEDGES"),
             Fault("what is being sent is forgotten", patch=("link_answers.sv", "if (passed && !hold)", "if (passed)")),
             Fault("two frames at a time", patch=("link_answers.sv", "&& !under_way && !closing;", "&& !closing;"))), reach=150, quick=False),
+    stream("command_decoder", "command_decoder: all words lead to the points, records, requests and ends of blocks of docs/protocol.md, once, in order", 1,
+           DECODER_FAULTS, reach=34,
+           assumes="a word waits until it is taken (axis_register), a record is taken while it is there, and no request is invited beside another"),
+    stream("command_decoder_of_three", "the same for three elements, whose last row may be full or not", 1,
+           (Fault("points go to one element", patch=("command_decoder.sv", "NUM_PE'({to_element, to_element[NUM_PE-1]})", "to_element")),
+            Fault("the last row is taken to be full", patch=("command_decoder.sv", "to_element | (to_element - 1'b1)", "'1")),
+            Fault("a block is reduced before its last record is taken",
+                  patch=("command_decoder.sv", "request_ready && !assembled_full && !record_valid && !finish", "request_ready && !finish"))),
+           {"NUM_PE": 3, "ROW_BITS": 9}, harness="command_decoder", reach=34, quick=False),
     stream("frames", "link_sender into link_receiver: a status frame or a notice arrives whole, with the fields it was sent with", 115,
            (Fault("the remainder is not inverted", patch=("link_sender.sv", "word <= ~remainder;", "word <= remainder;")),
             Fault("fields change places", patch=("link_sender.sv", "{header_expected, sequence_number, header_session}",
