@@ -16,6 +16,12 @@ ROUNDED_UP = "rounded up to the least normal number"
 WATCHED_MEMORY = (("block_memory.sv", """  (* keep *) logic [ADDRESS_BITS-1:0] watched_address;
   (* keep *) logic [WIDTH-1:0] watched_word;
   assign watched_word = words[watched_address];"""),)
+# A look at the requests that wait in block_answer.
+WATCHED_QUEUE = (("block_answer.sv", """  (* keep *) logic [QUEUE_BITS-1:0] watched_place;
+  (* keep *) logic [REQUEST-1:0] watched_request;
+  assign watched_request = queue[watched_place];
+  (* keep *) logic [4*REQUEST-1:0] all_requests;
+  assign all_requests = {queue[3], queue[2], queue[1], queue[0]};"""),)
 
 # The latencies of the generated datapath.
 LATENCY = {design.top: design.parameters["LATENCY"] for design in designs.operators(DATAPATH, 0)}
@@ -143,6 +149,11 @@ STREAM_PROOFS = [
            (*mutants("PASS_NOT_PADDED", "PADDING_IS_FINAL", "LAST_RECORD_NOT_HELD", "DROP_IGNORED"),
             Fault("every record is a block's first", patch=("pair_sequencer.sv", "final_pass || dropping_pass;", "1'b1;"))), reach=24,
            assumes="emax_core takes a record where all rings have a slot; command_decoder ends blocks, and waits for idle with the next"),
+    stream("block_answer", "block_answer: each request has its answer by the protocol, in order; lists in the points' order, the greatest distance, the lowest index", 1,
+           (*mutants("BLOCK_KEEPS_ANY_OF_EQUALS", "ELEMENTS_OUT_OF_TURN"),
+            Fault("an element without points is asked", patch=("block_answer.sv", "32'(count) > p", "32'(count) >= p"))),
+           reach=14, watch=WATCHED_QUEUE,
+           assumes="command_decoder asks where it is invited, and for the results of 1 to 1,024 points"),
     stream("running_minimum", "running_minimum: each pair's minimum is the least of what its point has met since its first pair, and infinity (4 points)", 5,
            mutants("FIRST_IGNORED", "FIRST_WITHOUT_INFINITY", "MINIMUM_WRITTEN_ASIDE", "MINIMUM_NOT_KEPT"), reach=16, watch=WATCHED_MEMORY,
            assumes="emax_element keeps the pairs of one point five cycles apart, and asserts it"),
