@@ -16,6 +16,12 @@ ROUNDED_UP = "rounded up to the least normal number"
 WATCHED_MEMORY = (("block_memory.sv", """  (* keep *) logic [ADDRESS_BITS-1:0] watched_address;
   (* keep *) logic [WIDTH-1:0] watched_word;
   assign watched_word = words[watched_address];"""),)
+# A look at the requests that wait in block_answer.
+WATCHED_QUEUE = (("block_answer.sv", """  (* keep *) logic [QUEUE_BITS-1:0] watched_place;
+  (* keep *) logic [REQUEST-1:0] watched_request;
+  assign watched_request = queue[watched_place];
+  (* keep *) logic [4*REQUEST-1:0] all_requests;
+  assign all_requests = {queue[3], queue[2], queue[1], queue[0]};"""),)
 
 # The latencies of the generated datapath.
 LATENCY = {design.top: design.parameters["LATENCY"] for design in designs.operators(DATAPATH, 0)}
@@ -96,6 +102,15 @@ OPERATOR_PROOFS = [
 CREDIT_FAULTS = (*mutants("CREDIT_NOT_TAKEN", "CREDIT_NOT_GIVEN"),
                  Fault("credits are lent to the last", patch=("credit_counter.sv", "credits > 2", "credits > 0")))
 RING_FAULTS = mutants("SLOT_FREED_EARLY", "RING_SKIPS_A_SLOT", "RING_OVERFILLED")
+DECODER_FAULTS = (*mutants("ONE_POINT_TOO_MANY", "REDUCE_LEAVES_BLOCK_OPEN"),
+                  Fault("a record's words in the wrong order",
+                        patch=("command_decoder.sv", "{word, assembled[639:32]}", "{assembled[607:0], word}")),
+                  Fault("points come while the block before is read",
+                        patch=("command_decoder.sv", "sequencer_idle && !finish && !drop && !block", "!finish && !drop && !block")),
+                  Fault("the first of the faults is answered",
+                        patch=("command_decoder.sv", "if (!fits) fault", "if (!fits && fault == '0) fault")),
+                  Fault("an answered fault stays", patch=("command_decoder.sv", "fault  <= '0;\n          block", "block")),
+                  Fault("records without a block meet the elements", patch=("command_decoder.sv", "block ? RECORD : SKIP", "RECORD")))
 
 STREAM_PROOFS = [
     stream("axis_register", "words leave in order, none lost or doubled; tvalid and tdata stay while tready is low; a reset empties it", 1,
@@ -121,6 +136,29 @@ STREAM_PROOFS = [
            (*mutants("LINK_ANY_ACKNOWLEDGES"),
             Fault("what is being sent is forgotten", patch=("link_answers.sv", "if (passed && !hold)", "if (passed)")),
             Fault("two frames at a time", patch=("link_answers.sv", "&& !under_way && !closing;", "&& !closing;"))), reach=150, quick=False),
+    stream("command_decoder", "command_decoder: all words lead to the points, records, requests and ends of blocks of docs/protocol.md, once, in order", 1,
+           DECODER_FAULTS, reach=34,
+           assumes="a word waits until it is taken (axis_register), a record is taken while it is there, and no request is invited beside another"),
+    stream("command_decoder_of_three", "the same for three elements, whose last row may be full or not", 1,
+           (Fault("points go to one element", patch=("command_decoder.sv", "NUM_PE'({to_element, to_element[NUM_PE-1]})", "to_element")),
+            Fault("the last row is taken to be full", patch=("command_decoder.sv", "to_element | (to_element - 1'b1)", "'1")),
+            Fault("a block is reduced before its last record is taken",
+                  patch=("command_decoder.sv", "request_ready && !assembled_full && !record_valid && !finish", "request_ready && !finish"))),
+           {"NUM_PE": 3, "ROW_BITS": 9}, harness="command_decoder", reach=34, quick=False),
+    stream("pair_sequencer", "pair_sequencer: each record meets each row of its block once, in order; the last record alone gives a final pair for each point", 1,
+           (*mutants("PASS_NOT_PADDED", "PADDING_IS_FINAL", "LAST_RECORD_NOT_HELD", "DROP_IGNORED"),
+            Fault("every record is a block's first", patch=("pair_sequencer.sv", "final_pass || dropping_pass;", "1'b1;"))), reach=24,
+           assumes="emax_core takes a record where all rings have a slot; command_decoder ends blocks, and waits for idle with the next"),
+    stream("block_answer", "block_answer: each request has its answer by the protocol, in order; lists in the points' order, the greatest distance, the lowest index", 1,
+           (*mutants("BLOCK_KEEPS_ANY_OF_EQUALS", "ELEMENTS_OUT_OF_TURN"),
+            Fault("an element without points is asked", patch=("block_answer.sv", "32'(count) > p", "32'(count) >= p"))),
+           reach=14, watch=WATCHED_QUEUE,
+           assumes="command_decoder asks where it is invited, and for the results of 1 to 1,024 points"),
+    stream("running_minimum", "running_minimum: each pair's minimum is the least of what its point has met since its first pair, and infinity (4 points)", 5,
+           mutants("FIRST_IGNORED", "FIRST_WITHOUT_INFINITY", "MINIMUM_WRITTEN_ASIDE", "MINIMUM_NOT_KEPT"), reach=16, watch=WATCHED_MEMORY,
+           assumes="emax_element keeps the pairs of one point five cycles apart, and asserts it"),
+    stream("worst_point", "worst_point: the greatest of a block's values, with the index of the first that has it, two cycles after the last", 1,
+           mutants("WORST_NEVER_STARTS_ANEW", "WORST_TAKES_LAST_OF_EQUALS"), reach=12),
     stream("frames", "link_sender into link_receiver: a status frame or a notice arrives whole, with the fields it was sent with", 115,
            (Fault("the remainder is not inverted", patch=("link_sender.sv", "word <= ~remainder;", "word <= remainder;")),
             Fault("fields change places", patch=("link_sender.sv", "{header_expected, sequence_number, header_session}",

@@ -38,8 +38,8 @@ those of `testbench/netlists/ecp5_blocks.sv`, written from the vendor's descript
 
 ## What is not proven
 
-- `command_decoder`, `pair_sequencer`, `block_answer`, `emax_core` and `emax_link` as a whole; `running_minimum`,
-  `worst_point` and the memories of `emax_distance_unit`. Co-simulation and its mutants are what speaks for them.
+- `emax_core` and `emax_link` as a whole; `emax_element` and the memories of `emax_distance_unit`. Co-simulation and its
+  mutants are what speaks for them.
 - That the CRC finds every damage it should, data frames, and two clocks that differ at the two ends of a serial line.
 - Operators at other latencies and in other formats than those in the table. The product of mantissas has no proof in one
   piece at binary32, but two: the product, and everything around it.
