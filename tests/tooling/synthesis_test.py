@@ -9,11 +9,12 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
 import front_ends  # noqa: E402
-from synthesis import baseline, comparison, contracts, designs, document, netlists, tools  # noqa: E402
+from synthesis import baseline, comparison, contracts, designs, document, netlists, routed, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
 
@@ -273,6 +274,86 @@ class DesignTest(unittest.TestCase):
         figures, detail = designs.xilinx_figures(self.file(netlist))
         self.assertEqual(figures, {"lut": 6, "ff": 1, "dsp": 3, "ram": 0})
         self.assertEqual(detail, {"srl": 1, "ram_luts": 4, "registered": 2, "registered_inputs": 2})
+
+
+def cell(kind, place="X1/Y2/SLICEA.K1", parameters=None, outputs=(), **connections):
+    """A cell of nextpnr's file; a net of 0 is none."""
+    direction = lambda port: ("inout" if kind == "TRELLIS_IO" and port == "B" else
+                              "output" if port in outputs else "input")
+    return {"type": kind, "parameters": parameters or {}, "attributes": {"NEXTPNR_BEL": place},
+            "port_directions": {port: direction(port) for port in connections},
+            "connections": {port: [net] if net else [] for port, net in connections.items()}}
+
+
+class RoutedTest(unittest.TestCase):
+    """An inverter between two pins, as nextpnr writes it."""
+
+    def setUp(self):
+        self.module = {
+            "ports": {"a": {"direction": "input", "bits": [1]}, "q": {"direction": "output", "bits": [2, 3]}},
+            "netnames": {"a": {"bits": [1]}, "lost": {"bits": [9]}},
+            "cells": {
+                "a$tr_io": cell("TRELLIS_IO", parameters={"DIR": "INPUT"}, outputs=["O"], B=1, I=0, T=0, O=4),
+                "q$tr_io": cell("TRELLIS_IO", parameters={"DIR": "OUTPUT"}, outputs=["O"], B=2, I=5, T=0, O=0),
+                "r$tr_io": cell("TRELLIS_IO", parameters={"DIR": "OUTPUT"}, outputs=["O"], B=3, I=4, T=0, O=0),
+                "lut": cell("TRELLIS_COMB", parameters={"INITVAL": "0101010101010101"}, outputs=["F"], A=4, B=0, F=5),
+                "place": cell("TRELLIS_COMB", parameters={"MODE": "RAMW_BLOCK"}, outputs=["F"], A=0, F=0)}}
+
+    def text(self):
+        return routed.verilog(self.module, "top")
+
+    def test_a_design_keeps_its_ports(self):
+        self.assertEqual(self.text(), """module top (input a, output [1:0] q);
+  wire n4;
+  wire n5;
+  TRELLIS_IO #(.DIR("INPUT")) c0 (.B(a), .I(1'bx), .T(1'b0), .O(n4));  // a$tr_io
+  TRELLIS_IO #(.DIR("OUTPUT")) c1 (.B_OUT(q[0]), .I(n5), .T(1'b0));  // q$tr_io
+  TRELLIS_IO #(.DIR("OUTPUT")) c2 (.B_OUT(q[1]), .I(n4), .T(1'b0));  // r$tr_io
+  TRELLIS_COMB #(.INITVAL(16'b0101010101010101), .HALF("K1")) c3 (.A(n4), .B(1'b0), .F(n5));  // lut
+endmodule
+""")
+
+    def test_a_net_has_one_driver(self):
+        for change, complaint in [({"A": [9]}, "no driver of lost"), ({"F": [1]}, "two drivers of a"),
+                                  ({"F": [4]}, "two drivers of 4"), ({"F": []}, "no driver of 5")]:
+            with self.subTest(change), self.assertRaisesRegex(tools.Failure, complaint):
+                self.setUp()
+                self.module["cells"]["lut"]["connections"].update(change)
+                self.text()
+        self.setUp()
+        del self.module["cells"]["r$tr_io"]
+        with self.assertRaisesRegex(tools.Failure, "no driver of 3"):
+            self.text()
+
+    def test_an_input_without_a_net_has_the_fabrics_value(self):
+        for kind, parameters, port, expected in [
+                ("TRELLIS_COMB", {}, "A", "0"), ("TRELLIS_COMB", {"MODE": "CCU2"}, "C", "1"),
+                ("TRELLIS_COMB", {"MODE": "CCU2"}, "FCI", "x"), ("TRELLIS_FF", {"LSRMUX": "LSR"}, "LSR", "0"),
+                ("TRELLIS_FF", {"LSRMUX": "INV"}, "LSR", "x"), ("TRELLIS_FF", {}, "CE", "x"),
+                ("DCCA", {}, "CE", "1"), ("MULT18X18D", {"A3MUX": "1 "}, "A3", "1"), ("MULT18X18D", {}, "B3", "0"),
+                ("MULT18X18D", {}, "CE0", "x"), ("MULT18X18D", {}, "C12", None), ("MULT18X18D", {}, "SRIA0", None),
+                ("DP16KD", {"ADA0MUX": "1 "}, "ADA0", "1"), ("DP16KD", {}, "ADB0", "0"), ("DP16KD", {}, "WEA", "0"),
+                ("DP16KD", {"WEAMUX": "WEA"}, "WEA", "1"), ("DP16KD", {}, "CEA", "1"), ("DP16KD", {}, "OCEB", "1"),
+                ("DP16KD", {"OCEBMUX": "INV"}, "OCEB", "0"), ("DP16KD", {}, "CSB2", "0"),
+                ("DP16KD", {}, "DIB0", None)]:
+            with self.subTest((kind, parameters, port)):
+                self.assertEqual(routed.tied(kind, parameters, port), expected)
+
+    def test_a_multiplexer_is_left_to_the_model_where_a_net_reaches_it(self):
+        for net, expected in [(0, "DP16KD #() c0 (.WEA(1'b1));"), (4, 'DP16KD #(.WEAMUX("INV")) c0 (.WEA(n4));')]:
+            parameters = {"WEAMUX": "INV" if net else "WEA"}
+            nets = routed.Nets(self.module)
+            self.assertIn(expected, routed.instance(0, "m", cell("DP16KD", parameters=parameters, WEA=net), nets))
+
+    def test_words_that_look_like_bits_are_words(self):
+        for text, expected in [("0110", "4'b0110"), ("1 ", '"1"'), ("NONE", '"NONE"'), ("0b000", '"0b000"'),
+                               ("x ", '"x"')]:
+            self.assertEqual(routed.value(text), expected)
+
+    def test_one_bit_of_the_smallest_lut_is_turned(self):
+        self.module["cells"]["wide"] = cell("TRELLIS_COMB", parameters={"INITVAL": "0" * 16}, A=4, B=5)
+        self.assertEqual(routed.turn_a_bit(self.module), "lut")
+        self.assertEqual(self.module["cells"]["lut"]["parameters"]["INITVAL"], "0101010101010100")
 
 
 class DocumentTest(unittest.TestCase):
