@@ -1,6 +1,7 @@
 """The parts of `./dev synth` and `./dev bitstream` that need no tool: the comparison with the baseline, the steps and
 their memory, the shell, and what is read out of the tools' files. Run in a folder of its own."""
 
+import argparse
 import io
 import json
 import os
@@ -229,6 +230,14 @@ class DesignTest(unittest.TestCase):
             with self.assertRaises(ValueError):
                 netlists.renamed(self.file(wrong), "n")
 
+    def test_a_netlist_that_stands_there_is_not_written_again(self):
+        path = self.file("text")
+        os.utime(path, (0, 0))
+        netlists.write(path, "text")
+        self.assertEqual(path.stat().st_mtime, 0)
+        netlists.write(path, "other")
+        self.assertEqual(path.read_text(), "other")
+
     def test_a_source_replaced_is_read_in_its_place(self):
         source = designs.RTL / "fp_add.sv"
         design = designs.Design("d", "fp_add", 0, replaced={source: Path("other.sv")})
@@ -366,10 +375,12 @@ class DocumentTest(unittest.TestCase):
         self.assertIn("175 met", document.tables({"element": {"e": {**result, "target": 175.0}}}))
 
     def test_the_boards_section_is_the_pages_last_and_stands_once(self):
-        board = {"driven": "fuzz: 3 answers right", "figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
+        board = {"driven": {"synthesized": "fuzz: 3 answers right", "routed": "fuzz: 4 answers right"},
+                 "figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
                  "target": 120.0, "seed": 3, "tried": {"1": 110.0, "3": 121.0}}
         section = document.board_section(board, {"yosys": "1"})
         self.assertIn("Clock: 121.0 MHz, target 120 MHz met, seed 3 (tried 1: 110.0 MHz, 3: 121.0 MHz).", section)
+        self.assertIn("as synthesized, fuzz: 3 answers right; as routed, fuzz: 4 answers right.", section)
         self.assertRegex(section, r"\| LUT +\| 41,820 \| 83,640 \| 50% +\|")
         self.assertIn("missed", document.board_section({**board, "target": 122.0}, {}))
         page = document.with_board("# Synthesis\n\ntext\n", section)
@@ -381,6 +392,43 @@ class DocumentTest(unittest.TestCase):
 
 
 class BitstreamTest(unittest.TestCase):
+    def steps(self, fmax, refused=None):
+        """What is done for a bitstream, of tools and netlists driven, where that netlist is refused."""
+        done = []
+
+        class Steps:
+            say = staticmethod(lambda text: None)
+
+            def step(self, tool, title, folder, arguments, inputs, outputs):
+                done.append(tool)
+                return [Path(output) for output in outputs]
+
+        def drive(name, arguments):
+            done.append(name)
+            if name == refused:
+                raise tools.Failure(f"{name} is refused")
+            return "driven"
+
+        options = argparse.Namespace(elements=1, first_seed=1, seeds=1, jobs=1)
+        with (mock.patch.object(bitstream.netlists, "renamed"), mock.patch.object(bitstream.netlists, "write"),
+              mock.patch.object(bitstream.comparison, "drive", drive), mock.patch.object(bitstream.comparison, "holds"),
+              mock.patch.object(bitstream, "routed"),
+              mock.patch.object(bitstream.designs, "board_figures", lambda *_: ({"fmax": fmax}, {}))):
+            self.addCleanup(os.chdir, os.getcwd())
+            os.chdir(Path(__file__).resolve().parents[2])
+            try:
+                bitstream.build(Steps(), options, [])
+            except tools.Failure:
+                done.append("refused")
+        return done
+
+    def test_a_bitstream_is_of_what_was_driven(self):
+        self.assertEqual(self.steps(130.0), ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "ecppack"])
+        self.assertEqual(self.steps(130.0, "board1_ecp5"), ["yosys", "board1_ecp5", "refused"])
+        self.assertEqual(self.steps(130.0, "board1_routed"),
+                         ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "refused"])
+        self.assertEqual(self.steps(110.0), ["yosys", "board1_ecp5", "nextpnr"])
+
     def tried(self, clocks, at_once, target=120.0):
         route = lambda seed: {"seed": seed, "figures": {"fmax": clocks[seed - 1]}}
         seeds = range(1, len(clocks) + 1)

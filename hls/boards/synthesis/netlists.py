@@ -93,3 +93,9 @@ def renamed(netlist, name):
     if count != 1:
         raise ValueError(f"{netlist} holds {count} modules, not one")
     return text
+
+
+def write(path, text):
+    """Writes the text unless it stands there: what is built of it is then not built again."""
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
