@@ -2,7 +2,8 @@
 
 Tries seeds of the placement in order until the clock is met, and writes the bitstream to
 build/bitstream and its figures into docs/synthesis.md. A bitstream that misses its clock is not
-written.
+written, nor one of a design that did not do in simulation what its source does, as Yosys synthesized
+it and as nextpnr routed it.
 """
 
 import argparse
@@ -11,7 +12,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from synthesis import comparison, designs, document, netlists
+from synthesis import comparison, designs, document, netlists, routed, tools
 from synthesis.tools import Background, Failure, Runner, run_command
 
 FOLDER = Path("build/bitstream")
@@ -30,23 +31,20 @@ def build(runner, options, results):
     design = designs.ulx3s(options.elements, TARGET)
     folder = f"ulx3s/{options.elements}"
     netlist, text = netlists.ecp5_top(runner, design)
-    name = f"board{options.elements}_ecp5"
-    runner.say(f"{name}: driving the whole netlist in lockstep with its source, about {LOCKSTEP_MINUTES} min")
-    driven = comparison.drive(name, DRIVEN)
-    comparison.holds(name, [netlists.renamed(text, design.top)])
-    runner.say(f"{name}: {driven}")
+    driven = {"synthesized": drive(runner, f"board{options.elements}_ecp5", netlists.renamed(text, design.top))}
 
     def route(seed):
-        report, log, placed = runner.step(
+        report, log, placed, design_routed = runner.step(
             "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
             ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{TARGET:g}",
              "--placer", "static",  # 364,000 of wire where the default takes 475,000 (docs/decisions/0007)
              "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist),
-             "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json"],
-            [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config"])
+             "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json",
+             "--write", "{folder}/routed.json"],
+            [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config", "routed.json"])
         figures, detail = designs.board_figures(report, log)
         runner.say(f"{design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {TARGET:g}")
-        return {"figures": figures, **detail, "seed": seed, "placed": placed}
+        return {"figures": figures, **detail, "seed": seed, "placed": placed, "routed": design_routed}
 
     tried = first_that_meets(route, range(options.first_seed, options.first_seed + options.seeds),
                              options.jobs, TARGET)
@@ -54,11 +52,24 @@ def build(runner, options, results):
     best.update(elements=options.elements, target=TARGET, driven=driven,
                 tried={str(result["seed"]): result["figures"]["fmax"] for result in tried})
     if best["figures"]["fmax"] >= TARGET:
+        text = routed.verilog(routed.read(best["routed"]), design.top)
+        netlists.write(tools.FOLDER / folder / "routed.v", text)
+        driven["routed"] = drive(runner, f"board{options.elements}_routed", text)
         (best["bitstream"],) = runner.step(
             "ecppack", f"{design.name}, bitstream", f"{folder}/bitstream",
             ["--compress", "--input", str(best["placed"]), "--bit", "{folder}/ulx3s.bit"], [best["placed"]],
             ["ulx3s.bit"])
     results.append(best)
+
+
+def drive(runner, name, text):
+    """Drives a netlist of the board; what was compared. Raises Failure unless it is this text and does
+    what its source does."""
+    runner.say(f"{name}: driving the whole netlist in lockstep with its source, about {LOCKSTEP_MINUTES} min")
+    driven = comparison.drive(name, DRIVEN)
+    comparison.holds(name, [text])
+    runner.say(f"{name}: {driven}")
+    return driven
 
 
 def first_that_meets(route, seeds, at_once, target):
@@ -77,7 +88,8 @@ def first_that_meets(route, seeds, at_once, target):
 def arguments():
     parser = argparse.ArgumentParser(
         prog="./dev bitstream", description="Makes build/bitstream/BOARD.bit with Yosys, nextpnr and ecppack and"
-        " writes its figures into docs/synthesis.md. Logs and results stay in build/synth, and what has not"
+        " writes its figures into docs/synthesis.md. Before that the design is simulated in lockstep with its source,"
+        " as synthesized and as routed. Logs and results stay in build/synth, and what has not"
         " changed since is taken from there.")
     parser.add_argument("board", choices=["ulx3s"], help="ULX3S with an ECP5-85F")
     parser.add_argument("--elements", type=int, default=2, metavar="N", help="processing elements (2)")
@@ -100,8 +112,8 @@ def main():
     if options.plan:
         print(f"bitstream: {target} with {options.elements} elements: synthesis about {SYNTHESIS_MINUTES} min,"
               f" its netlist in lockstep with the source {LOCKSTEP_MINUTES} min, then up to"
-              f" {options.seeds} placements of about {SEED_MINUTES} min, {options.jobs} at a time; what has not changed"
-              " is not run again", flush=True)
+              f" {options.seeds} placements of about {SEED_MINUTES} min, {options.jobs} at a time, and the one that is"
+              f" used in lockstep with the source, {LOCKSTEP_MINUTES} min; what has not changed is not run again", flush=True)
         return 0
     runner = Runner(options.jobs, options.fresh, name="bitstream")
     runner.prepare()

@@ -1,10 +1,12 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
-NAME is KIND_FAMILY: operators, element, form_FORM, core, board1 or board2 (with so many elements); ecp5, xc7,
-xcup or words (as the front end reads the sources, before anything is mapped); or KIND_mutated, with faults put in and their list beside
-it; or KIND_misread, unmapped, of sources with an expression that Yosys reads as another one. The
-operators of a family are four modules, fp_add_netlist and so on; a form is form_netlist, and its source
-stands beside it; the others have the source's name.
+NAME is KIND_FAMILY: operators, element, form_FORM, core, board1 or board2 (with so many elements); ecp5,
+xc7, xcup or words (as the front end reads the sources, before anything is mapped); or KIND_mutated, with
+faults put in and their list beside it; or KIND_misread, unmapped, of sources with an expression that
+Yosys reads as another one; or operators_routed, as nextpnr places and routes them for ECP5, and
+operators_misrouted, with one bit of a LUT of that turned. The operators of a family are four modules,
+fp_add_netlist and so on; a form is form_netlist, and its source stands beside it; the others have the
+source's name.
 """
 
 import fcntl
@@ -13,7 +15,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from synthesis import designs, lowered, netlists
+from synthesis import designs, lowered, netlists, routed
 from synthesis.tools import FOLDER, Failure, Runner, run_command
 
 DATAPATH = designs.GENERATED / "emax_distance.sv"
@@ -43,6 +45,11 @@ def text_of(runner, name):
         design = {"operators": BENCH, "core": designs.core(1)}[kind]
         netlist, mutants = netlists.mutated(runner, design, MUTANTS, SEED)
         return {".v": netlist.read_text(), ".txt": mutants.read_text()}
+    if name in ["operators_routed", "operators_misrouted"]:
+        module = routed.read(netlists.routed(runner, BENCH))
+        if family == "misrouted":
+            routed.turn_a_bit(module)
+        return {".v": routed.verilog(module, BENCH.top)}
     if kind == "operators" and family != "misread":
         parts = [netlists.renamed(netlist_of(runner, design, family), f"{design.top}_netlist")
                  for design in designs.operators(DATAPATH, 0)]

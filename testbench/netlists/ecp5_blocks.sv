@@ -2,7 +2,8 @@
 // the attributes' description in Lattice's TN1267 (sysDSP), TN1265 (slices) and TN1264 (memories).
 /* verilator lint_off DECLFILENAME */  // several cells
 
-// 18 x 18 unsigned multiplier; each register is there when its attribute names a clock.
+// 18 x 18 unsigned multiplier; each register is there when its attribute names a clock. All of them
+// have CE0 and RST0, which is what the attributes mean where they are not given.
 /* verilator lint_off UNUSEDSIGNAL */  // what hls/rtl/ecp5 ties off
 /* verilator lint_off UNUSEDPARAM */
 module MULT18X18D #(
@@ -31,10 +32,14 @@ module MULT18X18D #(
     B17, B16, B15, B14, B13, B12, B11, B10, B9, B8, B7, B6, B5, B4, B3, B2, B1, B0
   };
   always_ff @(posedge CLK0) begin
-    a_held <= a;
-    b_held <= b;
-    middle_held <= middle;
-    product_held <= product;
+    if (RST0) begin
+      {a_held, b_held, middle_held, product_held} <= '0;
+    end else if (CE0) begin
+      a_held <= a;
+      b_held <= b;
+      middle_held <= middle;
+      product_held <= product;
+    end
   end
   logic [17:0] a_used, b_used;
   assign a_used = REG_INPUTA_CLK == "CLK0" ? a_held : a;
@@ -116,8 +121,9 @@ module DP16KD #(
         DOB0, DOB1, DOB2, DOB3, DOB4, DOB5, DOB6, DOB7, DOB8, DOB9, DOB10, DOB11, DOB12, DOB13,
         DOB14, DOB15, DOB16, DOB17
 );
-  if (DATA_WIDTH_A != 18 || DATA_WIDTH_B != 18) begin : unmodelled
-    $error("DP16KD: this model knows ports of 18 bits alone");
+  if (DATA_WIDTH_A != 18 || DATA_WIDTH_B != 18 || CSDECODE_A != "0b000"
+      || CSDECODE_B != "0b000") begin : unmodelled
+    $error("DP16KD: this model knows ports of 18 bits alone, selected by CS 000");
   end
   logic [17:0] words[1024];
   logic [17:0] word, held;
@@ -126,8 +132,11 @@ module DP16KD #(
       {ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4};
   assign read_address =
       {ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4};
+  logic writes, reads;
+  assign writes = CEA && WEA && {CSA2, CSA1, CSA0} == 0;
+  assign reads = CEB && !WEB && {CSB2, CSB1, CSB0} == 0;
   always_ff @(posedge CLKA) begin
-    if (CEA && WEA && ADA0 && ADA1) begin
+    if (writes && ADA0 && ADA1) begin
       words[write_address] <= {
         DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9, DIA8, DIA7, DIA6, DIA5,
         DIA4, DIA3, DIA2, DIA1, DIA0
@@ -135,8 +144,8 @@ module DP16KD #(
     end
   end
   always_ff @(posedge CLKB) begin
-    if (CEB) word <= CEA && WEA && write_address == read_address ? 18'h2a5a5 : words[read_address];
-    if (OCEB) held <= word;
+    if (reads) word <= writes && write_address == read_address ? 18'h2a5a5 : words[read_address];
+    if (OCEB || RSTB) held <= RSTB ? '0 : word;
   end
   assign {
     DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9, DOB8, DOB7, DOB6, DOB5, DOB4,

@@ -28,27 +28,31 @@ module L6MUX21 (
   assign Z = SD ? D1 : D0;
 endmodule
 
-// Set or reset by LSR with the clock, before the enable is looked at.
+// Set or reset by LSR with the clock, before the enable is looked at. nextpnr brings a value that is
+// not that of the LUT in front of the flip-flop to M, and SD is 0 then.
 module TRELLIS_FF #(
     parameter GSR = "ENABLED",
     parameter CEMUX = "1",
     parameter CLKMUX = "CLK",
     parameter LSRMUX = "LSR",
     parameter SRMODE = "LSR_OVER_CE",
-    parameter REGSET = "RESET"
+    parameter REGSET = "RESET",
+    parameter SD = "1"
 ) (
-    input  logic CLK, LSR, CE, DI,
+    input  logic CLK, LSR, CE, DI, M,
     output logic Q
 );
   if (GSR != "DISABLED" || CLKMUX != "CLK" || LSRMUX != "LSR" || SRMODE != "LSR_OVER_CE"
-      || (CEMUX != "1" && CEMUX != "CE" && CEMUX != "INV") || (REGSET != "SET" && REGSET != "RESET")) begin : unmodelled
+      || (CEMUX != "1" && CEMUX != "CE" && CEMUX != "INV") || (REGSET != "SET" && REGSET != "RESET")
+      || (SD != "1" && SD != "0")) begin : unmodelled
     $error("TRELLIS_FF: this model does not know these parameters");
   end
   localparam logic PRESET = REGSET == "SET";
-  logic enable;
+  logic enable, value;
   assign enable = CEMUX == "1" || (CE ^ (CEMUX == "INV"));
+  assign value = SD == "1" ? DI : M;
   initial Q = PRESET;
-  always_ff @(posedge CLK) if (LSR || enable) Q <= LSR ? PRESET : DI;
+  always_ff @(posedge CLK) if (LSR || enable) Q <= LSR ? PRESET : value;
 endmodule
 
 // LUT RAM of 16 words of 4 bits: written with the clock, read at once.

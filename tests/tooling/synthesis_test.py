@@ -1,6 +1,7 @@
 """The parts of `./dev synth` and `./dev bitstream` that need no tool: the comparison with the baseline, the steps and
 their memory, the shell, and what is read out of the tools' files. Run in a folder of its own."""
 
+import argparse
 import io
 import json
 import os
@@ -9,11 +10,12 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
 import front_ends  # noqa: E402
-from synthesis import baseline, comparison, contracts, designs, document, netlists, tools  # noqa: E402
+from synthesis import baseline, comparison, contracts, designs, document, netlists, routed, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
 
@@ -228,6 +230,14 @@ class DesignTest(unittest.TestCase):
             with self.assertRaises(ValueError):
                 netlists.renamed(self.file(wrong), "n")
 
+    def test_a_netlist_that_stands_there_is_not_written_again(self):
+        path = self.file("text")
+        os.utime(path, (0, 0))
+        netlists.write(path, "text")
+        self.assertEqual(path.stat().st_mtime, 0)
+        netlists.write(path, "other")
+        self.assertEqual(path.read_text(), "other")
+
     def test_a_source_replaced_is_read_in_its_place(self):
         source = designs.RTL / "fp_add.sv"
         design = designs.Design("d", "fp_add", 0, replaced={source: Path("other.sv")})
@@ -275,6 +285,86 @@ class DesignTest(unittest.TestCase):
         self.assertEqual(detail, {"srl": 1, "ram_luts": 4, "registered": 2, "registered_inputs": 2})
 
 
+def cell(kind, place="X1/Y2/SLICEA.K1", parameters=None, outputs=(), **connections):
+    """A cell of nextpnr's file; a net of 0 is none."""
+    direction = lambda port: ("inout" if kind == "TRELLIS_IO" and port == "B" else
+                              "output" if port in outputs else "input")
+    return {"type": kind, "parameters": parameters or {}, "attributes": {"NEXTPNR_BEL": place},
+            "port_directions": {port: direction(port) for port in connections},
+            "connections": {port: [net] if net else [] for port, net in connections.items()}}
+
+
+class RoutedTest(unittest.TestCase):
+    """An inverter between two pins, as nextpnr writes it."""
+
+    def setUp(self):
+        self.module = {
+            "ports": {"a": {"direction": "input", "bits": [1]}, "q": {"direction": "output", "bits": [2, 3]}},
+            "netnames": {"a": {"bits": [1]}, "lost": {"bits": [9]}},
+            "cells": {
+                "a$tr_io": cell("TRELLIS_IO", parameters={"DIR": "INPUT"}, outputs=["O"], B=1, I=0, T=0, O=4),
+                "q$tr_io": cell("TRELLIS_IO", parameters={"DIR": "OUTPUT"}, outputs=["O"], B=2, I=5, T=0, O=0),
+                "r$tr_io": cell("TRELLIS_IO", parameters={"DIR": "OUTPUT"}, outputs=["O"], B=3, I=4, T=0, O=0),
+                "lut": cell("TRELLIS_COMB", parameters={"INITVAL": "0101010101010101"}, outputs=["F"], A=4, B=0, F=5),
+                "place": cell("TRELLIS_COMB", parameters={"MODE": "RAMW_BLOCK"}, outputs=["F"], A=0, F=0)}}
+
+    def text(self):
+        return routed.verilog(self.module, "top")
+
+    def test_a_design_keeps_its_ports(self):
+        self.assertEqual(self.text(), """module top (input a, output [1:0] q);
+  wire n4;
+  wire n5;
+  TRELLIS_IO #(.DIR("INPUT")) c0 (.B(a), .I(1'bx), .T(1'b0), .O(n4));  // a$tr_io
+  TRELLIS_IO #(.DIR("OUTPUT")) c1 (.B_OUT(q[0]), .I(n5), .T(1'b0));  // q$tr_io
+  TRELLIS_IO #(.DIR("OUTPUT")) c2 (.B_OUT(q[1]), .I(n4), .T(1'b0));  // r$tr_io
+  TRELLIS_COMB #(.INITVAL(16'b0101010101010101), .HALF("K1")) c3 (.A(n4), .B(1'b0), .F(n5));  // lut
+endmodule
+""")
+
+    def test_a_net_has_one_driver(self):
+        for change, complaint in [({"A": [9]}, "no driver of lost"), ({"F": [1]}, "two drivers of a"),
+                                  ({"F": [4]}, "two drivers of 4"), ({"F": []}, "no driver of 5")]:
+            with self.subTest(change), self.assertRaisesRegex(tools.Failure, complaint):
+                self.setUp()
+                self.module["cells"]["lut"]["connections"].update(change)
+                self.text()
+        self.setUp()
+        del self.module["cells"]["r$tr_io"]
+        with self.assertRaisesRegex(tools.Failure, "no driver of 3"):
+            self.text()
+
+    def test_an_input_without_a_net_has_the_fabrics_value(self):
+        for kind, parameters, port, expected in [
+                ("TRELLIS_COMB", {}, "A", "0"), ("TRELLIS_COMB", {"MODE": "CCU2"}, "C", "1"),
+                ("TRELLIS_COMB", {"MODE": "CCU2"}, "FCI", "x"), ("TRELLIS_FF", {"LSRMUX": "LSR"}, "LSR", "0"),
+                ("TRELLIS_FF", {"LSRMUX": "INV"}, "LSR", "x"), ("TRELLIS_FF", {}, "CE", "x"),
+                ("DCCA", {}, "CE", "1"), ("MULT18X18D", {"A3MUX": "1 "}, "A3", "1"), ("MULT18X18D", {}, "B3", "0"),
+                ("MULT18X18D", {}, "CE0", "x"), ("MULT18X18D", {}, "C12", None), ("MULT18X18D", {}, "SRIA0", None),
+                ("DP16KD", {"ADA0MUX": "1 "}, "ADA0", "1"), ("DP16KD", {}, "ADB0", "0"), ("DP16KD", {}, "WEA", "0"),
+                ("DP16KD", {"WEAMUX": "WEA"}, "WEA", "1"), ("DP16KD", {}, "CEA", "1"), ("DP16KD", {}, "OCEB", "1"),
+                ("DP16KD", {"OCEBMUX": "INV"}, "OCEB", "0"), ("DP16KD", {}, "CSB2", "0"),
+                ("DP16KD", {}, "DIB0", None)]:
+            with self.subTest((kind, parameters, port)):
+                self.assertEqual(routed.tied(kind, parameters, port), expected)
+
+    def test_a_multiplexer_is_left_to_the_model_where_a_net_reaches_it(self):
+        for net, expected in [(0, "DP16KD #() c0 (.WEA(1'b1));"), (4, 'DP16KD #(.WEAMUX("INV")) c0 (.WEA(n4));')]:
+            parameters = {"WEAMUX": "INV" if net else "WEA"}
+            nets = routed.Nets(self.module)
+            self.assertIn(expected, routed.instance(0, "m", cell("DP16KD", parameters=parameters, WEA=net), nets))
+
+    def test_words_that_look_like_bits_are_words(self):
+        for text, expected in [("0110", "4'b0110"), ("1 ", '"1"'), ("NONE", '"NONE"'), ("0b000", '"0b000"'),
+                               ("x ", '"x"')]:
+            self.assertEqual(routed.value(text), expected)
+
+    def test_one_bit_of_the_smallest_lut_is_turned(self):
+        self.module["cells"]["wide"] = cell("TRELLIS_COMB", parameters={"INITVAL": "0" * 16}, A=4, B=5)
+        self.assertEqual(routed.turn_a_bit(self.module), "lut")
+        self.assertEqual(self.module["cells"]["lut"]["parameters"]["INITVAL"], "0101010101010100")
+
+
 class DocumentTest(unittest.TestCase):
     def test_a_missed_target_is_written_as_such(self):
         result = {"figures": FIGURES["element: e"], "cells": 1100, "target": 176.0, "seed": 2, "tried": {"1": 170.0, "2": 175.0},
@@ -285,10 +375,12 @@ class DocumentTest(unittest.TestCase):
         self.assertIn("175 met", document.tables({"element": {"e": {**result, "target": 175.0}}}))
 
     def test_the_boards_section_is_the_pages_last_and_stands_once(self):
-        board = {"driven": "fuzz: 3 answers right", "figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
+        board = {"driven": {"synthesized": "fuzz: 3 answers right", "routed": "fuzz: 4 answers right"},
+                 "figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
                  "target": 120.0, "seed": 3, "tried": {"1": 110.0, "3": 121.0}}
         section = document.board_section(board, {"yosys": "1"})
         self.assertIn("Clock: 121.0 MHz, target 120 MHz met, seed 3 (tried 1: 110.0 MHz, 3: 121.0 MHz).", section)
+        self.assertIn("as synthesized, fuzz: 3 answers right; as routed, fuzz: 4 answers right.", section)
         self.assertRegex(section, r"\| LUT +\| 41,820 \| 83,640 \| 50% +\|")
         self.assertIn("missed", document.board_section({**board, "target": 122.0}, {}))
         page = document.with_board("# Synthesis\n\ntext\n", section)
@@ -300,6 +392,43 @@ class DocumentTest(unittest.TestCase):
 
 
 class BitstreamTest(unittest.TestCase):
+    def steps(self, fmax, refused=None):
+        """What is done for a bitstream, of tools and netlists driven, where that netlist is refused."""
+        done = []
+
+        class Steps:
+            say = staticmethod(lambda text: None)
+
+            def step(self, tool, title, folder, arguments, inputs, outputs):
+                done.append(tool)
+                return [Path(output) for output in outputs]
+
+        def drive(name, arguments):
+            done.append(name)
+            if name == refused:
+                raise tools.Failure(f"{name} is refused")
+            return "driven"
+
+        options = argparse.Namespace(elements=1, first_seed=1, seeds=1, jobs=1)
+        with (mock.patch.object(bitstream.netlists, "renamed"), mock.patch.object(bitstream.netlists, "write"),
+              mock.patch.object(bitstream.comparison, "drive", drive), mock.patch.object(bitstream.comparison, "holds"),
+              mock.patch.object(bitstream, "routed"),
+              mock.patch.object(bitstream.designs, "board_figures", lambda *_: ({"fmax": fmax}, {}))):
+            self.addCleanup(os.chdir, os.getcwd())
+            os.chdir(Path(__file__).resolve().parents[2])
+            try:
+                bitstream.build(Steps(), options, [])
+            except tools.Failure:
+                done.append("refused")
+        return done
+
+    def test_a_bitstream_is_of_what_was_driven(self):
+        self.assertEqual(self.steps(130.0), ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "ecppack"])
+        self.assertEqual(self.steps(130.0, "board1_ecp5"), ["yosys", "board1_ecp5", "refused"])
+        self.assertEqual(self.steps(130.0, "board1_routed"),
+                         ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "refused"])
+        self.assertEqual(self.steps(110.0), ["yosys", "board1_ecp5", "nextpnr"])
+
     def tried(self, clocks, at_once, target=120.0):
         route = lambda seed: {"seed": seed, "figures": {"fmax": clocks[seed - 1]}}
         seeds = range(1, len(clocks) + 1)

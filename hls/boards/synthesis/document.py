@@ -95,7 +95,7 @@ written these were simulated and driven with the stimuli of the sources' co-simu
 
 {table}
 
-The design as nextpnr routes it was not simulated.
+These designs were not simulated as nextpnr routes them.
 """
 
 
@@ -128,7 +128,8 @@ def board_section(result, versions):
         "Written by `./dev bitstream ulx3s`; never edit. The whole design, UART, link and core"
         f" (elements: {result['elements']}) on ECP5-85F, speed 6, placed and routed with the board's pins; not yet run on a"
         f" board. Tools: {tools}.",
-        f"Simulated in lockstep with its source before it was written: {result['driven']}.",
+        "Simulated in lockstep with its source before it was written: "
+        + "; ".join(f"as {stage}, {verdict}" for stage, verdict in result["driven"].items()) + ".",
         f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}"
         f" (tried {seeds}).",
         table(["resource", "used", "there", "share"], rows),

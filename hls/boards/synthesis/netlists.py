@@ -55,6 +55,17 @@ def xilinx(runner, design, family):
                        ["netlist.json", "netlist.v"])
 
 
+def routed(runner, design):
+    """A design without a shell, placed and routed with its pins in the smallest ECP5, for simulation: the
+    path of nextpnr's file of it (synthesis/routed.py)."""
+    netlist, _ = ecp5_top(runner, design)
+    (placed,) = runner.step("nextpnr", f"{design.name}, place and route", f"ecp5/{slug(design.name)}/routed",
+                            ["--25k", "--package", "CABGA381", "--lpf-allow-unconstrained", "--timing-allow-fail",
+                             "--seed", "1", "--json", str(netlist), "--write", "{folder}/routed.json"],
+                            [netlist], ["routed.json"])
+    return placed
+
+
 def words(runner, design):
     """The design as the front end reads it, for simulation."""
     (netlist,) = runner.step("yosys", f"{design.name}, read", f"words/{slug(design.name)}",
@@ -82,3 +93,9 @@ def renamed(netlist, name):
     if count != 1:
         raise ValueError(f"{netlist} holds {count} modules, not one")
     return text
+
+
+def write(path, text):
+    """Writes the text unless it stands there: what is built of it is then not built again."""
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
