@@ -44,7 +44,8 @@ verb_prove() {
 }
 
 verb_bitstream() {
-  verb_setup synth
+  verb_setup kernel synth
   synthesis_tools hls/boards/bitstream.py "$@"
+  verb_build kernel emax_lower
   exec build/python/bin/python -B hls/boards/bitstream.py "$@"
 }
