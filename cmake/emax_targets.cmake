@@ -48,7 +48,7 @@ function(emax_library target room)
   target_link_libraries(${target} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
 endfunction()
 
-# emax_test(<name> SOURCES ... LINKS ... [LABELS ...]): one GoogleTest program, one ctest entry a test.
+# emax_test(<name> SOURCES ... LINKS ... [TIMEOUT <seconds>]): one GoogleTest program, one ctest entry a test.
 function(emax_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
