@@ -307,7 +307,8 @@ def details(store):
 def section(store, plots):
     results = list(store.results.values())
     versions = {result["name"].split(",")[0]: result["version"] for result in results if "version" in result}
-    seconds = sum(result.get("all_seconds", result.get("seconds", 0)) for result in results)
+    seconds = sum(result.get("all_seconds", result.get("seconds", 0)) for result in results
+                  if result["key"][-1] != THIRD)
     parts = ["## Decimation\n",
              EXPLAINED,
              f"{machine()}; " + ", ".join(f"{name} {version}" for name, version in sorted(versions.items())) +

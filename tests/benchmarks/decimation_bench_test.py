@@ -55,6 +55,7 @@ class DecimationBenchTest(DocumentsCase):
         self.put("fandisk", 0.1, bench.THIRD,
                  {"seconds": [3, 2.9, 3.2], "without": [2.4, 2.3, 2.5], "share": [0.25, 0.2, 0.3]})
         self.assertIn("fandisk at 0.1 % 20 % (17–23) of 3.00 s", bench.third(self.store))
+        self.assertIn("0 minutes of the tools' own time", bench.section(self.store, []))
 
     def test_what_was_not_measured_is_named(self):
         for scan, bounds in bench.BOUNDS.items():
