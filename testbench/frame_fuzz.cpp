@@ -174,9 +174,8 @@ int run(std::uint64_t frames, std::uint64_t blocks, std::uint64_t seed) {
       // Most of them are taken, one after the other.
       if (!random.one_in(8)) ++turn;
     }
-    host.reset(++session);
     for (std::uint64_t i = 0; i < blocks; ++i) {
-      if (i > 0) host.reset(++session);
+      host.reset(++session);
       const auto block = any_block(random);
       const auto expected = answers_of_kernel(block);
       ++(host.ask(block, expected.size()) == expected ? right : wrong);

@@ -75,9 +75,7 @@ def main():
         runner.prepare()
         for name in names:
             for suffix, text in text_of(runner, name).items():
-                path = folder / f"{name}{suffix}"
-                if not path.exists() or path.read_text() != text:  # else what is made of it stands
-                    path.write_text(text)
+                netlists.write(folder / f"{name}{suffix}", text)
     return 0
 
 
