@@ -53,7 +53,7 @@ function(emax_verilated target)
 endfunction()
 
 # Verilator adds its runtime to every library; those that are alike in TRACE and COVERAGE share one,
-# which prints only the first messages of failed assertions (testbench/verilator_messages.h).
+# which prints only the first messages of failed assertions (testbench/verilator/verilator_messages.h).
 function(emax_share_runtime target)
   set(library emax_verilator_runtime)
   set(macros)
@@ -79,9 +79,9 @@ function(emax_share_runtime target)
     target_compile_definitions(${library} PUBLIC ${macros} PRIVATE VM_SC=0)
     target_compile_options(${library} PRIVATE -O2)
     # What it prints is limited.
-    set(messages ${PROJECT_SOURCE_DIR}/testbench/verilator_messages)
+    set(messages ${PROJECT_SOURCE_DIR}/testbench/verilator/verilator_messages)
     target_sources(${library} PRIVATE ${messages}.cpp)
-    target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR})
+    emax_export_room(${library} PUBLIC testbench/verilator)
     target_compile_options(${library} PRIVATE -include ${messages}.h)
     target_compile_definitions(${library} PRIVATE VL_PRINTF=emax_verilator_printf)
     if(library MATCHES trace)

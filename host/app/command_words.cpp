@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "host/app/option_checks.h"
-#include "host/geometry/input_file.h"
-#include "sw_model/error.h"
+#include "host/files/input_file.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -9,16 +9,16 @@
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
 #include "host/decimate/certified_decimation.h"
-#include "host/decimate/close_holes.h"
-#include "host/decimate/manifold_part.h"
-#include "host/geometry/atomic_file.h"
+#include "host/files/atomic_file.h"
+#include "host/files/sha256.h"
+#include "host/files/tolerance.h"
 #include "host/geometry/merge_vertices.h"
-#include "host/geometry/sha256.h"
-#include "host/geometry/tolerance.h"
-#include "host/optimize/error_constraint.h"
+#include "host/measure/error_constraint.h"
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
-#include "sw_model/error.h"
+#include "host/surface/close_holes.h"
+#include "host/surface/manifold_part.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

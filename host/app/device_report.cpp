@@ -7,7 +7,7 @@
 
 #include "host/app/interrupt.h"
 #include "host/app/scan.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "host/optimize/error_constraint.h"
-#include "sw_model/cycle_model.h"
-#include "sw_model/device.h"
+#include "host/measure/error_constraint.h"
+#include "sw_model/protocol/cycle_model.h"
+#include "sw_model/protocol/device.h"
 
 namespace emax {
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "host/geometry/atomic_file.h"
-#include "sw_model/error.h"
+#include "host/files/atomic_file.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -19,13 +19,13 @@
 #include "host/app/json_output.h"
 #include "host/app/option_checks.h"
 #include "host/app/standard_streams.h"
-#include "host/decimate/chain_parameters.h"
+#include "host/block_search/block_search.h"
+#include "host/config/config.h"
 #include "host/device/device_address.h"
-#include "host/emax_search/emax_search.h"
-#include "host/geometry/input_file.h"
-#include "host/optimize/config.h"
-#include "sw_model/error.h"
-#include "sw_model/self_test.h"
+#include "host/files/input_file.h"
+#include "host/parameters/chain_parameters.h"
+#include "sw_model/base/error.h"
+#include "sw_model/model/self_test.h"
 
 namespace emax {
 namespace {

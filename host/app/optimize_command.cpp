@@ -15,17 +15,17 @@
 #include "host/app/result_files.h"
 #include "host/app/run_identity.h"
 #include "host/app/standard_streams.h"
-#include "host/geometry/atomic_file.h"
+#include "host/files/atomic_file.h"
+#include "host/files/sha256.h"
+#include "host/files/tolerance.h"
 #include "host/geometry/mesh_validity.h"
-#include "host/geometry/sha256.h"
-#include "host/geometry/tolerance.h"
 #include "host/optimize/optimize.h"
 #include "host/optimize/run_bound.h"
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
-#include "sw_model/error.h"
-#include "sw_model/parallel.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
+#include "sw_model/certify/surface_distance.h"
 
 namespace emax {
 namespace {

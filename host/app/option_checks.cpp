@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "host/geometry/number_text.h"
+#include "host/files/number_text.h"
 
 namespace emax {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "host/app/reference_text.h"
-#include "host/geometry/mesh_file.h"
-#include "host/geometry/sha256.h"
-#include "sw_model/error.h"
-#include "sw_model/parallel.h"
-#include "sw_model/surface_distance.h"
+#include "host/files/mesh_file.h"
+#include "host/files/sha256.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
+#include "sw_model/certify/surface_distance.h"
 
 namespace emax {
 namespace {

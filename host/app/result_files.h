@@ -7,7 +7,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/scan.h"
-#include "host/geometry/atomic_file.h"
+#include "host/files/atomic_file.h"
 #include "host/optimize/optimize.h"
 #include "host/report/certificate_file.h"
 

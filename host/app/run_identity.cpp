@@ -6,9 +6,9 @@
 #include <iterator>
 
 #include "hls/kernel/command_words.h"
-#include "host/geometry/input_file.h"
-#include "host/geometry/mesh_file.h"
-#include "host/geometry/sha256.h"
+#include "host/files/input_file.h"
+#include "host/files/mesh_file.h"
+#include "host/files/sha256.h"
 
 namespace emax {
 namespace {

@@ -7,15 +7,15 @@
 #include <cstdio>
 #include <iterator>
 
-#include "host/geometry/atomic_file.h"
+#include "host/files/atomic_file.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/cloud_file.h"
 #include "host/geometry/exact_predicates.h"
 #include "host/geometry/merge_vertices.h"
-#include "host/geometry/mesh_file.h"
 #include "host/report/certificate_file.h"
-#include "sw_model/error.h"
-#include "sw_model/parallel.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 

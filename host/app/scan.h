@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "host/device/device_address.h"
-#include "host/emax_search/error_engine.h"
+#include "host/engine/error_engine.h"
+#include "host/files/tolerance.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
-#include "host/geometry/tolerance.h"
 #include "host/geometry/triangle_mesh.h"
-#include "sw_model/certificate.h"
+#include "sw_model/certify/certificate.h"
 
 namespace emax {
 

@@ -7,15 +7,15 @@
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
-#include "host/decimate/decimation_bound.h"
-#include "host/geometry/atomic_file.h"
-#include "host/geometry/mesh_file.h"
-#include "host/geometry/sha256.h"
+#include "host/files/atomic_file.h"
+#include "host/files/mesh_file.h"
+#include "host/files/sha256.h"
+#include "host/parameters/decimation_bound.h"
 #include "host/report/certificate_file.h"
 #include "host/report/verification_json.h"
-#include "sw_model/error.h"
-#include "sw_model/parallel.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
+#include "sw_model/certify/surface_distance.h"
 
 namespace emax {
 namespace {

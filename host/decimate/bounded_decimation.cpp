@@ -7,10 +7,10 @@
 
 #include "host/decimate/decimation_passes.h"
 #include "host/decimate/far_points.h"
-#include "host/decimate/manifold_part.h"
 #include "host/decimate/spatial_order.h"
 #include "host/geometry/bounds.h"
-#include "sw_model/error.h"
+#include "host/surface/manifold_part.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -4,10 +4,10 @@
 #include <span>
 
 #include "host/decimate/bounded_decimation.h"
-#include "host/geometry/mesh_file.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/mesh_validity.h"
-#include "sw_model/certificate.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
 
 namespace emax {
 

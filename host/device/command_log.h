@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sw_model/commands.h"
+#include "sw_model/protocol/commands.h"
 
 namespace emax {
 

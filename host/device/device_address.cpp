@@ -7,8 +7,8 @@
 #include "host/device/link_device.h"
 #include "host/device/queued_device.h"
 #include "host/device/xrt_device.h"
-#include "sw_model/cpp_device.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
+#include "sw_model/protocol/cpp_device.h"
 #include "testbench/core/rtl_device.h"
 
 namespace emax {

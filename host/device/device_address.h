@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "host/block_search/evaluator.h"
 #include "host/device/serial_channel.h"
-#include "host/emax_search/evaluator.h"
-#include "sw_model/cycle_model.h"
+#include "sw_model/protocol/cycle_model.h"
 
 namespace emax {
 

@@ -1,7 +1,7 @@
 #include "host/device/device_evaluator.h"
 
-#include "sw_model/commands.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
+#include "sw_model/protocol/commands.h"
 
 namespace emax {
 

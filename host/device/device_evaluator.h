@@ -3,8 +3,8 @@
 #include <deque>
 #include <memory>
 
-#include "host/emax_search/evaluator.h"
-#include "sw_model/device.h"
+#include "host/block_search/evaluator.h"
+#include "sw_model/protocol/device.h"
 
 namespace emax {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "host/device/command_log.h"
-#include "sw_model/byte_channel.h"
-#include "sw_model/device.h"
-#include "sw_model/frames.h"
+#include "sw_model/protocol/byte_channel.h"
+#include "sw_model/protocol/device.h"
+#include "sw_model/protocol/frames.h"
 
 namespace emax {
 

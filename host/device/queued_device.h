@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "sw_model/commands.h"
-#include "sw_model/device.h"
+#include "sw_model/protocol/commands.h"
+#include "sw_model/protocol/device.h"
 
 namespace emax {
 

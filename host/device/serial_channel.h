@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sw_model/byte_channel.h"
+#include "sw_model/protocol/byte_channel.h"
 
 namespace emax {
 

@@ -11,7 +11,7 @@
 
 #include "hls/boards/alveo/movers.h"
 #include "host/device/xrt_device.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -1,5 +1,5 @@
 #include "host/device/xrt_device.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "host/genocop/ranking.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

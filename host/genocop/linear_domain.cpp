@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sw_model/mesh_view.h"
+#include "sw_model/base/mesh_view.h"
 
 namespace emax {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "sw_model/mesh_view.h"
+#include "sw_model/base/mesh_view.h"
 
 namespace emax {
 

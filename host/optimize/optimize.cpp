@@ -6,8 +6,8 @@
 
 #include "host/genocop/look_ahead_scheduler.h"
 #include "host/optimize/search_result.h"
-#include "host/worker/worker_pool.h"
-#include "sw_model/error.h"
+#include "host/worker_pool/worker_pool.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -9,15 +9,15 @@
 #include <optional>
 #include <string>
 
-#include "host/decimate/chain_parameters.h"
-#include "host/decimate/decimation_bound.h"
+#include "host/config/config.h"
+#include "host/files/mesh_file.h"
 #include "host/genocop/genocop.h"
-#include "host/geometry/mesh_file.h"
-#include "host/optimize/config.h"
-#include "host/optimize/error_constraint.h"
+#include "host/measure/error_constraint.h"
 #include "host/optimize/evaluation_limits.h"
+#include "host/parameters/chain_parameters.h"
+#include "host/parameters/decimation_bound.h"
 #include "host/run_log/run_log.h"
-#include "host/worker/worker_pool.h"
+#include "host/worker_pool/worker_pool.h"
 
 namespace emax {
 

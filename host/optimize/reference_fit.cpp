@@ -7,16 +7,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/decimate/close_holes.h"
-#include "host/decimate/cracks.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/disjoint_sets.h"
 #include "host/geometry/mesh_topology.h"
-#include "host/reconstruct/outward.h"
-#include "host/reconstruct/reconstruction_parameters.h"
-#include "host/worker/worker_pool.h"
-#include "sw_model/error.h"
-#include "sw_model/exact_distance.h"
+#include "host/parameters/reconstruction_parameters.h"
+#include "host/surface/close_holes.h"
+#include "host/surface/cracks.h"
+#include "host/surface/outward.h"
+#include "host/worker_pool/worker_pool.h"
+#include "sw_model/base/error.h"
+#include "sw_model/certify/exact_distance.h"
 
 namespace emax {
 namespace {

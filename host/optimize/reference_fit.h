@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "host/decimate/chain_parameters.h"
-#include "host/decimate/close_holes.h"
-#include "host/decimate/crack_free.h"
 #include "host/geometry/mesh_topology.h"
+#include "host/geometry/scan_estimate.h"
 #include "host/optimize/optimize.h"
-#include "host/reconstruct/scan_estimate.h"
+#include "host/parameters/chain_parameters.h"
+#include "host/surface/close_holes.h"
+#include "host/surface/crack_free.h"
 
 namespace emax {
 

@@ -1,7 +1,7 @@
 #include "host/optimize/run_bound.h"
 
 #include "host/decimate/bounded_decimation.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 

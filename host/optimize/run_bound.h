@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "host/decimate/decimation_bound.h"
 #include "host/optimize/optimize.h"
 #include "host/optimize/reference_fit.h"
+#include "host/parameters/decimation_bound.h"
 
 namespace emax {
 

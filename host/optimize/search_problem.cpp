@@ -2,6 +2,7 @@
 #include <array>
 
 #include "host/optimize/optimize.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "host/genocop/problem.h"
-#include "host/optimize/error_constraint.h"
+#include "host/measure/error_constraint.h"
 #include "host/optimize/reduction_walk.h"
 #include "host/run_log/run_log.h"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/mesh_orientation.h"
 #include "host/reconstruct/methods.h"
+#include "host/surface/mesh_orientation.h"
 
 namespace emax {
 namespace {

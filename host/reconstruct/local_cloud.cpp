@@ -11,7 +11,7 @@
 #include <numeric>
 
 #include "host/reconstruct/orient_normals.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

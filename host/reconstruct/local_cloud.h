@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "host/parameters/parameter_spec.h"
-#include "sw_model/mesh_view.h"
-#include "sw_model/normalization.h"
+#include "sw_model/base/mesh_view.h"
+#include "sw_model/model/normalization.h"
 
 namespace emax {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/parameters/parameter_spec.h"
-#include "sw_model/mesh_view.h"
+#include "sw_model/base/mesh_view.h"
 
 namespace emax {
 

@@ -4,11 +4,11 @@
 
 #include <Eigen/Geometry>
 
+#include "host/parameters/reconstruction_parameters.h"
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/mesh_orientation.h"
 #include "host/reconstruct/methods.h"
-#include "host/reconstruct/reconstruction_parameters.h"
-#include "sw_model/error.h"
+#include "host/surface/mesh_orientation.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -3,9 +3,9 @@
 #include <charconv>
 
 #include "hls/kernel/command_words.h"
-#include "host/geometry/input_file.h"
+#include "host/files/input_file.h"
 #include "host/report/json_parts.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

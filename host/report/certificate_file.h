@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "host/decimate/chain_parameters.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
-#include "sw_model/certificate.h"
-#include "sw_model/emax_model.h"
-#include "sw_model/normalization.h"
+#include "host/parameters/chain_parameters.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/model/emax_model.h"
+#include "sw_model/model/normalization.h"
 
 namespace emax {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "host/geometry/atomic_file.h"
+#include "host/files/atomic_file.h"
 
 namespace emax {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "host/geometry/mesh_topology.h"
 #include "host/report/error_statistics.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/surface_distance.h"
 
 namespace emax {
 

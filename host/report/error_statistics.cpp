@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/emax_search/nearest_rank.h"
+#include "host/engine/nearest_rank.h"
 
 namespace emax {
 namespace {

@@ -7,9 +7,9 @@
 #include "host/geometry/mesh_validity.h"
 #include "host/report/certificate_file.h"
 #include "host/report/error_report.h"
-#include "sw_model/certificate.h"
-#include "sw_model/device.h"
-#include "sw_model/normalization.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/model/normalization.h"
+#include "sw_model/protocol/device.h"
 
 namespace emax {
 

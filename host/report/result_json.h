@@ -7,12 +7,12 @@
 
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
-#include "host/optimize/error_constraint.h"
+#include "host/measure/error_constraint.h"
 #include "host/report/certificate_file.h"
 #include "host/report/error_report.h"
-#include "sw_model/certificate.h"
-#include "sw_model/cycle_model.h"
-#include "sw_model/device.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/protocol/cycle_model.h"
+#include "sw_model/protocol/device.h"
 
 namespace emax {
 

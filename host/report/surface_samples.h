@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sw_model/mesh_view.h"
+#include "sw_model/base/mesh_view.h"
 
 namespace emax {
 

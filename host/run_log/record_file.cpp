@@ -13,8 +13,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "sw_model/error.h"
-#include "sw_model/frames.h"
+#include "sw_model/base/crc32.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "host/geometry/atomic_file.h"
-#include "host/geometry/mesh_file.h"
-#include "sw_model/error.h"
-#include "sw_model/frames.h"
+#include "host/files/atomic_file.h"
+#include "host/files/mesh_file.h"
+#include "sw_model/base/crc32.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace fs = std::filesystem;

@@ -15,12 +15,12 @@
 #include <string_view>
 #include <thread>
 
-#include "host/decimate/chain.h"
-#include "host/worker/message.h"
+#include "host/chain/chain.h"
 #include "host/worker/test_methods.h"
-#include "host/worker/worker_process.h"
-#include "sw_model/error.h"
-#include "sw_model/self_test.h"
+#include "host/worker_pool/message.h"
+#include "host/worker_pool/worker_process.h"
+#include "sw_model/base/error.h"
+#include "sw_model/model/self_test.h"
 
 namespace emax {
 namespace {

@@ -1,8 +1,8 @@
 #include "testbench/core/core_driver.h"
 
 #include "hls/kernel/emax_kernel.h"
-#include "sw_model/error.h"
-#include "sw_model/flushed_float.h"
+#include "sw_model/base/error.h"
+#include "sw_model/model/flushed_float.h"
 
 namespace emax {
 namespace {

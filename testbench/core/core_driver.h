@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "testbench/core/core_simulation.h"
-#include "testbench/stream_pattern.h"
+#include "testbench/stimuli/stream_pattern.h"
 
 namespace emax {
 

@@ -1,8 +1,8 @@
 #include "testbench/core/core_stimuli.h"
 
-#include "sw_model/commands.h"
-#include "sw_model/triangle_frame.h"
-#include "testbench/stimuli.h"
+#include "sw_model/model/triangle_frame.h"
+#include "sw_model/protocol/commands.h"
+#include "testbench/stimuli/stimuli.h"
 
 namespace emax::test {
 

@@ -7,7 +7,7 @@
 #include "hls/kernel/scalar.h"
 #include "hls/kernel/triangle_record.h"
 #include "hls/kernel/word.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax::test {
 

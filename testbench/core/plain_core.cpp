@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 #include "testbench/core/rtl_device.h"
 #include "testbench/core/verilated_core.h"
 

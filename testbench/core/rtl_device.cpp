@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "sw_model/device.h"
+#include "sw_model/protocol/device.h"
 #include "testbench/core/core_simulation.h"
 
 namespace emax {

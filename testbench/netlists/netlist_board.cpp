@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string>
 
-#include "sw_model/error.h"
-#include "testbench/verilated_board.h"
+#include "sw_model/base/error.h"
+#include "testbench/board/verilated_board.h"
 
 namespace emax {
 namespace {

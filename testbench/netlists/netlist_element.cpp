@@ -6,8 +6,8 @@
 
 #include <cstdio>
 
-#include "testbench/cosimulation.h"
-#include "testbench/verilated_element.h"
+#include "testbench/cosimulation/cosimulation.h"
+#include "testbench/element/verilated_element.h"
 
 int main() {
   const emax::ElementFactory make = [](std::uint32_t) {

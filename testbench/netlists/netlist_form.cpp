@@ -8,7 +8,7 @@
 #include <bit>
 #include <cstdio>
 
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "testbench/operators/operator_cosim.h"
 #include "testbench/operators/verilated_operators.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

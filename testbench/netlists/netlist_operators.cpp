@@ -11,7 +11,7 @@
 
 #include "testbench/operators/operator_cosim.h"
 #include "testbench/operators/verilated_operators.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 int main(int argc, char** argv) {
   const std::uint64_t pairs = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 300'000;

@@ -4,7 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 

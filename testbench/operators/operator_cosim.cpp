@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "sw_model/float_bits.h"
+#include "sw_model/base/float_bits.h"
 #include "testbench/operators/operator_stimuli.h"
 #include "testbench/operators/operator_tests.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

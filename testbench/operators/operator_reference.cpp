@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sw_model/float_bits.h"
-#include "sw_model/flush_mode.h"
+#include "sw_model/base/float_bits.h"
+#include "sw_model/base/flush_mode.h"
 
 namespace emax {
 namespace {

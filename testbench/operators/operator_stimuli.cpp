@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sw_model/float_bits.h"
+#include "sw_model/base/float_bits.h"
 
 namespace emax {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "testbench/operators/operator_unit.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 

@@ -6,7 +6,7 @@
 
 #include <verilated.h>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 #include "testbench/operators/operator_unit.h"
 #if VM_COVERAGE
 #include <verilated_cov.h>

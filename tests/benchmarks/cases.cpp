@@ -7,13 +7,13 @@
 #include <functional>
 #include <numbers>
 
-#include "host/decimate/chain.h"
-#include "host/decimate/decimate.h"
+#include "host/chain/chain.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
-#include "host/reconstruct/reconstruction_parameters.h"
-#include "sw_model/error.h"
+#include "host/parameters/reconstruction_parameters.h"
+#include "host/vtk_stages/vtk_stages.h"
+#include "sw_model/base/error.h"
 #include "tests/benchmarks/quadric.h"
 #include "tests/support/stimuli.h"
 

@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "sw_model/error.h"
-#include "sw_model/matrix_free.h"
+#include "sw_model/base/error.h"
+#include "sw_model/certify/matrix_free.h"
 
 namespace emax::benchmarks {
 namespace {

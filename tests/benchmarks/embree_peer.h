@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "sw_model/mesh_view.h"
-#include "sw_model/normalization.h"
+#include "sw_model/base/mesh_view.h"
+#include "sw_model/model/normalization.h"
 
 namespace emax::benchmarks {
 

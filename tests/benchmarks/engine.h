@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/emax_search/error_engine.h"
+#include "host/engine/error_engine.h"
 
 namespace emax::benchmarks {
 

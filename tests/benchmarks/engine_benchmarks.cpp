@@ -3,7 +3,7 @@
 #include <deque>
 #include <memory>
 
-#include "host/emax_search/mesh_batch.h"
+#include "host/engine/mesh_batch.h"
 #include "tests/benchmarks/embree_peer.h"
 #include "tests/benchmarks/engine.h"
 #include "tests/benchmarks/groups.h"

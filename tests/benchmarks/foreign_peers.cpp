@@ -7,8 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/geometry/atomic_file.h"
-#include "sw_model/error.h"
+#include "host/files/atomic_file.h"
+#include "sw_model/base/error.h"
 
 namespace emax::benchmarks {
 namespace {

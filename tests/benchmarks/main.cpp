@@ -7,7 +7,7 @@
 #include <iostream>
 #include <vector>
 
-#include "host/geometry/atomic_file.h"
+#include "host/files/atomic_file.h"
 #include "tests/benchmarks/foreign_peers.h"
 #include "tests/benchmarks/report.h"
 

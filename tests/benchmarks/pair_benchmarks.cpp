@@ -5,10 +5,10 @@
 
 #include "hls/kernel/forms/three_edge.h"
 #include "hls/kernel/reduce.h"
-#include "host/emax_search/prepared_cloud.h"
-#include "sw_model/emax_simd.h"
-#include "sw_model/matrix_free.h"
-#include "sw_model/triangle_frame.h"
+#include "host/engine/prepared_cloud.h"
+#include "sw_model/certify/matrix_free.h"
+#include "sw_model/model/triangle_frame.h"
+#include "sw_model/simd/emax_simd.h"
 #include "tests/benchmarks/groups.h"
 #include "tests/support/stimuli.h"
 

@@ -4,9 +4,9 @@
 #include <vtkNew.h>
 #include <vtkQuadricDecimation.h>
 
-#include "host/decimate/vtk_mesh.h"
 #include "host/geometry/bounds.h"
-#include "host/reconstruct/mesh_orientation.h"
+#include "host/surface/mesh_orientation.h"
+#include "host/vtk_stages/vtk_mesh.h"
 
 namespace emax::benchmarks {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "sw_model/emax_simd.h"
+#include "sw_model/simd/emax_simd.h"
 #include "tests/benchmarks/cgal_peer.h"
 #include "tests/benchmarks/embree_peer.h"
 #include "tests/benchmarks/engine.h"

@@ -5,11 +5,11 @@
 #include <deque>
 #include <memory>
 
-#include "host/emax_search/emax_search.h"
-#include "host/emax_search/simd_evaluator.h"
+#include "host/block_search/block_search.h"
+#include "host/block_search/simd_evaluator.h"
 #include "host/geometry/bounds.h"
-#include "sw_model/error.h"
-#include "sw_model/float_bits.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/float_bits.h"
 #include "tests/benchmarks/cgal_peer.h"
 #include "tests/benchmarks/embree_peer.h"
 #include "tests/benchmarks/engine.h"

@@ -5,7 +5,7 @@
 #include "hls/kernel/forms/barycentric.h"
 #include "hls/kernel/forms/three_edge.h"
 #include "hls/kernel/point_triangle.h"
-#include "sw_model/triangle_frame.h"
+#include "sw_model/model/triangle_frame.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "hls/kernel/command_words.h"
-#include "sw_model/emax_model.h"
+#include "sw_model/model/emax_model.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

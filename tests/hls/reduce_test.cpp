@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sw_model/float_bits.h"
+#include "sw_model/base/float_bits.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

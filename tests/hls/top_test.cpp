@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "hls/kernel/reduce.h"
-#include "sw_model/commands.h"
-#include "sw_model/emax_model.h"
-#include "sw_model/triangle_frame.h"
-#include "testbench/run_top.h"
+#include "sw_model/model/emax_model.h"
+#include "sw_model/model/triangle_frame.h"
+#include "sw_model/protocol/commands.h"
+#include "testbench/csim/run_top.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sw_model/byte_channel.h"
-#include "sw_model/commands.h"
-#include "sw_model/cpp_device.h"
-#include "sw_model/triangle_frame.h"
+#include "sw_model/model/triangle_frame.h"
+#include "sw_model/protocol/byte_channel.h"
+#include "sw_model/protocol/commands.h"
+#include "sw_model/protocol/cpp_device.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::test {

@@ -1,4 +1,4 @@
 // The stimuli lie in the testbench, which the co-simulation shares with the tests.
 #pragma once
 
-#include "testbench/stimuli.h"
+#include "testbench/stimuli/stimuli.h"

@@ -8,7 +8,7 @@ set flags "-I$root -std=c++14"
 open_project -reset emax_top
 set_top emax_top
 add_files $root/hls/kernel/emax_top.cpp -cflags $flags
-add_files -tb $root/testbench/csim_replay.cpp -cflags "$flags -Wno-unknown-pragmas"
+add_files -tb $root/testbench/csim/csim_replay.cpp -cflags "$flags -Wno-unknown-pragmas"
 add_files -tb $words
 open_solution -reset solution -flow_target vivado
 set_part $part

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "sw_model/error.h"
-#include "sw_model/exact_distance.h"
+#include "sw_model/base/error.h"
+#include "sw_model/certify/exact_distance.h"
 #include "tests/benchmarks/bisection/cloud_error.h"
 #include "tests/support/stimuli.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sw_model/error.h"
-#include "sw_model/float_bits.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/float_bits.h"
 
 namespace emax::benchmarks {
 namespace {

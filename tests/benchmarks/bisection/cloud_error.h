@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "host/emax_search/error_engine.h"
+#include "host/engine/error_engine.h"
 #include "host/geometry/triangle_mesh.h"
 
 namespace emax::benchmarks {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/decimate/certified_decimation.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 #include "tests/benchmarks/bisection/bisection.h"
 #include "tests/benchmarks/decimation/cpu_time.h"
 #include "tests/benchmarks/decimation/measures.h"

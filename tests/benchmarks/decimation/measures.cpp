@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "host/geometry/mesh_validity.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/surface_distance.h"
 #include "tests/benchmarks/cgal_peer.h"
 
 namespace emax::benchmarks {

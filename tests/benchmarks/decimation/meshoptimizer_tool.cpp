@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "host/geometry/bounds.h"
-#include "host/reconstruct/mesh_orientation.h"
+#include "host/surface/mesh_orientation.h"
 #include "tests/benchmarks/decimation/tool.h"
 
 namespace emax::benchmarks {

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "host/decimate/bounded_decimation.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
-#include "sw_model/error.h"
-#include "testbench/random.h"
+#include "sw_model/base/error.h"
+#include "testbench/stimuli/random.h"
 #include "tests/benchmarks/decimation/cpu_time.h"
 
 namespace emax::benchmarks {

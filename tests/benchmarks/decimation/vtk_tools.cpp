@@ -3,8 +3,8 @@
 #include <vtkQuadricDecimation.h>
 #include <vtkVersion.h>
 
-#include "host/decimate/vtk_mesh.h"
 #include "host/geometry/bounds.h"
+#include "host/vtk_stages/vtk_mesh.h"
 #include "tests/benchmarks/decimation/tool.h"
 #include "tests/benchmarks/quadric.h"
 

@@ -3,11 +3,11 @@
 #include <memory>
 #include <sstream>
 
+#include "host/files/cloud_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/cloud_file.h"
 #include "host/optimize/optimize.h"
 #include "host/optimize/run_bound.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax::benchmark {
 namespace {

@@ -6,13 +6,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/optimize/reference_fit.h"
 #include "host/optimize/run_bound.h"
-#include "sw_model/exact_distance.h"
-#include "tests/host/reconstruct/scanned_shapes.h"
+#include "sw_model/certify/exact_distance.h"
+#include "tests/host/support/scanned_shapes.h"
 
 namespace emax {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "hls/lowering/designs.h"
 #include "hls/lowering/evaluate.h"
-#include "sw_model/float_bits.h"
-#include "sw_model/flushed_float.h"
+#include "sw_model/base/float_bits.h"
+#include "sw_model/model/flushed_float.h"
 #include "tests/hls/lowering/samples.h"
 
 namespace emax {

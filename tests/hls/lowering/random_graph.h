@@ -2,7 +2,7 @@
 
 #include "hls/lowering/dataflow_graph.h"
 #include "hls/lowering/designs.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax::test {
 

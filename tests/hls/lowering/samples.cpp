@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sw_model/triangle_frame.h"
-#include "testbench/stimuli.h"
+#include "sw_model/model/triangle_frame.h"
+#include "testbench/stimuli/stimuli.h"
 
 namespace emax::test {
 namespace {

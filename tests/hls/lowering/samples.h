@@ -7,8 +7,8 @@
 #include "hls/kernel/forms/barycentric.h"
 #include "hls/kernel/word.h"
 #include "hls/lowering/dataflow_graph.h"
-#include "sw_model/flushed_float.h"
-#include "testbench/random.h"
+#include "sw_model/model/flushed_float.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax::test {
 

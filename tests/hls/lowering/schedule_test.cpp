@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "hls/lowering/designs.h"
-#include "sw_model/cycle_model.h"
+#include "sw_model/protocol/cycle_model.h"
 #include "tests/hls/lowering/random_graph.h"
 
 namespace emax {

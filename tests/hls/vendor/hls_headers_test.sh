@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# hls_headers_test.sh PROJECT MODEL_LIBRARY COMPILER [FLAG...]: the top function compiled as AMD's
+# hls_headers_test.sh PROJECT PROTOCOL MODEL BASE COMPILER [FLAG...]: the top function compiled as AMD's
 # HLS tools do for C simulation, with their hls::stream, gives the golden model's words; a changed
 # input bit, a missing flush mode and a changed word of a replayed file are seen.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/../../tooling/expect.sh"
 project=$1
-model=$2
-shift 2
+libraries=("${@:2:3}") # of the software model, each before what it needs
+shift 4
 compile=("$@" -O1 -ffp-contract=off -D__VITIS_HLS__ -I"$project" -isystem "$folder/headers"
   -Wall -Wextra -Werror -Wno-unknown-pragmas)
 
@@ -34,9 +34,9 @@ expect fail "static assertion failed" "they are not without the tools' macro" \
 expect pass "" "the top compiles" \
   "${compile[@]}" -std=c++14 -c "$project/hls/kernel/emax_top.cpp" -o "$folder/top.o"
 expect pass "" "the replay compiles" \
-  "${compile[@]}" -std=c++14 "$project/testbench/csim_replay.cpp" "$folder/top.o" -o "$folder/replay"
+  "${compile[@]}" -std=c++14 "$project/testbench/csim/csim_replay.cpp" "$folder/top.o" -o "$folder/replay"
 expect pass "" "the C simulation compiles" \
-  "${compile[@]}" -std=c++20 "$project/testbench/csim.cpp" "$folder/top.o" "$model" -o "$folder/csim"
+  "${compile[@]}" -std=c++20 "$project/testbench/csim/csim.cpp" "$folder/top.o" "${libraries[@]}" -o "$folder/csim"
 
 for kernel in movers emax_core_hls; do
   expect pass "" "the card's $kernel compile" "${compile[@]}" -std=c++14 \

@@ -40,5 +40,5 @@ PATH=$folder/bin:$PATH expect pass "clock=300MHz" "the clock" "$run" u50
 PATH=$folder/bin:$PATH expect pass "v++ -c --mode hls" "synthesis" "$run" u50 synthesis
 PATH=$folder/bin:$PATH expect pass "vitis-run --mode hls --csim" "C simulation" "$run" u50 csim
 rm "$copy/testbench"
-PATH=$folder/bin:$PATH expect fail "no $copy/testbench/csim_replay.cpp" "a missing file" "$run" u50 csim
+PATH=$folder/bin:$PATH expect fail "no $copy/testbench/csim/csim_replay.cpp" "a missing file" "$run" u50 csim
 finish

@@ -12,13 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "host/files/mesh_file.h"
 #include "host/geometry/merge_vertices.h"
-#include "host/geometry/mesh_file.h"
 #include "tests/host/app/program.h"
-#include "tests/host/geometry/temporary_folder.h"
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "tests/host/support/surface_clouds.h"
 #include "tests/support/cgal_mesh.h"
 #include "tests/support/stimuli.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::test {

@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "host/decimate/feature_edges.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
+#include "host/files/sha256.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
 #include "host/geometry/mesh_validity.h"
-#include "host/geometry/sha256.h"
-#include "sw_model/certificate.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
 #include "tests/host/app/program.h"
-#include "tests/host/geometry/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/emax_search/simd_evaluator.h"
-#include "sw_model/error.h"
+#include "host/block_search/simd_evaluator.h"
+#include "sw_model/base/error.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/host/app/program.h"
-#include "tests/host/geometry/temporary_folder.h"
 #include "tests/support/board_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax {
 namespace {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
-#include "sw_model/exact_distance.h"
-#include "sw_model/surface_distance.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
+#include "sw_model/certify/exact_distance.h"
+#include "sw_model/certify/surface_distance.h"
 #include "tests/host/app/program.h"
-#include "tests/host/geometry/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "host/geometry/sha256.h"
-#include "sw_model/error.h"
-#include "tests/host/geometry/temporary_folder.h"
+#include "host/files/sha256.h"
+#include "sw_model/base/error.h"
 #include "tests/support/stimuli.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "surfaces.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "host/decimate/certified_decimation.h"
-#include "host/decimate/manifold_part.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/mesh_file.h"
-#include "surfaces.h"
+#include "host/surface/manifold_part.h"
+#include "tests/host/support/surfaces.h"
 #include "tests/support/cgal_mesh.h"
 #include "tests/support/stimuli.h"
 

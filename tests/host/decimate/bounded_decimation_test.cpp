@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "host/decimate/manifold_part.h"
 #include "host/geometry/mesh_validity.h"
-#include "surfaces.h"
-#include "sw_model/certificate.h"
-#include "sw_model/error.h"
-#include "sw_model/surface_distance.h"
+#include "host/surface/manifold_part.h"
+#include "sw_model/base/error.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

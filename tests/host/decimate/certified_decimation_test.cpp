@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surfaces.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

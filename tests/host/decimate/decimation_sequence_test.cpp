@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "host/geometry/mesh_validity.h"
-#include "surfaces.h"
-#include "sw_model/certificate.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "host/decimate/local_search.h"
 #include "host/geometry/mesh_validity.h"
-#include "surfaces.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

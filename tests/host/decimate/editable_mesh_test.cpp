@@ -5,7 +5,7 @@
 #include <set>
 
 #include "host/geometry/mesh_validity.h"
-#include "surfaces.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "host/decimate/bounded_decimation.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/mesh_file.h"
 #include "host/geometry/mesh_validity.h"
-#include "surfaces.h"
-#include "sw_model/exact_distance.h"
+#include "sw_model/certify/exact_distance.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

@@ -8,9 +8,9 @@
 #include "host/decimate/local_search.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/mesh_validity.h"
-#include "surfaces.h"
-#include "sw_model/certificate.h"
-#include "sw_model/exact_distance.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/exact_distance.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/decimate/slot_tree.h"
-#include "surfaces.h"
-#include "sw_model/exact_distance.h"
+#include "sw_model/certify/exact_distance.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

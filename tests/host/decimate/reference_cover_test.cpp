@@ -6,8 +6,8 @@
 
 #include "host/decimate/decimation_state.h"
 #include "host/decimate/local_search.h"
-#include "surfaces.h"
-#include "sw_model/surface_distance.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/surfaces.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::test {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/decimate/spatial_order.h"
-#include "surfaces.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sw_model/commands.h"
+#include "sw_model/protocol/commands.h"
 
 namespace emax {
 namespace {

@@ -8,12 +8,12 @@
 
 #include "evaluator_of.h"
 #include "hls/kernel/command_words.h"
+#include "host/block_search/block_search.h"
 #include "host/device/device_address.h"
-#include "host/emax_search/emax_search.h"
-#include "host/emax_search/error_engine.h"
-#include "sw_model/cpp_device.h"
-#include "sw_model/error.h"
-#include "sw_model/float_bits.h"
+#include "host/engine/error_engine.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/float_bits.h"
+#include "sw_model/protocol/cpp_device.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

@@ -5,11 +5,11 @@
 #include <cstdio>
 
 #include "evaluator_of.h"
+#include "host/block_search/block_search.h"
 #include "host/device/device_address.h"
-#include "host/emax_search/emax_search.h"
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
-#include "sw_model/emax_model.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
+#include "sw_model/model/emax_model.h"
 #include "tests/support/board_program.h"
 
 namespace emax {

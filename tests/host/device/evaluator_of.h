@@ -3,8 +3,8 @@
 #include <memory>
 #include <string_view>
 
+#include "host/block_search/simd_evaluator.h"
 #include "host/device/device_address.h"
-#include "host/emax_search/simd_evaluator.h"
 
 namespace emax::test {
 

@@ -4,10 +4,10 @@
 
 #include <cstdio>
 
-#include "sw_model/error.h"
-#include "testbench/faulty_channel.h"
-#include "testbench/link_twin.h"
-#include "testbench/simulated_board.h"
+#include "sw_model/base/error.h"
+#include "testbench/board/simulated_board.h"
+#include "testbench/link/faulty_channel.h"
+#include "testbench/link/link_twin.h"
 #include "tests/support/board_work.h"
 
 namespace emax {

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 #include "tests/support/board_work.h"
 
 namespace emax {

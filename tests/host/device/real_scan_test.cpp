@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "evaluator_of.h"
+#include "host/block_search/block_search.h"
 #include "host/device/device_address.h"
-#include "host/emax_search/emax_search.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/geometry/mesh_file.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {

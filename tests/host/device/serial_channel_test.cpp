@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "host/device/link_device.h"
-#include "testbench/faulty_channel.h"
-#include "testbench/link_twin.h"
+#include "testbench/link/faulty_channel.h"
+#include "testbench/link/link_twin.h"
 #include "tests/support/board_work.h"
 
 namespace emax {

@@ -4,11 +4,11 @@
 
 #include "hls/boards/alveo/movers.h"
 #include "hls/kernel/emax_kernel.h"
-#include "sw_model/commands.h"
-#include "sw_model/cpp_device.h"
-#include "sw_model/error.h"
-#include "sw_model/flushed_float.h"
-#include "testbench/random.h"
+#include "sw_model/base/error.h"
+#include "sw_model/model/flushed_float.h"
+#include "sw_model/protocol/commands.h"
+#include "sw_model/protocol/cpp_device.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

@@ -5,7 +5,7 @@
 #include "host/genocop/linear_domain.h"
 #include "host/genocop/linear_step.h"
 #include "host/genocop/operators.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

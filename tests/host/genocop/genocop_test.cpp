@@ -13,7 +13,7 @@
 #include "domain_check.h"
 #include "run_search.h"
 #include "staircase.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "run_search.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {

@@ -5,7 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <gtest/gtest.h>
 
-#include "host/geometry/mesh_file.h"
+#include "host/files/mesh_file.h"
 #include "host/geometry/mesh_topology.h"
 #include "tests/support/cgal_mesh.h"
 #include "tests/support/stimuli.h"

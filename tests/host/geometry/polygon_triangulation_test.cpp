@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "host/geometry/mesh_file.h"
-#include "temporary_folder.h"
+#include "host/files/mesh_file.h"
 #include "tests/support/stimuli.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/host/geometry/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <set>
 
-#include "host/decimate/chain.h"
-#include "host/emax_search/simd_evaluator.h"
-#include "sw_model/error.h"
-#include "tests/host/geometry/temporary_folder.h"
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "host/block_search/simd_evaluator.h"
+#include "host/chain/chain.h"
+#include "sw_model/base/error.h"
+#include "tests/host/support/surface_clouds.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -5,10 +5,10 @@
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/optimize/run_bound.h"
-#include "sw_model/error.h"
-#include "sw_model/exact_distance.h"
-#include "tests/host/reconstruct/scanned_shapes.h"
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "sw_model/base/error.h"
+#include "sw_model/certify/exact_distance.h"
+#include "tests/host/support/scanned_shapes.h"
+#include "tests/host/support/surface_clouds.h"
 
 namespace emax::test {
 namespace {

@@ -2,12 +2,12 @@
 
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
+#include "host/geometry/scan_estimate.h"
+#include "host/parameters/reconstruction_parameters.h"
 #include "host/reconstruct/reconstruction.h"
-#include "host/reconstruct/reconstruction_parameters.h"
-#include "host/reconstruct/scan_estimate.h"
-#include "sw_model/exact_distance.h"
-#include "tests/host/reconstruct/scanned_shapes.h"
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "sw_model/certify/exact_distance.h"
+#include "tests/host/support/scanned_shapes.h"
+#include "tests/host/support/surface_clouds.h"
 
 namespace emax::test {
 namespace {

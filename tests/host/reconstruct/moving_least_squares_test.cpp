@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "sw_model/error.h"
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "sw_model/base/error.h"
+#include "tests/host/support/surface_clouds.h"
 
 namespace emax::test {
 namespace {

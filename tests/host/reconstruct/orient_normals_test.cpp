@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "tests/host/support/surface_clouds.h"
 
 namespace emax::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "host/geometry/mesh_validity.h"
-#include "host/reconstruct/reconstruction_parameters.h"
-#include "sw_model/error.h"
-#include "tests/host/reconstruct/surface_clouds.h"
+#include "host/parameters/reconstruction_parameters.h"
+#include "sw_model/base/error.h"
+#include "tests/host/support/surface_clouds.h"
 
 namespace emax::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cstring>
 
-#include "host/geometry/cloud_file.h"
-#include "host/geometry/mesh_file.h"
-#include "tests/host/geometry/temporary_folder.h"
+#include "host/files/cloud_file.h"
+#include "host/files/mesh_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax {
 namespace {

@@ -8,7 +8,7 @@
 #include <csignal>
 #include <string>
 
-#include "tests/host/geometry/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

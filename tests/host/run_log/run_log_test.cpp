@@ -5,7 +5,7 @@
 #include <bit>
 #include <limits>
 
-#include "tests/host/geometry/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "sw_model/commands.h"
-#include "sw_model/error.h"
-#include "sw_model/triangle_frame.h"
+#include "sw_model/base/error.h"
+#include "sw_model/model/triangle_frame.h"
+#include "sw_model/protocol/commands.h"
 #include "testbench/core/core_driver.h"
 #include "testbench/operators/mutant_list.h"
-#include "testbench/stimuli.h"
+#include "testbench/stimuli/stimuli.h"
 
 namespace emax {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "sw_model/commands.h"
-#include "sw_model/error.h"
+#include "sw_model/base/error.h"
+#include "sw_model/protocol/commands.h"
 #include "testbench/core/core_driver.h"
 #include "testbench/core/core_stimuli.h"
 #include "testbench/core/rtl_device.h"

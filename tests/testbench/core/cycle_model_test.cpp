@@ -1,14 +1,14 @@
-#include "sw_model/cycle_model.h"
+#include "sw_model/protocol/cycle_model.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "sw_model/commands.h"
-#include "sw_model/triangle_frame.h"
+#include "sw_model/model/triangle_frame.h"
+#include "sw_model/protocol/commands.h"
 #include "testbench/core/core_driver.h"
 #include "testbench/core/rtl_device.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

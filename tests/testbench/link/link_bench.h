@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "Vlink_rtl.h"
-#include "sw_model/error.h"
-#include "sw_model/frames.h"
-#include "testbench/random.h"
+#include "sw_model/base/error.h"
+#include "sw_model/protocol/frames.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 

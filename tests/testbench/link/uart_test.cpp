@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "Vuarts_rtl.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <set>
 
-#include "sw_model/float_bits.h"
+#include "sw_model/base/float_bits.h"
 #include "testbench/operators/mutant_list.h"
 #include "testbench/operators/operator_cosim.h"
 #include "testbench/operators/operator_stimuli.h"

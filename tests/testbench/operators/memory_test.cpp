@@ -11,7 +11,7 @@
 #include "Vmemories_rtl___024root.h"
 #include "Vmemories_rtl_emax_mutation.h"
 #include "testbench/operators/mutant_list.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

@@ -8,7 +8,7 @@
 #include "Vecp5_multipliers_rtl_emax_mutation.h"
 #include "Vxilinx_multipliers_rtl.h"
 #include "testbench/operators/mutant_list.h"
-#include "testbench/random.h"
+#include "testbench/stimuli/random.h"
 
 namespace emax {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "sw_model/float_bits.h"
-#include "sw_model/flushed_float.h"
+#include "sw_model/base/float_bits.h"
+#include "sw_model/model/flushed_float.h"
 #include "testbench/operators/operator_reference.h"
 #include "testbench/operators/operator_stimuli.h"
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "host/engine/packets.h"
+#include "sw_model/model/normalization.h"
+
+namespace emax {
+
+// A mesh's triangles along a Morton curve of their middles, with their corners as the frames read
+// them. 20 bytes a triangle, 32 a vertex.
+class CurveOrder {
+ public:
+  // Throws Error where a triangle has a vertex that is not finite or too far, as make_records does.
+  // O(n), the same with any number of threads.
+  CurveOrder(MeshView mesh, const Normalization& normalization, std::size_t threads);
+
+  std::span<const NormalizedVertex> vertices() const { return {vertices_.get(), vertex_count_}; }
+  std::span<const LeafKey> keys() const { return {keys_.get(), triangle_count_}; }
+  std::span<const Triangle> corners() const { return {corners_.get(), triangle_count_}; }
+  std::unique_ptr<LeafKey[]> take_keys() { return std::move(keys_); }
+
+ private:
+  std::size_t vertex_count_, triangle_count_;
+  std::unique_ptr<NormalizedVertex[]> vertices_;
+  std::unique_ptr<LeafKey[]> keys_;
+  std::unique_ptr<Triangle[]> corners_;
+};
+
+}  // namespace emax

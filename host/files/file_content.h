@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "host/files/input_file.h"
+#include "sw_model/base/mesh_view.h"
+
+namespace emax {
+
+inline constexpr std::string_view kColours = "colours";
+inline constexpr std::string_view kNormals = "normals";
+inline constexpr std::string_view kTextureCoordinates = "texture coordinates";
+inline constexpr std::string_view kGroups = "groups";
+inline constexpr std::string_view kMaterials = "materials";
+
+// What a file of any format holds. Coordinates may still be NaN or infinite: the first vertex of
+// that kind is named, and clouds and meshes judge it each in their own way.
+struct FileContent {
+  std::vector<Point> vertices;
+  std::vector<Point> normals;       // empty, or one per vertex
+  std::vector<Triangle> triangles;  // polygons as fans around their first vertex
+  // Of the fans of more than one triangle, where each begins and how many it has.
+  std::vector<std::pair<std::size_t, std::size_t>> fans;
+  std::string first_invalid;  // "line 12" or "vertex 5"; empty when all are finite
+  // What else the file says of its mesh, each once: kColours and the like, or a name of its own.
+  std::vector<std::string> attributes;
+
+  void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
+    if (first_invalid.empty() && !point.allFinite()) {
+      first_invalid = std::string(place) + ' ' + std::to_string(number);
+    }
+    vertices.push_back(point);
+  }
+
+  void note_attribute(std::string_view name) {
+    if (std::ranges::find(attributes, name) == attributes.end()) attributes.emplace_back(name);
+  }
+};
+
+// Adds the fan of `polygon`. `fail(what)` is called when it has fewer than three corners or a
+// corner that is not in [0, vertex_count).
+template <class Fail>
+void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
+                 std::uint64_t vertex_count, const Fail& fail) {
+  if (polygon.size() < 3) {
+    fail("a face of " + std::to_string(polygon.size()) + " corners, fewer than 3");
+  }
+  for (const std::int64_t corner : polygon) {
+    if (corner < 0 || static_cast<std::uint64_t>(corner) >= vertex_count) {
+      fail("vertex index " + std::to_string(corner) + " is outside 0.." +
+           std::to_string(vertex_count) + " - 1");
+    }
+  }
+  const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon[i]); };
+  if (polygon.size() > 3) content.fans.emplace_back(content.triangles.size(), polygon.size() - 2);
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    content.triangles.push_back({index(0), index(i - 1), index(i)});
+  }
+}
+
+// Adds the triangles of strips of at least three corners each, which -1 ends and begins anew. Every
+// second triangle of a strip is turned, so that all face the same way. Triangles that repeat a
+// corner, by which strips are stitched together, are left out. `fail` as above.
+template <class Fail>
+void add_strips(FileContent& content, std::span<const std::int64_t> corners,
+                std::uint64_t vertex_count, const Fail& fail) {
+  for (std::size_t begin = 0; begin < corners.size();) {
+    std::size_t end = begin;
+    while (end < corners.size() && corners[end] != -1) ++end;
+    if (end != begin && end - begin < 3) {
+      fail("a strip of " + std::to_string(end - begin) + " corners, fewer than 3");
+    }
+    for (std::size_t i = begin + 2; i < end; ++i) {
+      std::array<std::int64_t, 3> triangle = {corners[i - 2], corners[i - 1], corners[i]};
+      if ((i - begin) % 2 != 0) std::swap(triangle[0], triangle[1]);
+      const auto& [a, b, c] = triangle;
+      const bool is_stitch = a == b || b == c || c == a;
+      // The indices are checked in any case.
+      add_polygon(content, triangle, vertex_count, fail);
+      if (is_stitch) content.triangles.pop_back();
+    }
+    begin = end + 1;
+  }
+}
+
+// Throws Error unless `count` items of at least `least_bytes` each fit into `bytes_left`, which is
+// asked before anything is allocated for a count that a file claims. Indices are 32 bit.
+void check_count(const InputFile& input, std::uint64_t count, std::string_view items,
+                 std::uint64_t least_bytes, std::uint64_t bytes_left);
+
+// One reader per format, strict: what the header promises is there, and nothing follows it; behind
+// the data of a PCD file there may be padding.
+FileContent read_ply(const InputFile& input);  // ascii, binary little and big endian
+FileContent read_off(const InputFile& input);  // [C][N]OFF
+FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are passed over
+FileContent read_stl(const InputFile& input);  // ascii, binary; equal vertices merged
+FileContent read_pcd(const InputFile& input);  // ascii, binary, binary_compressed
+// Columns: x y z, then any others, as many in every row: intensity, colour, normal in any order.
+// The first three columns behind x y z that hold a unit vector in every row are the normal.
+// Separated by blanks, commas or semicolons, the same throughout; decimal commas are refused.
+FileContent read_xyz(const InputFile& input);
+// As above, but the four columns behind x y z (intensity and colour) are never part of a normal;
+// the first line may hold the count.
+FileContent read_pts(const InputFile& input);
+
+}  // namespace emax

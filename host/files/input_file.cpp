@@ -1,0 +1,199 @@
+#include "host/files/input_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "host/files/number_text.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) close(fd);
+  }
+};
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// The ending that the first bytes speak for; empty when they speak for none.
+std::string_view ending_by_content(std::string_view bytes) {
+  const std::string_view first_line = trimmed(bytes.substr(0, bytes.find('\n')));
+  if (first_line == "ply") return ".ply";
+  if (first_line.starts_with("# .PCD") || first_line.starts_with("VERSION ")) return ".pcd";
+  const std::string_view word = first_line.substr(0, first_line.find(' '));
+  if (word.size() <= 8 && word.ends_with("OFF")) return ".off";
+  if (word == "solid") return ".stl";
+  return {};
+}
+
+}  // namespace
+
+void InputFile::fail(std::string_view what, std::string_view remedy) const {
+  throw Error(fmt::format("{}: {}; {}", name, what, remedy));
+}
+
+InputFile read_input(const std::filesystem::path& path) {
+  InputFile input{path.string(), {}};
+  const auto cannot_be_read = [&](int error) {
+    input.fail(fmt::format("cannot be read ({})", std::strerror(error)),
+               "check its permissions and the disk");
+  };
+  const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (file.fd < 0) {
+    if (errno == ENOENT || errno == ENOTDIR) input.fail("no such file", "check the path");
+    cannot_be_read(errno);
+  }
+  struct stat status {};
+  if (fstat(file.fd, &status) != 0) cannot_be_read(errno);
+  if (S_ISDIR(status.st_mode)) input.fail("is a folder", "name a file in it");
+  if (!S_ISREG(status.st_mode)) input.fail("is not a regular file", "copy the data into a file");
+
+  // One byte more than the size, so that the end is seen without growing.
+  std::size_t used = 0;
+  input.bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
+  while (true) {
+    if (used == input.bytes.size()) input.bytes.resize(2 * used);
+    const ssize_t n = read(file.fd, input.bytes.data() + used, input.bytes.size() - used);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) cannot_be_read(errno);
+    if (n == 0) break;
+    used += static_cast<std::size_t>(n);
+  }
+  input.bytes.resize(used);
+  if (used == 0) input.fail("the file is empty", "export it again");
+  return input;
+}
+
+std::string lower_case_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending;
+}
+
+void check_ending_fits(const InputFile& input, std::string_view ending) {
+  const std::string_view content = ending_by_content(input.bytes);
+  if (!content.empty() && content != ending) {
+    input.fail(
+        fmt::format("the ending is {} but the content is that of a {} file", ending, content),
+        fmt::format("rename it to {}", content));
+  }
+}
+
+bool TextLines::next() {
+  const std::string_view bytes = input_.bytes;
+  while (offset_ < bytes.size()) {
+    const std::size_t end = std::min(bytes.find('\n', offset_), bytes.size());
+    text_ = bytes.substr(offset_, end - offset_);
+    offset_ = std::min(end + 1, bytes.size());
+    ++line_;
+    if (comments_ != Comments::kNone) text_ = text_.substr(0, text_.find('#'));
+    if (comments_ == Comments::kHashOrSlashes) text_ = text_.substr(0, text_.find("//"));
+    text_ = trimmed(text_);
+    if (text_.empty()) continue;
+    split();
+    return true;
+  }
+  return false;
+}
+
+void TextLines::require_next(std::string_view wanted) {
+  if (!next()) fail_at_end(wanted);
+}
+
+void TextLines::require_next(std::string_view item, std::size_t index, std::size_t count) {
+  if (!next()) fail_at_end(fmt::format("{} {} of {}", item, index, count));
+}
+
+void TextLines::fail_at_end(std::string_view wanted) const {
+  input_.fail(fmt::format("the file ends after line {} where {} must follow", line_, wanted),
+              kExportAgain);
+}
+
+void TextLines::set_separator(char separator) {
+  separator_ = separator;
+  split();
+}
+
+void TextLines::split() {
+  fields_.clear();
+  if (separator_ != ' ') {
+    for (std::size_t begin = 0; begin <= text_.size();) {
+      const std::size_t end = std::min(text_.find(separator_, begin), text_.size());
+      fields_.push_back(trimmed(text_.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    return;
+  }
+  const char* at = text_.data();
+  const char* const end = at + text_.size();
+  while (at != end) {
+    const char* const begin = at;
+    while (at != end && !is_blank(*at)) ++at;
+    fields_.emplace_back(begin, static_cast<std::size_t>(at - begin));
+    while (at != end && is_blank(*at)) ++at;
+  }
+}
+
+double TextLines::number(std::size_t i) const {
+  const std::optional<double> value = parse_double(fields_[i]);
+  if (value) return *value;
+  if (is_decimal_comma(fields_[i])) fail_at_decimal_comma(fields_[i]);
+  fail(fmt::format("\"{}\" is not a 64-bit number", printable(fields_[i])));
+}
+
+void TextLines::fail_at_decimal_comma(std::string_view text) const {
+  fail(fmt::format("\"{}\" has a decimal comma", printable(text)),
+       "export the file with decimal points, or replace the commas by points");
+}
+
+std::int64_t TextLines::integer(std::size_t i) const {
+  const std::optional<std::int64_t> value = parse_integer(fields_[i]);
+  if (!value) fail(fmt::format("\"{}\" is not a whole number", printable(fields_[i])));
+  return *value;
+}
+
+std::uint64_t TextLines::count(std::size_t i) const {
+  const std::int64_t value = integer(i);
+  if (value < 0) fail(fmt::format("{} is negative", value));
+  return static_cast<std::uint64_t>(value);
+}
+
+Point TextLines::point(std::size_t i) const {
+  const double x = number(i);
+  const double y = number(i + 1);
+  return {x, y, number(i + 2)};
+}
+
+void TextLines::fail(std::string_view what, std::string_view remedy) const {
+  input_.fail(fmt::format("line {}: {}", line_, what), remedy);
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown(text.substr(0, kLongest));
+  for (char& c : shown) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  if (text.size() > kLongest) shown += "...";
+  return shown;
+}
+
+}  // namespace emax

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sw_model/base/mesh_view.h"
+
+namespace emax {
+
+// A file read whole. Every complaint about it has one form: "<name>: <what>; <remedy>".
+struct InputFile {
+  std::string name;  // as the user wrote it
+  std::string bytes;
+
+  [[noreturn]] void fail(std::string_view what, std::string_view remedy) const;
+};
+
+// The remedy where the content itself is damaged.
+inline constexpr std::string_view kExportAgain =
+    "the file is truncated or damaged, copy or export it again";
+
+// Throws Error when `path` is missing, empty, not a regular file or cannot be read.
+InputFile read_input(const std::filesystem::path& path);
+
+// The ending in lower case, with its dot; empty when there is none.
+std::string lower_case_ending(const std::filesystem::path& path);
+
+// Throws Error when the content begins like another format than the one `ending` stands for.
+void check_ending_fits(const InputFile& input, std::string_view ending);
+
+// The lines of a text file that hold anything, split into fields. A field is a run of characters
+// other than blanks; with a separator set, fields are what stands between separators, and blanks
+// around them are not part of them.
+class TextLines {
+ public:
+  enum class Comments { kNone, kHash, kHashOrSlashes };  // from the mark to the end of the line
+
+  TextLines(const InputFile& input, Comments comments, std::size_t offset = 0,
+            std::size_t lines_before = 0)
+      : input_(input), comments_(comments), offset_(offset), line_(lines_before) {}
+
+  // Moves to the next line that holds a field. False at the end of the file.
+  bool next();
+  // As next(), but throws Error naming `wanted` at the end of the file.
+  void require_next(std::string_view wanted);
+  // The same for item `index` of `count`.
+  void require_next(std::string_view item, std::size_t index, std::size_t count);
+  // Splits this line and all that follow at `separator`; ' ' stands for blanks.
+  void set_separator(char separator);
+
+  std::size_t offset() const { return offset_; }  // of the first byte after the current line
+  std::size_t line() const { return line_; }      // 1-based
+  std::string_view text() const { return text_; }
+
+  std::size_t size() const { return fields_.size(); }
+  std::string_view operator[](std::size_t i) const { return fields_[i]; }
+  // Throw Error when the field is not such a number.
+  double number(std::size_t i) const;
+  std::int64_t integer(std::size_t i) const;
+  std::uint64_t count(std::size_t i) const;  // an integer >= 0
+  Point point(std::size_t i) const;          // three numbers
+
+  // Throws the error of a comma in place of the decimal point.
+  [[noreturn]] void fail_at_decimal_comma(std::string_view text) const;
+
+  // "<name>: line <n>: <what>; <remedy>"
+  [[noreturn]] void fail(
+      std::string_view what,
+      std::string_view remedy = "correct the line or export the file again") const;
+
+ private:
+  void split();
+  [[noreturn]] void fail_at_end(std::string_view wanted) const;
+
+  const InputFile& input_;
+  Comments comments_;
+  char separator_ = ' ';
+  std::size_t offset_;
+  std::size_t line_;
+  std::string_view text_;
+  std::vector<std::string_view> fields_;
+};
+
+// `text` fit for a one-line message: cut at 40 characters, others than printable ASCII as '?'.
+std::string printable(std::string_view text);
+
+}  // namespace emax

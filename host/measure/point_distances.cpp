@@ -1,0 +1,38 @@
+#include "host/measure/point_distances.h"
+
+#include <Eigen/Geometry>
+
+#include "host/engine/error_engine.h"
+#include "sw_model/model/error_bound.h"
+
+namespace emax {
+
+std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
+                                    const std::function<bool()>& interrupted, std::size_t threads) {
+  ErrorEngine engine(cloud, {.threads = threads, .interrupted = interrupted});
+  const PreparedMesh prepared(mesh, cloud.normalization(), engine.target(), threads);
+  std::vector<double> distances;
+  distances.reserve(cloud.points().size());
+  for (const std::uint32_t bits : engine.squared_distances(prepared)) {
+    distances.push_back(distance_of(bits) / cloud.normalization().scale);
+  }
+  return distances;
+}
+
+double point_distance_margin(const PreparedCloud& cloud, MeshView mesh, double distance) {
+  const Normalization& normalization = cloud.normalization();
+  Eigen::AlignedBox3d box;
+  double farthest = 0;
+  for (const Point& vertex : mesh.vertices) {
+    box.extend(vertex);
+    farthest = std::max(farthest, (vertex - normalization.origin).norm());
+  }
+  // No edge is longer than the diagonal. Twice, for the rounding of the point itself.
+  return 2 *
+         kernel_distance_margin(normalization.length(distance),
+                                2 * normalization.length(box.diagonal().norm()),
+                                normalization.length(farthest)) /
+         normalization.scale;
+}
+
+}  // namespace emax

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host/engine/prepared_cloud.h"
+#include "sw_model/base/mesh_view.h"
+
+namespace emax {
+
+// The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the
+// square roots of what brute force gives, to the bit, with any number of threads. Throws as
+// PreparedMesh does; Interrupted when `interrupted` says so.
+std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
+                                    const std::function<bool()>& interrupted = nullptr,
+                                    std::size_t threads = 1);
+
+// The greatest difference between such a distance of at most `distance` and the true one, in the
+// cloud's unit (docs/numerics.md). O(vertices).
+double point_distance_margin(const PreparedCloud& cloud, MeshView mesh, double distance);
+
+}  // namespace emax

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/parameters/chain_parameters.h"
+#include "host/parameters/decimation_bound.h"
+#include "sw_model/base/mesh_view.h"
+
+// What a program and its workers say to each other, over any stream of bytes.
+//
+// A message is its length (8 bytes, little-endian, not counting themselves) and one CBOR map:
+//   {"kind": "points", "points": P, "epsilon": number, "epsilon_back": number,
+//    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
+//    once
+//   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number}}
+//   {"kind": "stop"}                                                 to a worker: the mesh at hand
+//   {"kind": "ready"}                                                from a worker, first and once
+//   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
+//    "reconstruction_triangles": n, "unmeshed_points": n,
+//    "topology_difference": n, "back_distance": number, "reference_distance": number,
+//    "stopped": boolean, "seconds": [number, 4 of them]}              the answer to "run", or:
+//   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
+//   {"kind": "unusable", "message": s}                               no evaluation can be made here
+// P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
+// indices a triangle. I: byte string of such indices. A worker answers one "run" before it reads
+// the next. "stop" says nothing to a worker that has answered; one that decimates ends it and
+// answers with the mesh that it has.
+
+namespace emax {
+
+enum class FailureReason { kError, kOutOfMemory, kTimedOut, kCrashed, kGarbled };
+
+// "error", "out of memory", "timed out", "crashed", "garbled"
+std::string_view to_string(FailureReason reason);
+
+struct Failure {
+  FailureReason reason;
+  std::string message;  // one line
+};
+
+struct PointsMessage {
+  std::vector<Point> points;
+  DecimationBound bound;
+};
+struct RunMessage {
+  std::uint64_t ticket;
+  ChainSettings settings;
+};
+struct StopMessage {};
+struct ReadyMessage {};
+struct MeshMessage {
+  std::uint64_t ticket;
+  ChainResult result;
+};
+struct FailureMessage {
+  std::uint64_t ticket;
+  Failure failure;
+};
+struct UnusableMessage {
+  std::string message;
+};
+
+using Message = std::variant<PointsMessage, RunMessage, StopMessage, ReadyMessage, MeshMessage,
+                             FailureMessage, UnusableMessage>;
+using Bytes = std::vector<std::uint8_t>;
+
+inline constexpr std::size_t kLengthBytes = 8;
+// A longer message is rubbish: 2^32 bytes hold 180 million vertices.
+inline constexpr std::uint64_t kMaximumLength = std::uint64_t{1} << 32;
+
+// The message with its length.
+Bytes encode(const Message& message);
+
+// The length that eight bytes announce.
+std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes);
+
+// A message without its length. Throws Error when it is not one of the above, when a coordinate is
+// not finite, a distance none, or an index has no vertex.
+Message decode(std::span<const std::uint8_t> body);
+
+}  // namespace emax

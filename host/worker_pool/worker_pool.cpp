@@ -1,0 +1,310 @@
+#include "host/worker_pool/worker_pool.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <set>
+#include <vector>
+
+#include "host/parameters/reconstruction_parameters.h"
+#include "host/worker_pool/worker_process.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// An answer that is arriving is let in although its time is over: the program may have been away
+// for long, and the worker waited for it to read. So after each of its bytes, but in all no longer
+// than an evaluation may take.
+constexpr std::chrono::seconds kArrivalGrace{2};
+
+struct Worker {
+  std::unique_ptr<WorkerProcess> process;
+  bool ready = false;
+  bool fresh = true;                           // has answered nothing yet
+  std::optional<RunMessage> run;               // what it works on
+  std::optional<Clock::time_point> answering;  // since the first bytes of the answer
+  std::set<StageKey> made;                     // reconstructions that it may have kept
+  bool spent = false;  // it may reconstruct no more: the last one is all that it has
+  Clock::time_point deadline;
+};
+
+std::string describe(const RunMessage& run) {
+  return "evaluation " + std::to_string(run.ticket) + " (" + run.settings.method + ")";
+}
+
+std::string seconds(std::chrono::milliseconds time) {
+  std::string text = std::to_string(time.count() / 1000);
+  if (time.count() % 1000 != 0) text += "." + std::to_string(1000 + time.count() % 1000).substr(1);
+  return text + " s";
+}
+
+}  // namespace
+
+class WorkerPool::Implementation {
+ public:
+  Implementation(std::span<const Point> points, const DecimationBound& bound,
+                 const WorkerPoolOptions& options)
+      : time_limit_(options.time_limit),
+        command_{options.program, options.memory_limit, options.allow_test_methods},
+        points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}, bound}))),
+        workers_(std::max(1u, options.jobs)) {
+    if (command_.program.empty()) {
+      command_.program =
+          std::filesystem::read_symlink("/proc/self/exe").parent_path() / "emax_worker";
+    }
+    for (Worker& worker : workers_) replace(worker);
+  }
+
+  void submit(std::uint64_t ticket, const ChainSettings& settings) {
+    queue_.push_back({ticket, settings});
+    hand_out();
+  }
+
+  std::optional<Completed> wait_until(std::optional<Clock::time_point> end) {
+    if (outstanding() == 0) throw Error("no evaluation is outstanding");
+    while (completed_.empty()) {
+      hand_out();
+      if (!completed_.empty()) break;
+      if (!poll_once(end)) return std::nullopt;
+    }
+    Completed first = std::move(completed_.front());
+    completed_.pop_front();
+    return first;
+  }
+
+  void go_on() { hand_out(); }
+
+  void stop() {
+    queue_.clear();
+    const Bytes message = encode(StopMessage{});
+    for (Worker& worker : workers_) {
+      if (worker.run) worker.process->send(message);
+    }
+  }
+
+  std::size_t outstanding() const {
+    const auto busy = std::count_if(workers_.begin(), workers_.end(),
+                                    [](const Worker& w) { return w.run.has_value(); });
+    return queue_.size() + completed_.size() + static_cast<std::size_t>(busy);
+  }
+
+ private:
+  void replace(Worker& worker) {
+    worker.process.reset();  // first, so that never more than `jobs` run
+    worker.ready = false;
+    worker.fresh = true;
+    worker.run.reset();
+    worker.made.clear();
+    worker.spent = false;
+    worker.process = std::make_unique<WorkerProcess>(command_, points_);
+  }
+
+  void hand_out() {
+    for (Worker& worker : workers_) {
+      if (queue_.empty()) return;
+      if (worker.run) continue;
+      auto next = best_for(worker);
+      if (worker.spent && !worker.made.contains(reconstruction_of(*next))) replace(worker);
+      RunMessage run = std::move(*next);
+      queue_.erase(next);
+      give(worker, std::move(run));
+    }
+  }
+
+  void give(Worker& worker, RunMessage run) {
+    const Bytes message = encode(run);
+    if (!worker.process->send(message)) {
+      if (!worker.ready) throw not_ready(worker);
+      replace(worker);  // it died while it was idle; a fresh one takes a message always
+      if (!worker.process->send(message)) throw not_ready(worker);
+    }
+    worker.run = std::move(run);
+    worker.answering.reset();
+    worker.deadline = Clock::now() + time_limit_;
+  }
+
+  // What it has made the reconstruction for, else what no other has, else the first.
+  std::deque<RunMessage>::iterator best_for(const Worker& worker) {
+    const auto made_by = [](const Worker& by, const RunMessage& run) {
+      return by.made.contains(reconstruction_of(run)) ||
+             (by.run && reconstruction_of(*by.run) == reconstruction_of(run));
+    };
+    auto next =
+        std::ranges::find_if(queue_, [&](const RunMessage& run) { return made_by(worker, run); });
+    if (next == queue_.end()) {
+      next = std::ranges::find_if(queue_, [&](const RunMessage& run) {
+        return std::ranges::none_of(workers_,
+                                    [&](const Worker& other) { return made_by(other, run); });
+      });
+    }
+    return next == queue_.end() ? queue_.begin() : next;
+  }
+
+  static StageKey reconstruction_of(const RunMessage& run) {
+    const bool known = std::ranges::count(reconstruction_methods(), run.settings.method) > 0;
+    return known ? reconstruction_key(run.settings) : StageKey{run.settings.method, {}};
+  }
+
+  // Waits until something happens and deals with it. False when `end` or a signal comes first.
+  bool poll_once(std::optional<Clock::time_point> end) {
+    std::vector<pollfd> polled;
+    Clock::time_point until = end.value_or(Clock::time_point::max());
+    for (const Worker& worker : workers_) {
+      polled.push_back({worker.process->channel(), POLLIN, 0});
+      if (worker.run) until = std::min(until, worker.deadline);
+    }
+    // Rounded up, so that the wait never ends just short of a deadline.
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    const int timeout = static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
+    const int events = poll(polled.data(), polled.size(), timeout);
+    if (events < 0 && errno == EINTR) return false;
+    if (events < 0) throw Error(std::string("cannot wait for workers: ") + std::strerror(errno));
+    for (std::size_t i = 0; i < workers_.size(); ++i) {
+      if (polled[i].revents != 0) {
+        listen(workers_[i]);
+      } else if (workers_[i].run && Clock::now() >= workers_[i].deadline) {
+        give_up(workers_[i],
+                {FailureReason::kTimedOut, "took longer than " + seconds(time_limit_)});
+      }
+    }
+    return events > 0 || !end || Clock::now() < *end || !completed_.empty();
+  }
+
+  void listen(Worker& worker) {
+    const WorkerProcess::Received received = worker.process->receive();
+    if (received == WorkerProcess::Received::kEnd) {
+      if (!worker.ready) throw not_ready(worker);
+      give_up(worker, worker.process->end());
+      return;
+    }
+    if (worker.run) {
+      const Clock::time_point now = Clock::now();
+      if (!worker.answering) worker.answering = now;
+      const Clock::time_point last = *worker.answering + time_limit_ + kArrivalGrace;
+      worker.deadline = std::max(worker.deadline, std::min(now + kArrivalGrace, last));
+    }
+    while (std::optional<Message> message = next_message(worker)) {
+      if (!take(worker, std::move(*message))) return;
+    }
+  }
+
+  // Nothing also where what has arrived is no message: the worker is replaced then.
+  std::optional<Message> next_message(Worker& worker) {
+    Failure garbled{FailureReason::kGarbled, {}};
+    try {
+      return worker.process->next_message();
+    } catch (const Error& e) {
+      garbled.message = e.what();
+    }
+    give_up(worker, garbled);
+    return std::nullopt;
+  }
+
+  // False when the worker was replaced and has nothing more to say.
+  bool take(Worker& worker, Message message) {
+    if (const auto* unusable = std::get_if<UnusableMessage>(&message)) {
+      throw Error("a worker cannot work: " + unusable->message);
+    }
+    if (std::holds_alternative<ReadyMessage>(message) && !worker.ready) {
+      worker.ready = true;
+      worker.answering.reset();
+      if (worker.run) worker.deadline = Clock::now() + time_limit_;
+      return true;
+    }
+    if (auto* mesh = std::get_if<MeshMessage>(&message);
+        mesh && worker.run && mesh->ticket == worker.run->ticket) {
+      if (single_use(worker.run->settings.method)) {
+        worker.spent = true;
+        worker.made.clear();
+      }
+      worker.made.insert(reconstruction_of(*worker.run));
+      worker.fresh = false;
+      completed_.push_back({mesh->ticket, std::move(mesh->result)});
+      worker.run.reset();
+      return true;
+    }
+    if (auto* failure = std::get_if<FailureMessage>(&message);
+        failure && worker.run && failure->ticket == worker.run->ticket) {
+      const bool sound = failure->failure.reason == FailureReason::kError &&
+                         !single_use(worker.run->settings.method);
+      if (!sound) {
+        give_up(worker, failure->failure);
+      } else {
+        worker.fresh = false;
+        fail(worker, failure->failure);
+      }
+      return sound;
+    }
+    give_up(worker, {FailureReason::kGarbled, "an answer that nothing asked for"});
+    return false;
+  }
+
+  void fail(Worker& worker, const Failure& failure) {
+    if (!worker.run) return;
+    completed_.push_back({worker.run->ticket,
+                          Failure{failure.reason, describe(*worker.run) + ": " + failure.message}});
+    worker.run.reset();
+  }
+
+  // Libraries that get no memory may also crash, so a crash too may be for want of it.
+  void give_up(Worker& worker, const Failure& failure) {
+    const bool may_lack_memory =
+        failure.reason == FailureReason::kOutOfMemory || failure.reason == FailureReason::kCrashed;
+    if (may_lack_memory && !worker.fresh && worker.run) {
+      RunMessage again = std::move(*worker.run);
+      replace(worker);
+      give(worker, std::move(again));
+      return;
+    }
+    fail(worker, failure);
+    replace(worker);
+  }
+
+  Error not_ready(Worker& worker) const {
+    const std::string why = worker.process->end().message;
+    const std::string remedy = command_.memory_limit != 0 ? "; raise the memory limit" : "";
+    return Error("the worker " + command_.program.string() + " ended before it was ready: " + why +
+                 remedy);
+  }
+
+  std::chrono::milliseconds time_limit_;
+  WorkerProcess::Command command_;
+  FileDescriptor points_;
+  std::vector<Worker> workers_;
+  std::deque<RunMessage> queue_;
+  std::deque<Completed> completed_;
+};
+
+WorkerPool::WorkerPool(std::span<const Point> points, const DecimationBound& bound,
+                       const WorkerPoolOptions& options)
+    : implementation_(std::make_unique<Implementation>(points, bound, options)) {}
+
+WorkerPool::~WorkerPool() = default;
+
+void WorkerPool::submit(std::uint64_t ticket, const ChainSettings& settings) {
+  implementation_->submit(ticket, settings);
+}
+
+Completed WorkerPool::wait() {
+  while (true) {
+    if (auto completed = implementation_->wait_until(std::nullopt)) return std::move(*completed);
+  }
+}
+
+std::optional<Completed> WorkerPool::wait_for(std::chrono::milliseconds duration) {
+  return implementation_->wait_until(Clock::now() + duration);
+}
+
+void WorkerPool::go_on() { implementation_->go_on(); }
+
+void WorkerPool::stop() { implementation_->stop(); }
+
+std::size_t WorkerPool::outstanding() const { return implementation_->outstanding(); }
+
+}  // namespace emax

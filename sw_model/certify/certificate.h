@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sw_model/base/mesh_view.h"
+#include "sw_model/certify/exact_distance.h"
+
+namespace emax {
+
+// What is proven of a mesh: every kept point of the cloud lies within `e_max_upper` of it. In the
+// coordinates and the unit of the input, rounded outward (docs/numerics.md).
+struct CertifiedError {
+  double e_max_upper = 0;
+  double e_max_lower = 0;       // e_max is at least this; the two differ by rounding alone
+  std::size_t worst_point = 0;  // lowest index of a kept point that attains e_max_upper
+  std::size_t points = 0;       // kept
+
+  std::vector<std::uint32_t> excluded;     // as given
+  std::vector<double> excluded_distances;  // outward, in that order
+  double e_max_upper_all = 0;              // over the kept and the excluded
+
+  bool within(double epsilon) const { return e_max_upper <= epsilon; }
+};
+
+// The greatest distance from a point of the cloud to the mesh, by the oracle of exact_distance.h:
+// this number alone permits writing a result. The same to the bit for any number of threads.
+//
+// Points are taken along a space-filling curve, so that a triangle near one of them is often near
+// enough to the next to show that it cannot be the worst.
+//
+// Throws Error naming the point that is not finite or beyond 1e150, or where nothing is left to
+// certify, and as ExactMesh does; std::invalid_argument for an excluded index that does not exist
+// or comes twice; std::logic_error while flush mode is on. About O(points log triangles).
+CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
+                       std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
+CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
+                       std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
+
+}  // namespace emax

@@ -1,0 +1,290 @@
+#include "sw_model/certify/exact_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sw_model/base/error.h"
+#include "sw_model/base/flush_mode.h"
+#include "sw_model/certify/matrix_free.h"
+
+namespace emax {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnit = 0x1p-53;  // the relative error of one rounding
+
+// Non-negative, not all zero: they stand for the point sum(w_i V_i) / sum(w_i) of the triangle.
+using Weights = Eigen::Array3d;
+
+// Relative error below 5 kUnit for any finite argument.
+double norm(const Point& v) {
+  const double largest = v.cwiseAbs().maxCoeff();
+  const double scale = largest < 0x1p-480 ? 0x1p600 : largest > 0x1p480 ? 0x1p-600 : 1;
+  return std::sqrt((v * scale).squaredNorm()) / scale;
+}
+
+Point combine(const std::array<Point, 3>& from_p, const Weights& w) {
+  return w[0] * from_p[0] + w[1] * from_p[1] + w[2] * from_p[2];
+}
+
+// Where the foot of the perpendicular falls inside the triangle. V0V1 is the longest edge. The apex
+// weight comes from what is left across that edge, and the position along it afterwards, so that a
+// sliver moves the foot by a rounding of its length and not by length / height times that.
+bool foot_inside(const Point& to_p, const Point& edge, const Point& to_apex, Weights& weights) {
+  const double edge_squared = edge.squaredNorm();
+  if (!(edge_squared > 0)) return false;
+  const Point height = to_apex - to_apex.dot(edge) / edge_squared * edge;
+  const double height_squared = height.squaredNorm();
+  if (!(height_squared > 0)) return false;
+  const Point p_across = to_p - to_p.dot(edge) / edge_squared * edge;
+  const double apex = p_across.dot(height) / height_squared;
+  const double along = (to_p - apex * to_apex).dot(edge) / edge_squared;
+  weights = {1 - along - apex, along, apex};
+  return (weights > 0).all();
+}
+
+// Position of the nearest point on the edge from `a` to `b`, 0 at `a` and 1 at `b`.
+double position_on_edge(const Point& a_from_p, const Point& edge) {
+  const double squared = edge.squaredNorm();
+  return squared > 0 ? std::clamp(-a_from_p.dot(edge) / squared, 0.0, 1.0) : 0.0;
+}
+
+Weights nearest_weights(const std::array<Point, 3>& corners, const std::array<Point, 3>& from_p) {
+  std::array<Point, 3> edges;
+  std::array<double, 3> squared;
+  for (std::size_t i = 0; i < 3; ++i) {
+    edges[i] = corners[(i + 1) % 3] - corners[i];
+    squared[i] = edges[i].squaredNorm();
+  }
+  const std::size_t i0 =
+      static_cast<std::size_t>(std::max_element(squared.begin(), squared.end()) - squared.begin());
+  const std::size_t i1 = (i0 + 1) % 3, i2 = (i0 + 2) % 3;
+
+  Weights best = Weights::Zero();
+  double least = kInfinity;
+  Weights foot;
+  if (foot_inside(-from_p[i0], edges[i0], -edges[i2], foot)) {
+    best[static_cast<Eigen::Index>(i0)] = foot[0];
+    best[static_cast<Eigen::Index>(i1)] = foot[1];
+    best[static_cast<Eigen::Index>(i2)] = foot[2];
+    least = combine(from_p, best).squaredNorm();
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double t = position_on_edge(from_p[i], edges[i]);
+    Weights w = Weights::Zero();
+    w[static_cast<Eigen::Index>(i)] = 1 - t;
+    w[static_cast<Eigen::Index>((i + 1) % 3)] = t;
+    const double distance_squared = combine(from_p, w).squaredNorm();
+    if (distance_squared < least) {
+      least = distance_squared;
+      best = w;
+    }
+  }
+  return best.sum() > 0 ? best : Weights(1, 0, 0);
+}
+
+// A bound from above on the square, to compare with squared box distances.
+double squared_up(double value) {
+  return std::nextafter(value * value * (1 + 8 * kUnit), kInfinity);
+}
+
+// At most the squared distance from p to anything in the box.
+double squared_distance_to_box(const Point& p, const Point& low, const Point& high) {
+  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm() * (1 - 8 * kUnit);
+}
+
+constexpr std::uint32_t kLeafSize = 4;
+constexpr std::size_t kMaxDepth = 64;  // a median split halves 2^32 triangles in 32 levels
+
+DistanceBounds bounds(const Point& p, const std::array<Point, 3>& corners) {
+  const std::array<Point, 3> from_p = {corners[0] - p, corners[1] - p, corners[2] - p};
+  for (const Point& v : from_p) {
+    // A difference of binary64 numbers is 0 only where they agree.
+    if ((v.array() == 0).all()) return {0, 0};
+  }
+  const Weights w = nearest_weights(corners, from_p);
+  const Point to_nearest = combine(from_p, w);
+  const double length = norm(to_nearest);
+
+  // docs/numerics.md, "The oracle's rounding", derives both constants.
+  const std::array<double, 3> sizes = {from_p[0].lpNorm<1>(), from_p[1].lpNorm<1>(),
+                                       from_p[2].lpNorm<1>()};
+  const double spread = w[0] * sizes[0] + w[1] * sizes[1] + w[2] * sizes[2];
+  const double upper = (length + 5 * kUnit * spread) / w.sum() * (1 + 16 * kUnit) + 0x1p-1060;
+
+  double lower = 0;
+  if (length > 0x1p-900) {
+    const Point n = to_nearest / length;
+    const double support = std::min({from_p[0].dot(n), from_p[1].dot(n), from_p[2].dot(n)});
+    lower = support * (1 - 16 * kUnit) - 6 * kUnit * std::max({sizes[0], sizes[1], sizes[2]}) -
+            0x1p-1060;
+  }
+  return {std::max(lower, 0.0), std::nextafter(upper, kInfinity)};
+}
+
+// Whether the triangle is proven to be farther than `upper`, for a fifth of what `bounds` costs: no
+// where that is not plain. The direction is guessed; for any direction the bound below holds.
+bool is_farther(const Point& p, const std::array<Point, 3>& corners, double upper) {
+  const Point direction = -ericson_offset(p, corners[0], corners[1], corners[2]);
+  double support = kInfinity, size = 0;
+  for (const Point& corner : corners) {
+    const Point from_p = corner - p;
+    support = std::min(support, from_p.dot(direction));
+    size = std::max(size, from_p.lpNorm<1>());
+  }
+  const double least = upper + 8 * kUnit * size;
+  const double squared = direction.squaredNorm();
+  return support > 0 && squared > 0x1p-500 && squared < 0x1p500 && least < 0x1p250 &&
+         support * support > squared * (least * least) * (1 + 64 * kUnit);
+}
+
+}  // namespace
+
+DistanceBounds point_triangle_distance(const Point& p, const std::array<Point, 3>& corners) {
+  require_no_flush("the exact distance");
+  return bounds(p, corners);
+}
+
+void require_measurable(MeshView mesh) {
+  if (mesh.triangles.empty()) throw Error("the mesh has no triangles: no distance to it exists");
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t vertex : mesh.triangles[i]) {
+      if (vertex >= mesh.vertices.size()) {
+        throw std::invalid_argument("triangle " + std::to_string(i) + " names vertex " +
+                                    std::to_string(vertex) + ", which does not exist");
+      }
+      if (!(mesh.vertices[vertex].array().abs() < 1e150).all()) {  // also for NaN
+        throw Error("triangle " + std::to_string(i) +
+                    " has a vertex that is not finite or beyond 1e150: correct the mesh");
+      }
+    }
+  }
+}
+
+ExactMesh::ExactMesh(MeshView mesh) {
+  require_no_flush("the exact distance");
+  require_measurable(mesh);
+  const std::size_t count = mesh.triangles.size();
+  corners_.reserve(count);
+  std::vector<Centre> centres;
+  centres.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::array<Point, 3> corners = mesh.corners(i);
+    corners_.push_back(corners);
+    centres.push_back({corners[0] / 3 + corners[1] / 3 + corners[2] / 3, i});
+  }
+  nodes_.reserve(2 * count / kLeafSize + 1);
+  build(0, static_cast<std::uint32_t>(count), centres);
+
+  // Leaves read their corners in the order of the tree.
+  order_.resize(count);
+  place_of_.resize(count);
+  std::vector<std::array<Point, 3>> by_place(count);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    order_[place] = centres[place].triangle;
+    place_of_[order_[place]] = place;
+    by_place[place] = corners_[order_[place]];
+  }
+  corners_ = std::move(by_place);
+}
+
+std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
+                               std::vector<Centre>& centres) {
+  const std::uint32_t node = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({Point::Constant(kInfinity), Point::Constant(-kInfinity), begin, end, 0});
+  const auto enclose = [&](const Point& low, const Point& high) {
+    nodes_[node].low = nodes_[node].low.cwiseMin(low);
+    nodes_[node].high = nodes_[node].high.cwiseMax(high);
+  };
+  if (end - begin <= kLeafSize) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      for (const Point& corner : corners_[centres[i].triangle]) enclose(corner, corner);
+    }
+    return node;
+  }
+  Point low = Point::Constant(kInfinity), high = -low;  // of the centres
+  for (std::uint32_t i = begin; i < end; ++i) {
+    low = low.cwiseMin(centres[i].at);
+    high = high.cwiseMax(centres[i].at);
+  }
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  const std::uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(centres.begin() + begin, centres.begin() + middle, centres.begin() + end,
+                   [&](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; });
+  const std::uint32_t left = build(begin, middle, centres);
+  const std::uint32_t right = build(middle, end, centres);
+  nodes_[node].right = right;
+  for (const std::uint32_t child : {left, right}) enclose(nodes_[child].low, nodes_[child].high);
+  return node;
+}
+
+DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) const {
+  require_no_flush("the exact distance");
+  return bounds(p, corners_[place_of_.at(triangle)]);
+}
+
+bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) const {
+  const std::array<Point, 3>& corners = corners_[place_of_.at(triangle)];
+  // docs/numerics.md, "The oracle's rounding": then no rounding leads to an upper end beyond it.
+  if (limit > 0x1p-400 && limit < 0x1p400) {
+    double nearest = kInfinity, farthest = 0;
+    for (const Point& corner : corners) {
+      const double squared = (corner - p).squaredNorm();
+      nearest = std::min(nearest, squared);
+      farthest = std::max(farthest, squared);
+    }
+    if (nearest <= 0.25 * limit * limit && farthest <= 0x1p60 * limit * limit) return true;
+  }
+  return distance_to(p, triangle).upper <= limit;
+}
+
+ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32_t seed) const {
+  require_no_flush("the exact distance");
+  Nearest best = {{kInfinity, kInfinity}, 0};
+  double best_squared = kInfinity;
+  if (seed < order_.size()) {
+    best = {bounds(p, corners_[place_of_[seed]]), seed};
+    best_squared = squared_up(best.distance.upper);
+  }
+  struct Pending {
+    std::uint32_t node;
+    double squared_distance;
+  };
+  std::array<Pending, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {0, 0};
+  while (depth > 0) {
+    const Pending pending = stack[--depth];
+    if (pending.squared_distance > best_squared) continue;
+    const Node& node = nodes_[pending.node];
+    if (node.right != 0) {
+      Pending near = {pending.node + 1, 0}, far = {node.right, 0};
+      for (Pending* child : {&near, &far}) {
+        const Node& box = nodes_[child->node];
+        child->squared_distance = squared_distance_to_box(p, box.low, box.high);
+      }
+      if (far.squared_distance < near.squared_distance) std::swap(near, far);
+      stack[depth++] = far;
+      stack[depth++] = near;
+      continue;
+    }
+    for (std::uint32_t place = node.begin; place < node.end; ++place) {
+      if (is_farther(p, corners_[place], best.distance.upper)) continue;
+      const DistanceBounds distance = bounds(p, corners_[place]);
+      best.distance.lower = std::min(best.distance.lower, distance.lower);
+      if (distance.upper < best.distance.upper ||
+          (distance.upper == best.distance.upper && order_[place] < best.triangle)) {
+        best.distance.upper = distance.upper;
+        best.triangle = order_[place];
+        best_squared = squared_up(distance.upper);
+        if (distance.upper <= enough) return {{0, distance.upper}, best.triangle};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace emax

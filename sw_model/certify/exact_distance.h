@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "sw_model/base/mesh_view.h"
+
+namespace emax {
+
+// An interval that holds the exact distance between its arguments, both ends proven. Its width is a
+// few units in the last place of |P - V| plus the triangle's size, wherever the coordinates lie.
+struct DistanceBounds {
+  double lower, upper;
+};
+
+// Distance from a point to a triangle of any shape: slivers, segments and single points too.
+//
+// Shares nothing with the kernel: no frame, no rotation, binary64 throughout. It works on V_i - P,
+// so rounding scales with the distance and not with the coordinates.
+//   upper: the distance to a convex combination of the corners, which is a point of the triangle
+//          whatever the weights, plus the rounding of the computation (docs/numerics.md).
+//   lower: for any direction n, |n| <= 1, the triangle is at least min_i (V_i - P).n away.
+// Coordinates finite and below 1e150. Throws std::logic_error while flush mode is on. O(1).
+DistanceBounds point_triangle_distance(const Point& p, const std::array<Point, 3>& corners);
+
+// Throws Error for a mesh without triangles or with a vertex that is not finite or beyond 1e150;
+// std::invalid_argument for an index out of range.
+void require_measurable(MeshView mesh);
+
+// A mesh as the oracle searches it: a median-split box tree in binary64. Copies what it needs.
+class ExactMesh {
+ public:
+  struct Nearest {
+    DistanceBounds distance;
+    std::uint32_t triangle;
+  };
+
+  // Throws as require_measurable does. O(n log n).
+  explicit ExactMesh(MeshView mesh);
+
+  // `upper` is the least upper bound over all triangles, the same to the bit as without the tree,
+  // and `triangle` the lowest index that attains it. The search may stop at any triangle within
+  // `enough`; then `upper` <= enough is all that is promised, and `lower` is 0. A triangle known to
+  // be near, `seed`, makes it faster and changes nothing else.
+  Nearest nearest(const Point& p, double enough = -std::numeric_limits<double>::infinity(),
+                  std::uint32_t seed = ~0u) const;
+
+  DistanceBounds distance(const Point& p) const { return nearest(p).distance; }
+
+  const std::array<Point, 3>& corners(std::uint32_t triangle) const {
+    return corners_[place_of_[triangle]];
+  }
+
+  // Bounds of the distance to one triangle of the mesh.
+  DistanceBounds distance_to(const Point& p, std::uint32_t triangle) const;
+
+  // distance_to(p, triangle).upper <= limit, mostly for less: a corner of the triangle that is
+  // plainly within the limit shows it, too.
+  bool is_within(const Point& p, std::uint32_t triangle, double limit) const;
+
+ private:
+  struct Node {
+    Point low, high;
+    std::uint32_t begin, end;  // of the leaf's triangles, or
+    std::uint32_t right;       // the right child; the left one follows its parent. 0 in a leaf.
+  };
+
+  struct Centre {
+    Point at;
+    std::uint32_t triangle;
+  };
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Centre>& centres);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;     // triangle of each place in the leaves
+  std::vector<std::uint32_t> place_of_;  // and its inverse
+  std::vector<std::array<Point, 3>> corners_;
+};
+
+}  // namespace emax

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sw_model/base/mesh_view.h"
+#include "sw_model/certify/exact_distance.h"
+
+namespace emax {
+
+// The other direction: the greatest distance from any point of a mesh, the inside of its triangles
+// included, to a reference, as an interval of which both ends are proven. In the coordinates and
+// the unit of the input, rounded outward, and independent of the kernel (docs/numerics.md).
+struct SurfaceDistance {
+  double lower = 0, upper = 0;
+  Point witness = Point::Zero();  // at least `lower` from the reference, and on
+  std::uint32_t triangle = 0;     // this triangle of the mesh, but for the rounding of coordinates
+  std::size_t cuts = 0;
+
+  bool within(double epsilon) const { return upper <= epsilon; }
+};
+
+struct SurfaceDistanceOptions {
+  // The search ends when `upper` is at most lower * (1 + relative) or lower + absolute, or when
+  // only 2^-30 of the mesh's extent or roundings are left between the two.
+  double relative = 0.01;
+  double absolute = 0;
+  // A decision: the search also ends when `upper` is at most this (every point of the mesh is), or
+  // `lower` above it (the witness is not), and goes depth first, which takes half the time of a
+  // decision that holds. Negative: none.
+  double limit = -1;
+  // Called now and then; what it throws ends the search.
+  std::function<void()> poll = nullptr;
+  // Faults that the tests must catch.
+  enum class Fault { kNone, kNoMargin, kNearestOfEachCorner, kStopsEarly } fault = Fault::kNone;
+};
+
+// Branch and bound over pieces of the mesh's triangles, the one with the greatest bound first. The
+// distance to one triangle of the reference is a convex function, so over a piece it is greatest at
+// a corner: the least of these maxima over a few triangles of the reference bounds the piece, and
+// the distances of the corners themselves bound the result from below. A piece is cut where the
+// triangle that bounds it and the one nearest to its worst corner are equally far, so that the
+// pieces come to follow the reference's own faces.
+//
+// Throws Error for a mesh without triangles or with a vertex that is not finite or beyond 1e150;
+// std::invalid_argument for an index out of range; std::logic_error while flush mode is on.
+// A nearest-triangle query of O(log reference) per vertex and triangle and two per cut. Cuts are
+// about as many as pairs of triangles that face each other where the distance comes near its
+// maximum; where the mesh lies in the reference they grow with log(1 / absolute). 184 bytes per
+// piece in hand, 48 per vertex.
+SurfaceDistance surface_distance(MeshView mesh, const ExactMesh& reference,
+                                 const SurfaceDistanceOptions& options = {});
+
+// Whether it is within the limit, and no more: where it is, `upper` may lie anywhere up to it.
+SurfaceDistance decided_distance(MeshView mesh, const ExactMesh& reference, double limit);
+
+// A cloud as a reference: every point is a triangle of no size.
+std::vector<Triangle> triangles_of_points(std::size_t points);
+
+}  // namespace emax

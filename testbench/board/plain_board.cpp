@@ -1,0 +1,11 @@
+#include <Vemax_ulx3s_board.h>
+
+#include "testbench/board/verilated_board.h"
+
+namespace emax {
+
+std::unique_ptr<BoardSimulation> make_board() {
+  return std::make_unique<VerilatedBoard<Vemax_ulx3s_board, 2>>();  // as CMakeLists.txt builds it
+}
+
+}  // namespace emax

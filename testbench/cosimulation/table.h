@@ -1,0 +1,24 @@
+// The summary of a co-simulation, a line a test.
+#pragma once
+
+#include <string>
+
+#include "testbench/cosimulation/cosimulation.h"
+
+namespace emax {
+
+class Table {
+ public:
+  void print_head() const;
+  void print_row(const TestReport& report);
+  // All rows so far in one.
+  void print_sum() const;
+  // On a terminal, at most a few times a second.
+  void show_progress(const std::string& test, double share);
+
+ private:
+  TestReport sum_;
+  double last_shown_ = 0;
+};
+
+}  // namespace emax

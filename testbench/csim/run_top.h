@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hls/kernel/emax_top.h"
+#include "sw_model/base/flush_mode.h"
+
+namespace emax {
+
+// Command words through the synthesizable top on the processor's own binary32, until all are
+// served; the answer words. `flushing` is off only to show that a simulation without it is caught.
+inline std::vector<Word> run_top(const std::vector<Word>& words, bool flushing = true) {
+  std::optional<ScopedFlushMode> flush;
+  if (flushing) flush.emplace();
+  Stream<Word> commands, answers;
+  for (const Word word : words) commands.write(word);
+  while (!commands.empty()) emax_top(commands, answers);
+  std::vector<Word> all;
+  while (!answers.empty()) all.push_back(answers.read());
+  return all;
+}
+
+}  // namespace emax

@@ -1,0 +1,68 @@
+// One run of the element: what goes in, how willing the four streams are, and what must come out.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "testbench/element/element_simulation.h"
+#include "testbench/stimuli/stream_pattern.h"
+
+namespace emax {
+
+struct StreamPatterns {
+  Pattern record = Pattern::kAlways, point = Pattern::kAlways;   // idles
+  Pattern nearest = Pattern::kAlways, worst = Pattern::kAlways;  // back-pressure
+  std::uint64_t seed = 0;
+
+  bool all_willing() const {
+    return record == Pattern::kAlways && point == Pattern::kAlways && nearest == Pattern::kAlways &&
+           worst == Pattern::kAlways;
+  }
+};
+
+// A run begins with a reset. Pairs meet the records in order, moving on with next_record.
+struct ElementRun {
+  std::vector<RecordWords> records;
+  std::vector<Pair> pairs;
+  StreamPatterns patterns;
+  std::optional<std::uint64_t> cut;  // end after so many cycles: the next run's reset is mid-stream
+};
+
+// What the model says comes out of each output, in order, with the pair that caused it.
+struct ExpectedNearest {
+  Word squared;
+  bool last;
+  std::size_t pair;
+};
+struct ExpectedWorst {
+  Word squared, index;
+  std::size_t pair;
+};
+struct Expected {
+  std::vector<ExpectedNearest> nearest;
+  std::vector<ExpectedWorst> worst;
+};
+
+// The model: pair_squared_bits and the kernel's reductions, pair after pair. Throws
+// std::invalid_argument where the run breaks a rule of the element's streams.
+Expected expected_of(const ElementRun& run);
+
+// Do the pairs keep the rules? Each has its record, a point's pairs keep kReadModifyWrite apart,
+// the first of a point in a block says so, a block's last is final.
+bool is_legal(const ElementRun& run);
+
+// The record that each pair meets.
+std::vector<std::size_t> records_of_pairs(const ElementRun& run);
+
+// Text: one line a record or pair, hex words, comments after #. Reading throws Error naming the
+// line.
+void write_run(std::ostream& out, const ElementRun& run);
+ElementRun read_run(std::istream& in);
+
+TriangleRecord<float> to_record(const RecordWords& words);
+RecordWords to_words(const TriangleRecord<float>& record);
+
+}  // namespace emax

@@ -1,0 +1,404 @@
+#include "host/chain/chain.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "host/decimate/far_points.h"
+#include "host/geometry/mesh_topology.h"
+#include "host/geometry/mesh_validity.h"
+#include "host/parameters/reconstruction_parameters.h"
+#include "host/surface/manifold_part.h"
+#include "sw_model/base/error.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/surface_clouds.h"
+#include "tests/host/support/surfaces.h"
+
+namespace emax::test {
+namespace {
+
+ChainSettings settings(const std::string& method) {
+  ChainSettings result{method, "schroeder", standard_values(chain_parameters(method, "schroeder"))};
+  if (method == "hoppe") result.parameters["hoppe.resolution"] = 32;
+  return result;
+}
+
+TEST(ChainParameters, JoinTheStagesWithStandardsInTheirDomains) {
+  for (const std::string_view method : reconstruction_methods()) {
+    for (const std::string_view decimator : decimators()) {
+      const auto chain = chain_parameters(method, decimator);
+      std::set<std::string> names;
+      for (const ParameterSpec& spec : chain) {
+        EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+        EXPECT_LT(spec.lower, spec.upper) << spec.name;
+        EXPECT_LE(spec.lower, spec.standard) << spec.name;
+        EXPECT_LE(spec.standard, spec.upper) << spec.name;
+        EXPECT_FALSE(spec.meaning.empty()) << spec.name;
+      }
+      EXPECT_EQ(chain.size(), reconstruction_parameters(method).size() + 1 +
+                                  decimation_parameters(decimator).size());
+      EXPECT_TRUE(names.contains("fill.size"));
+    }
+  }
+  EXPECT_THROW(chain_parameters("gp3", "quadric"), Error);
+  EXPECT_THROW(chain_parameters("alpha", "schroeder"), Error);
+}
+
+TEST(RunChain, MakesASmallerMesh) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  for (const std::string method : {"gp3", "hoppe"}) {
+    const ChainResult result = Chain(cloud).run(settings(method));
+    EXPECT_LT(result.mesh.triangles.size(), result.reconstruction_triangles / 2) << method;
+    EXPECT_GT(result.mesh.triangles.size(), 100u) << method;
+    EXPECT_EQ(check_mesh(result.mesh.view()).inconsistent_edges, 0u) << method;
+  }
+}
+
+ChainSettings bounded(double mu = 2.3) {
+  ChainSettings result{"gp3", "bounded", standard_values(chain_parameters("gp3", "bounded"))};
+  result.parameters["gp3.mu"] = mu;
+  return result;
+}
+
+DecimationBound two_sided_bound(const std::vector<Point>& cloud, double epsilon, double back) {
+  ChainSettings standards = bounded();
+  standards.decimator = kNoDecimator;
+  const TriangleMesh surface = Chain(cloud).run(standards).mesh;
+  return {epsilon, back, reference_surface(surface, cloud, epsilon / 2).mesh, {}};
+}
+
+TEST(RunChain, BoundedDecimationIsHeldToTheReference) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  const DecimationBound bound = two_sided_bound(cloud, 0.05, 0.06);
+  EXPECT_TRUE(check_mesh(bound.reference.view()).valid());
+  EXPECT_TRUE(certify(cloud, bound.reference.view()).within(0.025));
+  ChainSettings candidate = bounded(3);
+  candidate.parameters["bounded.flatness"] = 0.01;
+  const ChainResult result = Chain(cloud, bound).run(candidate);
+  EXPECT_LT(result.mesh.triangles.size(), result.reconstruction_triangles / 4);
+  EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
+  EXPECT_TRUE(certify(cloud, result.mesh.view()).within(0.05));
+  const SurfaceDistance back =
+      surface_distance(result.mesh.view(), ExactMesh(bound.reference.view()));
+  EXPECT_LE(back.lower, result.back_distance);
+  EXPECT_LE(result.back_distance, 0.06);
+
+  DecimationBound one_sided = {0.05, 0, {}, {}};
+  const ChainResult freer = Chain(cloud, one_sided).run(candidate);
+  EXPECT_LE(freer.mesh.triangles.size(), result.mesh.triangles.size());
+  EXPECT_EQ(freer.back_distance, 0);
+  EXPECT_EQ(freer.reference_distance, 0);
+}
+
+// A surface that is not the reference's is handed back as it is, with what it breaks.
+TEST(RunChain, WhatIsNotTheReferenceIsNotDecimated) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  DecimationBound bound = two_sided_bound(cloud, 0.05, 0.05);
+  EXPECT_EQ(Chain(cloud, bound).run(bounded()).topology_difference, 0u);
+  TriangleMesh part = bound.reference;
+  std::erase_if(part.triangles, [&](const Triangle& t) { return part.vertices[t[0]].x() > 0; });
+  bound.reference = manifold_part(part).mesh;
+  const ChainResult result = Chain(cloud, bound).run(bounded());
+  // Half a torus: no handle and two borders instead of a handle.
+  EXPECT_EQ(result.topology_difference, 3u);
+  EXPECT_GT(result.back_distance, 0.5);
+  EXPECT_LE(result.reference_distance, 0.05);
+  EXPECT_GE(result.mesh.triangles.size(), result.reconstruction_triangles / 2);
+  EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
+
+  for (Point& p : bound.reference.vertices) p += Point(0, 0, 10);
+  EXPECT_GT(Chain(cloud, bound).run(bounded()).reference_distance, 5);
+}
+
+// The twin of the decision: a distance measured without a limit.
+TEST(BoundedStage, TellsHowFarAMeshStraysFromTheReference) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  const DecimationBound bound = two_sided_bound(cloud, 0.05, 0.05);
+  const BoundedStage stage(cloud, bound);
+  const ExactMesh reference(bound.reference.view());
+  for (const double shift : {0.0, 0.03, 0.0499, 0.0501, 0.06, 2.0}) {
+    TriangleMesh mesh = bound.reference;
+    for (Point& p : mesh.vertices) p += Point(0, 0, shift);
+    const SurfaceDistance measured = surface_distance(mesh.view(), reference);
+    const double back = stage.judge(mesh).back_distance;
+    EXPECT_EQ(back <= 0.05, measured.upper <= 0.05) << shift;
+    EXPECT_GE(back, 0.9 * measured.lower) << shift;
+    EXPECT_LE(back, std::max(measured.upper, 0.05)) << shift;
+  }
+}
+
+// The deliberate fault that this direction alone catches: a mesh with a hole in it lies in the
+// reference, with a hole between the points it keeps all of them.
+TEST(BoundedStage, TellsHowFarTheReferenceIsFromAMesh) {
+  const std::vector<Point> corners = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
+  const DecimationBound bound = {0.5, 0.5, {corners, {{0, 1, 2}, {0, 2, 3}}}, {}};
+  const BoundedStage stage(corners, bound);
+  EXPECT_LE(stage.judge(bound.reference).reference_distance, 0.5);
+  // A frame of the given width around the square's inside.
+  const auto frame = [&](double width) {
+    TriangleMesh mesh{corners, {}};
+    for (const Point& p : corners)
+      mesh.vertices.push_back(p + width * Point(p.x() > 0 ? -1 : 1, p.y() > 0 ? -1 : 1, 0));
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t j = (i + 1) % 4;
+      mesh.triangles.push_back({i, j, 4 + j});
+      mesh.triangles.push_back({i, 4 + j, 4 + i});
+    }
+    return mesh;
+  };
+  for (const double width : {3.45, 3.499, 3.501, 3.6, 3.9}) {
+    const TriangleMesh mesh = frame(width);
+    EXPECT_TRUE(certify(corners, mesh.view()).within(0));
+    EXPECT_LE(stage.judge(mesh).back_distance, 1e-6);
+    const SurfaceDistance measured =
+        surface_distance(bound.reference.view(), ExactMesh(mesh.view()));
+    EXPECT_NEAR(measured.upper, 4 - width, 0.01);
+    const double found = stage.judge(mesh).reference_distance;
+    EXPECT_EQ(found <= 0.5, width > 3.5) << width;
+    EXPECT_GE(found, 0.9 * measured.lower) << width;
+    EXPECT_LE(found, std::max(measured.upper, 0.5)) << width;
+  }
+  EXPECT_EQ(BoundedStage(corners, {0.5, 0, {}, {}}).judge(frame(1)).reference_distance, 0);
+}
+
+// Triangles over a sheet: within half of epsilon, within it, and beyond.
+TEST(BoundedStage, DropsPiecesThatNoPointNeeds) {
+  TriangleMesh surface = sheet(16, 0);
+  for (const double height : {0.04, 0.08, 0.2}) {
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    surface.vertices.insert(surface.vertices.end(), {{0, 5 * height - 0.5, height},
+                                                     {0.1, 5 * height - 0.5, height},
+                                                     {0, 5 * height - 0.4, height}});
+    surface.triangles.push_back({first, first + 1, first + 2});
+  }
+  const auto components = [](const TriangleMesh& mesh) {
+    return check_mesh(mesh.view()).components;
+  };
+  DecimationBound bound;
+  EXPECT_EQ(components(BoundedStage(surface.vertices, bound).without_needless(surface)), 4u);
+  bound.epsilon = 0.1;
+  const BoundedStage stage(surface.vertices, bound);
+  const TriangleMesh start = stage.without_needless(surface);
+  EXPECT_EQ(components(start), 3u);
+  const TriangleMesh mesh =
+      stage.decimate(start, standard_values(decimation_parameters("bounded"))).mesh;
+  EXPECT_EQ(components(mesh), 2u);
+  EXPECT_LE(certify(surface.vertices, mesh.view()).e_max_upper, bound.epsilon);
+}
+
+// A ball and its cavity: the reconstruction turns both outward, the chain the inner one inward.
+TEST(RunChain, ClosedComponentsBoundASolid) {
+  std::vector<Point> cloud = sphere_cloud(2000);
+  for (const Point& p : sphere_cloud(600)) cloud.push_back(0.4 * p);
+  ChainSettings standards = bounded();
+  standards.decimator = kNoDecimator;
+  const TriangleMesh mesh = Chain(cloud).run(standards).mesh;
+  EXPECT_EQ(topology_of(mesh.view()), (MeshTopology{2, 0, 0}));
+  EXPECT_NEAR(signed_volume(mesh), 4 * std::numbers::pi / 3 * (1 - 0.064), 0.1);
+}
+
+TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
+  std::vector<Point> cloud = torus_cloud(60, 24);
+  const std::size_t sound = cloud.size();
+  for (int i = 0; i < 5; ++i) cloud.push_back(Point(0.3 * i - 0.6, 0.1, 5));
+  DecimationBound bound = {0.05, 0, {}, {}};
+  for (std::size_t i = sound; i < cloud.size(); ++i) {
+    bound.outliers.push_back(static_cast<std::uint32_t>(i));
+  }
+  const TriangleMesh mesh = Chain(cloud, bound).run(bounded()).mesh;
+  EXPECT_TRUE(certify(cloud, mesh.view(), bound.outliers).within(0.05));
+  EXPECT_FALSE(certify(cloud, mesh.view()).within(1));
+}
+
+// Every candidate of auto is one of a method, with the values that mean something there.
+TEST(ChainParameters, AutoHoldsEveryMethod) {
+  const auto all = chain_parameters("auto", "bounded");
+  const ParameterValues standards = standard_values(all);
+  std::set<std::string> names;
+  for (const ParameterSpec& spec : all) EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+  for (std::size_t m = 0; m < reconstruction_methods().size(); ++m) {
+    const std::string method(reconstruction_methods()[m]);
+    ParameterValues values = standards;
+    values["method"] = static_cast<double>(m);
+    ChainSettings candidate = chain_settings("auto", "bounded", values);
+    EXPECT_EQ(candidate.method, method);
+    for (const ParameterSpec& spec : chain_parameters(method, "bounded")) {
+      EXPECT_TRUE(names.contains(spec.name)) << spec.name;
+      EXPECT_TRUE(candidate.parameters.erase(spec.name)) << spec.name;
+    }
+    EXPECT_EQ(candidate.parameters, (ParameterValues{{"mls.method", 0}, {"fill.method", 1}}));
+  }
+  ParameterValues unfilled = standards;
+  unfilled["fill.method"] = 0;
+  unfilled["mls.method"] = 1;
+  const ChainSettings candidate = chain_settings("auto", "bounded", unfilled);
+  EXPECT_FALSE(candidate.parameters.contains("fill.size"));
+  EXPECT_FALSE(candidate.parameters.contains("mls.cell"));
+  EXPECT_TRUE(candidate.parameters.contains("mls.radius"));
+  EXPECT_EQ(chain_settings("gp3", "bounded", standards).parameters, standards);
+}
+
+// Beside a method or beside all of them.
+TEST(ChainParameters, AutoHoldsBothDecimators) {
+  for (const std::string method : {"gp3", "auto"}) {
+    const auto all = chain_parameters(method, "auto");
+    ParameterValues values = standard_values(all);
+    EXPECT_EQ(values.size(), all.size());
+    for (std::size_t d = 0; d < decimators().size(); ++d) {
+      const std::string decimator(decimators()[d]);
+      values["decimator"] = static_cast<double>(d);
+      const ChainSettings candidate = chain_settings(method, "auto", values);
+      EXPECT_EQ(candidate.method, "gp3");
+      EXPECT_EQ(candidate.decimator, decimator);
+      const ParameterValues plain = standard_values(chain_parameters(method, decimator));
+      EXPECT_EQ(candidate.parameters, chain_settings(method, decimator, plain).parameters);
+    }
+  }
+}
+
+TEST(RunChain, AutoRunsTheMethodsThemselves) {
+  const std::vector<Point> cloud = torus_cloud(40, 16);
+  ParameterValues values = standard_values(chain_parameters("auto", "schroeder"));
+  values["hoppe.resolution"] = 32;
+  Chain chain(cloud);
+  for (const double m : {0.0, 2.0}) {
+    values["method"] = m;
+    const ChainSettings candidate = chain_settings("auto", "schroeder", values);
+    ChainSettings plain{candidate.method, "schroeder", {}};
+    for (const ParameterSpec& spec : chain_parameters(plain.method, "schroeder")) {
+      plain.parameters[spec.name] = values.at(spec.name);
+    }
+    EXPECT_TRUE(same_bytes(chain.run(candidate).mesh, Chain(cloud).run(plain).mesh)) << m;
+  }
+}
+
+// Each way to fill holes and to smooth is another surface, kept under its own key.
+TEST(RunChain, TellsTheWaysToFillAndSmoothApart) {
+  std::vector<Point> cloud = torus_cloud(40, 16);
+  std::erase_if(cloud, [](const Point& p) { return (p - Point(1.4, 0, 0)).norm() < 0.5; });
+  Chain chain(cloud);
+  ParameterValues values = standard_values(chain_parameters("auto", kNoDecimator));
+  values["fill.size"] = 0.5;
+  const auto run = [&] { return chain.run(chain_settings("auto", kNoDecimator, values)).mesh; };
+  std::vector<TriangleMesh> meshes;
+  for (const double fill : {0.0, 1.0, 2.0}) {
+    for (const double mls : {0.0, 1.0, 2.0}) {
+      values["fill.method"] = fill;
+      values["mls.method"] = mls;
+      values["mls.cell"] = 1.5;
+      meshes.push_back(run());
+      EXPECT_EQ(check_mesh(meshes.back().view()).boundary_edges > 0, fill == 0) << fill << mls;
+    }
+  }
+  for (std::size_t a = 0; a < meshes.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_FALSE(same_bytes(meshes[a], meshes[b])) << a << ' ' << b;
+  }
+  EXPECT_EQ(chain.reconstructions(), 3u);
+  EXPECT_EQ(chain.clouds(), 2u);
+  values.erase("mls.cell");
+  EXPECT_THROW(run(), Error);
+}
+
+// The twin of the caches is none: every candidate by a chain of its own.
+TEST(RunChain, TakesNoNoticeOfTheCaches) {
+  const std::vector<Point> cloud = torus_cloud(30, 12);
+  const DecimationBound bound = two_sided_bound(cloud, 0.15, 0.15);
+  Chain shared(cloud, bound), forgetful(cloud, bound, 1);
+  std::set<StageKey> reconstructions;
+  Random random(9);
+  SCOPED_TRACE("seed 9");
+  for (int i = 0; i < 8; ++i) {
+    ChainSettings candidate = i % 2 == 0 ? settings("gp3") : bounded();
+    candidate.parameters["gp3.mu"] = 2 + 0.5 * random.below(3);
+    candidate.parameters["fill.size"] = 0.1 * random.below(2);
+    candidate.parameters.insert(
+        {{"mls.method", i < 4 ? 0 : 1}, {"mls.radius", 2}, {"mls.order", 2}});
+    if (i % 2 == 0) candidate.parameters["schroeder.reduction"] = random.uniform(0.2, 0.9);
+    reconstructions.insert(reconstruction_key(candidate));
+    const ChainResult expected = Chain(cloud, bound).run(candidate);
+    for (Chain* chain : {&shared, &forgetful}) {
+      const ChainResult result = chain->run(candidate);
+      EXPECT_TRUE(same_bytes(result.mesh, expected.mesh)) << i;
+      EXPECT_EQ(result.reconstruction_triangles, expected.reconstruction_triangles);
+      EXPECT_EQ(result.unmeshed_points, expected.unmeshed_points);
+      EXPECT_EQ(result.topology_difference, expected.topology_difference);
+      EXPECT_EQ(result.back_distance, expected.back_distance);
+      EXPECT_EQ(result.reference_distance, expected.reference_distance);
+    }
+  }
+  EXPECT_EQ(shared.clouds(), 1u);
+  EXPECT_EQ(shared.reconstructions(), reconstructions.size());
+  EXPECT_LT(reconstructions.size(), 8u);
+}
+
+TEST(RunChain, RepeatsNoStageForALaterStagesGene) {
+  Chain chain(torus_cloud(30, 12), {0.1, 0, {}, {}});
+  ChainSettings candidate = bounded();
+  EXPECT_GT(chain.run(candidate).seconds.reconstruct, 0);
+  candidate.parameters["bounded.flatness"] = 0.01;
+  const ChainResult again = chain.run(candidate);
+  EXPECT_EQ(again.seconds.reconstruct, 0);
+  EXPECT_EQ(again.seconds.prepare, 0);
+  EXPECT_EQ(chain.surfaces(), 1u);
+  candidate.parameters["fill.size"] = 0.01;
+  chain.run(candidate);
+  EXPECT_EQ(chain.surfaces(), 2u);
+  EXPECT_EQ(chain.reconstructions(), 1u);
+  candidate.parameters["gp3.mu"] = 3;
+  chain.run(candidate);
+  EXPECT_EQ(chain.reconstructions(), 2u);
+  EXPECT_EQ(chain.clouds(), 0u);
+  ChainSettings smoothed = settings("gp3");
+  smoothed.parameters.insert({{"mls.method", 1}, {"mls.radius", 4}, {"mls.order", 2}});
+  for (const double mu : {3.0, 4.0}) {
+    smoothed.parameters["gp3.mu"] = mu;
+    chain.run(smoothed);
+  }
+  EXPECT_EQ(chain.reconstructions(), 4u);
+  EXPECT_EQ(chain.clouds(), 1u);
+}
+
+struct Sized {
+  std::size_t size;
+  std::size_t size_in_bytes() const { return size; }
+};
+
+TEST(StageCache, KeepsTheLastUsedWithinItsBytes) {
+  StageCache<int, Sized> cache(100);
+  const auto get = [&](int key, std::size_t size) {
+    const std::size_t before = cache.made();
+    cache.get(key, [&] { return Sized{size}; });
+    return cache.made() > before;
+  };
+  EXPECT_TRUE(get(1, 40));
+  EXPECT_TRUE(get(2, 40));
+  EXPECT_FALSE(get(1, 40));
+  EXPECT_TRUE(get(3, 40));  // 2, unused for longest, goes
+  EXPECT_EQ(cache.bytes(), 80u);
+  EXPECT_FALSE(get(1, 40));
+  EXPECT_TRUE(get(2, 40));
+  EXPECT_TRUE(get(4, 1000));  // one alone may be greater
+  EXPECT_EQ(cache.size(), 1u);
+  EXPECT_FALSE(get(4, 1000));
+  EXPECT_THROW(cache.get(5, []() -> Sized { throw Error("none"); }), Error);
+  EXPECT_FALSE(get(4, 1000));
+}
+
+TEST(RunChain, NamesAMissingParameter) {
+  for (const ParameterSpec& spec : chain_parameters("gp3", "schroeder")) {
+    ChainSettings lacking = settings("gp3");
+    lacking.parameters.erase(spec.name);
+    try {
+      Chain(torus_cloud(20, 12)).run(lacking);
+      ADD_FAILURE() << "no error without " << spec.name;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(spec.name), std::string::npos) << e.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace emax::test

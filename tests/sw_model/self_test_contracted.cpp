@@ -1,8 +1,0 @@
-#include "sw_model/arithmetic_probe.h"
-
-namespace emax::test {
-
-// Defined apart from the test: this file is compiled with contraction allowed.
-std::optional<std::string> probe_with_contraction() { return probe_arithmetic(); }
-
-}  // namespace emax::test
