@@ -68,16 +68,33 @@ function(emax_library target)
   endif()
 endfunction()
 
-# emax_test(<name> SOURCES ... LINKS ... [TIMEOUT <seconds>]): one GoogleTest program, one ctest entry a test.
+# emax_test(<name> SOURCES ... LINKS ... [FAULTS <source>...] [TIMEOUT <seconds>]): one GoogleTest
+# program, one ctest entry a test. FAULTS names sources of the product, from the root, that have an
+# EMAX_FAULT (sw_model/base/deliberate_fault.h): a second program has them with their faults, and the
+# tests of suites "...Fault" run there.
 function(emax_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
-  emax_flags(${name})
-  target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS;FAULTS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  add_executable(${name} ${ARG_SOURCES})
+  emax_flags(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  set(filter)
+  if(ARG_FAULTS)
+    list(TRANSFORM ARG_FAULTS PREPEND ${PROJECT_SOURCE_DIR}/)
+    add_library(${name}_broken OBJECT ${ARG_FAULTS})
+    emax_flags(${name}_broken)
+    target_compile_definitions(${name}_broken PRIVATE EMAX_DELIBERATE_FAULTS)
+    target_link_libraries(${name}_broken PRIVATE ${ARG_LINKS})
+    add_executable(${name}_faults $<TARGET_OBJECTS:${name}> $<TARGET_OBJECTS:${name}_broken>)
+    emax_flags(${name}_faults)
+    target_link_libraries(${name}_faults PRIVATE ${ARG_LINKS} GTest::gtest_main)
+    gtest_discover_tests(${name}_faults TEST_FILTER *Fault.* DISCOVERY_TIMEOUT 120
+      PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    set(filter TEST_FILTER -*Fault.*)
+  endif()
+  gtest_discover_tests(${name} ${filter} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
 endfunction()
 
 # emax_list_rooms(<file>): writes a line for each library, "<room> <library>", and one for each link

@@ -10,6 +10,7 @@
 
 #include "hls/kernel/point_triangle.h"
 #include "hls/kernel/reduce.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "sw_model/model/emax_model.h"
 #include "sw_model/model/error_bound.h"
@@ -122,7 +123,7 @@ class Search {
   bool settled(std::size_t group, const std::optional<EmaxResult>& worst) const {
     if (!worst) return false;
     if (bounds_[group] != worst->squared_bits) return bounds_[group] < worst->squared_bits;
-    return options_.fault == SearchOptions::Fault::kTiesDropped ||
+    return EMAX_FAULT(kSearchDropsTies) ||
            cloud_.groups()[group].points.front() > worst->worst_point;
   }
 
@@ -193,7 +194,7 @@ class Search {
                           double bound, Block& block) {
     const double lower = std::sqrt(node.box.squaredExteriorDistance(box));
     const double farthest = node.box.min().cwiseAbs().cwiseMax(node.box.max().cwiseAbs()).norm();
-    const double margin = options_.fault == SearchOptions::Fault::kNoMargin
+    const double margin = EMAX_FAULT(kSearchWithoutMargin)
                               ? 0
                               : kernel_distance_margin(lower, node.box.diagonal().norm(), farthest);
     if (lower - margin > bound) return;

@@ -20,8 +20,6 @@ struct SearchOptions {
   std::size_t depth = 4;
   // Asked between blocks; true ends the search with Interrupted.
   std::function<bool()> interrupted = nullptr;
-  // Faults that the tests must catch.
-  enum class Fault { kNone, kNoMargin, kTiesDropped } fault = Fault::kNone;
 };
 
 EmaxResult search_emax(const PreparedCloud& cloud, const TriangleTree& mesh, Evaluator& evaluator,

@@ -16,7 +16,6 @@ namespace emax {
 namespace {
 
 using Effort = DecimationSettings::Effort;
-using Fault = DecimationSettings::Fault;
 
 // The local tests round a few units in the last place of the coordinates.
 constexpr double kRoundings = 0x1p-46;
@@ -200,10 +199,6 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   guards.normal_cosine = settings.normal_cosine;
   guards.flatness = settings.flatness;
   guards.squared_reach = reach * reach;
-  guards.skip_points = settings.fault == Fault::kSkipsPoints;
-  guards.skip_back_bound = settings.fault == Fault::kSkipsBackBound;
-  guards.skip_reference = settings.fault == Fault::kSkipsReference;
-  guards.skip_intersections = settings.fault == Fault::kSkipsIntersections;
   const TriangleMesh ordered = spatially_ordered(start);
   DecimationState state(ordered, known.points, settings.two_sided ? known.back.get() : nullptr,
                         limit * limit, guards, settings.interrupted, known.triangles);

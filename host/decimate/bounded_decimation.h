@@ -69,10 +69,6 @@ struct DecimationSettings {
   // Called now and then with a guess at the share of the work that is done, from 0 to 1, and the
   // triangles left; with kDeep, how long the end takes is not known.
   std::function<void(double, std::size_t)> advanced = nullptr;
-
-  // Faults that the tests must catch.
-  enum class Fault { kNone, kSkipsPoints, kSkipsBackBound, kSkipsReference, kSkipsIntersections };
-  Fault fault = Fault::kNone;
 };
 
 struct DecimatedMesh {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/geometry/triangle_pair.h"
+#include "sw_model/base/deliberate_fault.h"
 
 namespace emax {
 namespace {
@@ -43,7 +44,7 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
     area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
   complete_ = reassign(interrupted);
-  if (complete_ && !reference.empty() && !guards_.skip_reference) {
+  if (complete_ && !reference.empty() && !EMAX_FAULT(kSkipsReference)) {
     cover_.emplace(reference, cloud_, squared_limit_);
     cover_->begin(mesh_, tree_);
   }
@@ -85,7 +86,7 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
       moved_ = back_->sight_from(edit.position, sight_[edit.vertex].triangle);
       if (!(moved_.share <= 1)) moved_ = back_->sight(edit.position, moved_.triangle);
     }
-    if (back_ != nullptr && !guards_.skip_back_bound) {
+    if (back_ != nullptr && !EMAX_FAULT(kSkipsBackBound)) {
       if (edit.vertex != kNoIndex && !(moved_.share <= 1)) return false;
       for (const Triangle& t : edit.added) {
         // Seen from the vertex that moved, or any.
@@ -106,7 +107,7 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
   };
   const bool judged = judge();
   const bool meets =
-      judged && !guards_.skip_intersections && (meets_itself(edit) || meets_another(edit));
+      judged && !EMAX_FAULT(kSkipsIntersections) && (meets_itself(edit) || meets_another(edit));
   const std::size_t after = meets ? crossings(edit.added, edit.removed) : 0;
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, before);
   if (!meets) return judged;

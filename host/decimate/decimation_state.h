@@ -38,9 +38,6 @@ class DecimationState {
     double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
     double flatness = 1e-3;      // least height of a triangle over its longest side
     double squared_reach = 0;    // points up to this far have a triangle too, if it is more
-    // Faults that the tests must catch.
-    bool skip_intersections = false, skip_back_bound = false, skip_points = false;
-    bool skip_reference = false;
   };
 
   // `mesh` is manifold and consistently oriented, without degenerate triangles; where triangles

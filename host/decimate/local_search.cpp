@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sw_model/base/deliberate_fault.h"
+
 namespace emax {
 namespace {
 
@@ -306,7 +308,7 @@ bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
     MeshEdit::Answer answer{ids_[i], static_cast<std::uint32_t>(points_.nearest[i]), kNoIndex,
                             points_.squared[i]};
     if (answer.squared_distance > state_.squared_limit() && !serve_elsewhere(ids_[i], answer) &&
-        limit && !state_.guards().skip_points) {
+        limit && !EMAX_FAULT(kSkipsPoints)) {
       return false;
     }
     edit.answers.push_back(answer);

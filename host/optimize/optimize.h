@@ -35,7 +35,7 @@ struct OptimizeSettings {
   std::uint64_t seed = 1;
   unsigned jobs = 1;                       // worker processes
   std::optional<EvaluationLimits> limits;  // standard_limits unless given
-  bool allow_test_methods = false;         // see test_methods.h
+  std::filesystem::path worker;            // empty: emax_worker beside the running program
   RunLog* log = nullptr;                   // where results are kept and looked for
   // What else ends the search. Target and stagnation look at results in the order of their
   // candidates, so that the end does not depend on the number of jobs.

@@ -75,7 +75,7 @@ WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings
   options.jobs = settings.jobs;
   options.time_limit = limits.time;
   options.memory_limit = limits.memory;
-  options.allow_test_methods = settings.allow_test_methods;
+  options.program = settings.worker;
   return options;
 }
 

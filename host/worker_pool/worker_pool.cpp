@@ -51,7 +51,7 @@ class WorkerPool::Implementation {
   Implementation(std::span<const Point> points, const DecimationBound& bound,
                  const WorkerPoolOptions& options)
       : time_limit_(options.time_limit),
-        command_{options.program, options.memory_limit, options.allow_test_methods},
+        command_{options.program, options.memory_limit},
         points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}, bound}))),
         workers_(std::max(1u, options.jobs)) {
     if (command_.program.empty()) {

@@ -17,8 +17,7 @@ struct WorkerPoolOptions {
   unsigned jobs = 1;              // worker processes
   std::filesystem::path program;  // empty: emax_worker beside the running program
   std::chrono::milliseconds time_limit = std::chrono::minutes(10);  // for one evaluation
-  std::uint64_t memory_limit = 0;   // bytes of address space for a worker; 0 for none
-  bool allow_test_methods = false;  // see test_methods.h
+  std::uint64_t memory_limit = 0;  // bytes of address space for a worker; 0 for none
 };
 
 struct Completed {

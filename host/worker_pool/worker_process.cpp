@@ -127,7 +127,6 @@ WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& point
 
   std::vector<std::string> arguments = {command.program.string(),
                                         std::to_string(command.memory_limit)};
-  if (command.allow_test_methods) arguments.emplace_back("--allow-test-methods");
   std::vector<std::string> environment = single_threaded_environment();
   const int error =
       posix_spawn(&pid_, command.program.c_str(), &files.actions, &attributes.attributes,

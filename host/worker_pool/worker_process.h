@@ -40,7 +40,6 @@ class WorkerProcess {
   struct Command {
     std::filesystem::path program;
     std::uint64_t memory_limit = 0;  // bytes of address space; 0 for none
-    bool allow_test_methods = false;
   };
 
   // Throws Error when the program cannot be started.

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/flush_mode.h"
 #include "sw_model/certify/matrix_free.h"
 
 namespace emax {
 namespace {
-
-using Fault = SurfaceDistanceOptions::Fault;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = 0x1p-53;
@@ -79,7 +78,7 @@ class Search {
       free_.push_back(place);
       const Piece piece = pieces_[place];
       cut(piece);
-      if (options_.fault == Fault::kStopsEarly) open_.clear();
+      if (EMAX_FAULT(kStopsEarly)) open_.clear();
     }
     result_.upper = std::max(result_.lower, settled_);
     for (const Rank& rank : open_) result_.upper = std::max(result_.upper, rank.bound);
@@ -113,7 +112,7 @@ class Search {
   }
 
   double margin(unsigned depth) const {
-    return options_.fault == Fault::kNoMargin ? 0 : depth * rounding_;
+    return EMAX_FAULT(kCutsWithoutMargin) ? 0 : depth * rounding_;
   }
 
   double enough() const {
@@ -164,7 +163,7 @@ class Search {
     if (least == kInfinity || piece.bound > least * kPlain + 16 * margin(depth + 1)) {
       for (const std::uint32_t candidate : candidates) try_candidate(candidate, piece);
     }
-    if (options_.fault == Fault::kNearestOfEachCorner) {
+    if (EMAX_FAULT(kNearestOfEachCorner)) {
       piece.bound = std::max(
           {corners[0].distance.upper, corners[1].distance.upper, corners[2].distance.upper});
     }

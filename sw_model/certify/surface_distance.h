@@ -34,8 +34,6 @@ struct SurfaceDistanceOptions {
   double limit = -1;
   // Called now and then; what it throws ends the search.
   std::function<void()> poll = nullptr;
-  // Faults that the tests must catch.
-  enum class Fault { kNone, kNoMargin, kNearestOfEachCorner, kStopsEarly } fault = Fault::kNone;
 };
 
 // Branch and bound over pieces of the mesh's triangles, the one with the greatest bound first. The

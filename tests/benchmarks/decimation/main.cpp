@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/decimate/certified_decimation.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "tests/benchmarks/bisection/bisection.h"
 #include "tests/benchmarks/decimation/cpu_time.h"
@@ -168,12 +169,12 @@ json third_direction(const DecimationScan& scan) {
   constexpr int kRounds = 5;
   DecimationSettings two;
   two.epsilon = scan.epsilon;
-  two.fault = DecimationSettings::Fault::kSkipsReference;
   std::vector<double> whole, without, shares;
   std::size_t triangles = 0;
   for (int round = 0; round < kRounds; ++round) {
     whole.push_back(timed([&] { return decimated(scan, kOwnWays[0]); }).seconds);
     const CpuTime time;
+    const DeliberateFault two_directions(Fault::kSkipsReference);
     const ExactMesh reference(scan.start.view());
     const TriangleMesh mesh = BoundedDecimator(scan.start, scan.cloud).run(two).mesh;
     if (check_mesh(scan.start.view()).valid() != check_mesh(mesh.view()).valid() ||

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/block_search/simd_evaluator.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "tests/support/stimuli.h"
 
@@ -55,15 +56,14 @@ TEST(EmaxSearch, ResultDoesNotDependOnDepth) {
 }
 
 // Without the margin the search drops triangles that the kernel finds nearest.
-TEST(EmaxSearch, MissingMarginIsCaught) {
-  SearchOptions fault;
-  fault.fault = SearchOptions::Fault::kNoMargin;
+TEST(EmaxSearchFault, MissingMarginIsCaught) {
+  const DeliberateFault fault(Fault::kSearchWithoutMargin);
   int wrong = 0;
   for (std::uint64_t seed = 50; seed < 54; ++seed) {
     for (const test::Stimulus& s : test::all_stimuli(seed)) {
       const Prepared p(s);
       SimdEvaluator cpu;
-      wrong += search_nearest(p.cloud, p.mesh, cpu, fault) !=
+      wrong += search_nearest(p.cloud, p.mesh, cpu) !=
                nearest_squared_bits(p.cloud.points(), p.mesh.records());
     }
   }
@@ -71,14 +71,13 @@ TEST(EmaxSearch, MissingMarginIsCaught) {
 }
 
 // Dropping groups whose bound equals R loses the lowest index of a tie.
-TEST(EmaxSearch, WrongTieRuleIsCaught) {
-  SearchOptions fault;
-  fault.fault = SearchOptions::Fault::kTiesDropped;
+TEST(EmaxSearchFault, WrongTieRuleIsCaught) {
+  const DeliberateFault fault(Fault::kSearchDropsTies);
   int wrong = 0;
   for (std::uint64_t seed = 50; seed < 54; ++seed) {
     for (const test::Stimulus& s : test::all_stimuli(seed)) {
       const Prepared p(s);
-      wrong += !(by_search(p, fault) == by_model(p));
+      wrong += !(by_search(p) == by_model(p));
     }
   }
   EXPECT_GT(wrong, 0);

@@ -7,6 +7,7 @@
 #include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
 #include "host/surface/manifold_part.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "tests/host/support/surfaces.h"
 #include "tests/support/cgal_mesh.h"
 #include "tests/support/stimuli.h"
@@ -121,8 +122,7 @@ TEST(BoundedDecimationCgal, DrawnSurfacesKeepThreeDirectionsAndTheirTopology) {
 }
 
 // The deliberate fault of each direction, which that direction's check alone sees.
-TEST(BoundedDecimationCgal, EachDirectionHasAFaultThatItAloneCatches) {
-  using Fault = DecimationSettings::Fault;
+TEST(BoundedDecimationCgalFault, EachDirectionAloneCatchesItsOwn) {
   struct Broken {
     bool points, back, reference;
     bool operator==(const Broken&) const = default;
@@ -134,7 +134,7 @@ TEST(BoundedDecimationCgal, EachDirectionHasAFaultThatItAloneCatches) {
     settings.epsilon_back = back;
     settings.normal_cosine = -1;
     settings.effort = DecimationSettings::Effort::kCollapse;
-    settings.fault = fault;
+    const DeliberateFault broken(fault);
     const TriangleMesh result = BoundedDecimator(mesh, cloud).run(settings).mesh;
     const CgalMesh made = cgal_mesh(result);
     return Broken{farthest(cloud, made) > 0.05,

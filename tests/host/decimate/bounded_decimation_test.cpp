@@ -4,6 +4,7 @@
 
 #include "host/geometry/mesh_validity.h"
 #include "host/surface/manifold_part.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
@@ -13,7 +14,6 @@ namespace emax::test {
 namespace {
 
 using Effort = DecimationSettings::Effort;
-using Fault = DecimationSettings::Fault;
 
 struct Verdict {
   bool forward, back, valid;
@@ -136,12 +136,12 @@ TEST(BoundedDecimator, StopsWithAMeshThatHolds) {
   }
 }
 
-TEST(BoundedDecimator, ItsFaultsAreCaught) {
+TEST(BoundedDecimatorFault, EachIsCaught) {
   const TriangleMesh sheets = joined(sheet(24, 0.4), sheet(24, 0.4), {0, 0, 0.02});
   const TriangleMesh sphere = bumpy(20, 30);
   const auto with_fault = [](const TriangleMesh& mesh, Fault fault, bool two_sided) {
     DecimationSettings settings = with(0.05, Effort::kCollapse);
-    settings.fault = fault;
+    const DeliberateFault broken(fault);
     settings.two_sided = two_sided;
     settings.normal_cosine = -1;
     const TriangleMesh result = BoundedDecimator(mesh, mesh.vertices).run(settings).mesh;

@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "sw_model/base/deliberate_fault.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {
-
-using Fault = DecimationSettings::Fault;
 
 CertifiedDecimationSettings with(double epsilon, MeshFormat format = MeshFormat::kPly) {
   CertifiedDecimationSettings settings;
@@ -79,13 +78,13 @@ TEST(CertifiedDecimation, KeepsASurfaceThatIntersectsItself) {
   EXPECT_TRUE(result.reference_to_mesh->within(0.05));
 }
 
-TEST(CertifiedDecimation, NeverHandsOutWhatAFaultyDecimatorMade) {
+TEST(CertifiedDecimationFault, IsNeverHandedOut) {
   const TriangleMesh sheets = joined(sheet(16, 0.4), sheet(16, 0.4), {0, 0, 0.02});
   const TriangleMesh sphere = bumpy(16, 24);
   const auto run = [](const TriangleMesh& mesh, Fault fault, double back = 0.05) {
     CertifiedDecimationSettings settings = with(0.05);
     settings.decimation.epsilon_back = back;
-    settings.decimation.fault = fault;
+    const DeliberateFault broken(fault);
     settings.decimation.normal_cosine = -1;
     const CertifiedDecimation result = decimate_certified(mesh, mesh.vertices, settings);
     if (back == 0.05) expect_certified(result, mesh, settings);

@@ -45,7 +45,7 @@ struct Edits {
   std::size_t made = 0, refused = 0;
 };
 
-// Collapses at random, with vertices anywhere near, of which only the cover permits or not.
+// Collapses at random, with vertices anywhere near, which the cover permits or not.
 Edits random_collapses(DecimationState& state, Random& random, int tries, double jitter,
                        std::vector<EditUndo>* undo = nullptr) {
   LocalSearch search(state);
@@ -75,9 +75,8 @@ Edits random_collapses(DecimationState& state, Random& random, int tries, double
   return edits;
 }
 
-DecimationState::Guards cover_alone() {
+DecimationState::Guards any_normal() {
   DecimationState::Guards guards;
-  guards.skip_intersections = true;
   guards.normal_cosine = -1;
   return guards;
 }
@@ -94,7 +93,7 @@ TEST(ReferenceCover, WhatItPermitsKeepsEveryPointOfTheReference) {
     for (const double limit : {0.02, 0.1, 0.3}) {
       SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", limit " << limit);
       Random random(kSeed);
-      DecimationState state(reference, reference.vertices, nullptr, limit * limit, cover_alone(),
+      DecimationState state(reference, reference.vertices, nullptr, limit * limit, any_normal(),
                             nullptr, reference.triangles);
       ASSERT_EQ(state.unproven(), 0u);
       for (int round = 0; round < 10; ++round) {
@@ -116,10 +115,7 @@ TEST(ReferenceCover, WithoutItTheInsideOfTheReferenceIsLost) {
   std::size_t lost = 0;
   for (const TriangleMesh& reference : references()) {
     Random random(92);
-    DecimationState::Guards guards = cover_alone();
-    guards.skip_reference = true;
-    DecimationState state(reference, reference.vertices, nullptr, kLimit * kLimit, guards, nullptr,
-                          reference.triangles);
+    DecimationState state(reference, reference.vertices, nullptr, kLimit * kLimit, any_normal());
     random_collapses(state, random, 400, 0.5 * kLimit);
     lost += beyond(reference, state.mesh().compact(), kLimit);
   }
@@ -130,7 +126,7 @@ TEST(ReferenceCover, UndoneEditsLeaveItAsItWas) {
   constexpr double kLimit = 0.2;
   const TriangleMesh reference = sheet(9, 0.4);
   const auto state_of = [&] {
-    return DecimationState(reference, reference.vertices, nullptr, kLimit * kLimit, cover_alone(),
+    return DecimationState(reference, reference.vertices, nullptr, kLimit * kLimit, any_normal(),
                            nullptr, reference.triangles);
   };
   DecimationState untouched = state_of(), edited = state_of();
@@ -152,7 +148,7 @@ TEST(ReferenceCover, UndoneEditsLeaveItAsItWas) {
 TEST(ReferenceCover, SaysWhatIsNotProvenAtFirst) {
   const TriangleMesh reference = joined(sheet(9, 0), sheet(3, 0), {0, 0, 5});
   const TriangleMesh mesh = sheet(4, 0);
-  const DecimationState state(mesh, reference.vertices, nullptr, 0.01, cover_alone(), nullptr,
+  const DecimationState state(mesh, reference.vertices, nullptr, 0.01, any_normal(), nullptr,
                               reference.triangles);
   EXPECT_EQ(state.unproven(), 8u);
 }

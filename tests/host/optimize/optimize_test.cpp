@@ -19,7 +19,8 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t kBudget = 24;
 const RunSettings kSettings = {{"of", "the test"}};
 
-// A gene of which the values up to 4 make workers fail, each in its own way (test_methods.h).
+// A gene of which the values up to 4 make workers fail, each in its own way
+// (tests/host/worker/test_methods.h).
 GeneConfig fault_gene() {
 #ifndef __SANITIZE_ADDRESS__
   constexpr double kFirst = 0;
@@ -61,7 +62,7 @@ class OptimizeTest : public testing::Test {
   void with_faults() {
     settings_.config.genes.push_back(fault_gene());
     settings_.seed = seed_of_every_fault(settings_.config);
-    settings_.allow_test_methods = true;
+    settings_.worker = EMAX_TEST_WORKER;
     settings_.limits->time = 3s;
 #ifndef __SANITIZE_ADDRESS__
     settings_.limits->memory = std::uint64_t{1} << 28;
@@ -140,7 +141,7 @@ TEST_F(OptimizeTest, FaultyWorkersCostTheirEvaluationsAndAreLogged) {
     EXPECT_EQ(rest.from_log, known);
     EXPECT_LE(measured_, kBudget - known);
   }
-  settings_.allow_test_methods = false;
+  settings_.worker.clear();
   RunLog log(all, kSettings);
   expect_same(run(&log), whole);
   EXPECT_EQ(measured_, 0u);

@@ -1,4 +1,4 @@
-#include "host/worker/test_methods.h"
+#include "tests/host/worker/test_methods.h"
 
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 #include "host/worker_pool/message.h"
 #include "sw_model/base/error.h"
 
-namespace emax {
+namespace emax::test {
 namespace {
 
 void write_raw(int channel, const Bytes& bytes) {
@@ -82,4 +82,4 @@ void run_test_method(const ChainSettings& settings, int channel) {
   if (method == "test.error") throw Error("an error on purpose");
 }
 
-}  // namespace emax
+}  // namespace emax::test

@@ -2,10 +2,9 @@
 
 #include "host/parameters/chain_parameters.h"
 
-namespace emax {
+namespace emax::test {
 
-// Methods "test.*" that fail the way libraries do; known only to a worker that was started with
-// --allow-test-methods. Returns when the method is none of them.
+// Methods "test.*" that fail the way libraries do. Returns when the method is none of them.
 //   test.crash   aborts                       test.garbage   writes bytes that are no message
 //   test.exit    ends with exit code 3        test.strange   answers another ticket
 //   test.hang    never answers                test.huge      announces an absurd length
@@ -19,4 +18,4 @@ namespace emax {
 // write garbage, so that a search meets faults among sound evaluations.
 void run_test_method(const ChainSettings& settings, int channel);
 
-}  // namespace emax
+}  // namespace emax::test

@@ -25,7 +25,7 @@ WorkerPoolOptions options(unsigned jobs) {
   WorkerPoolOptions result;
   result.jobs = jobs;
   result.time_limit = 60s;
-  result.allow_test_methods = true;
+  result.program = EMAX_TEST_WORKER;
   return result;
 }
 

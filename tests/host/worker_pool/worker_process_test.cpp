@@ -19,9 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-WorkerProcess::Command command() {
-  return {std::filesystem::read_symlink("/proc/self/exe").parent_path() / "emax_worker", 0, true};
-}
+WorkerProcess::Command command() { return {EMAX_TEST_WORKER, 0}; }
 
 FileDescriptor points() { return sealed_file(encode(PointsMessage{sphere_cloud(50), {}})); }
 
@@ -98,10 +96,10 @@ TEST(WorkerProcess, EndsWithItsProgramAndNotBySignals) {
   EXPECT_EQ(std::get<FailureMessage>(next_message(worker)).failure.reason, FailureReason::kError);
 }
 
-TEST(WorkerProcess, KnowsNoTestMethodsUnlessAllowed) {
-  WorkerProcess::Command strict = command();
-  strict.allow_test_methods = false;
-  WorkerProcess worker(strict, points());
+TEST(WorkerProcess, OfTheProductKnowsNoTestMethods) {
+  WorkerProcess::Command product = command();
+  product.program = product.program.parent_path() / "emax_worker";
+  WorkerProcess worker(product, points());
   next_message(worker);
   worker.send(encode(run("test.crash")));
   const auto answer = std::get<FailureMessage>(next_message(worker));

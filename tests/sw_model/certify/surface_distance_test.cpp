@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/flush_mode.h"
 #include "tests/support/long_double_distance.h"
@@ -12,8 +13,6 @@
 
 namespace emax {
 namespace {
-
-using Fault = SurfaceDistanceOptions::Fault;
 
 struct Mesh {
   std::vector<Point> vertices;
@@ -240,26 +239,24 @@ TEST(SurfaceDistance, DecidesWithAViolatingPointAndLessWork) {
             measured.cuts / 2);
 }
 
-TEST(SurfaceDistance, ChecksCatchABoundFromEachCornersOwnNearestTriangle) {
+TEST(SurfaceDistanceFault, ChecksCatchABoundFromEachCornersOwnNearestTriangle) {
   const Mesh mesh = bridge(), reference = valley();
-  SurfaceDistanceOptions options;
-  options.fault = Fault::kNearestOfEachCorner;
-  const auto wrong = surface_distance(mesh.view(), ExactMesh(reference.view()), options);
+  const DeliberateFault fault(Fault::kNearestOfEachCorner);
+  const auto wrong = surface_distance(mesh.view(), ExactMesh(reference.view()));
   EXPECT_NE(complaint(mesh.view(), reference.view(), wrong, 0.01), "");
 }
 
-TEST(SurfaceDistance, ChecksCatchASearchThatStopsTooEarly) {
+TEST(SurfaceDistanceFault, ChecksCatchASearchThatStopsTooEarly) {
   const test::Stimulus coarse = test::bumpy_sphere(6, 8, 0, 204);
   const test::Stimulus fine = test::bumpy_sphere(24, 36, 0, 204);
-  SurfaceDistanceOptions options;
-  options.fault = Fault::kStopsEarly;
-  const auto wrong = surface_distance(coarse.mesh(), ExactMesh(fine.mesh()), options);
+  const DeliberateFault fault(Fault::kStopsEarly);
+  const auto wrong = surface_distance(coarse.mesh(), ExactMesh(fine.mesh()));
   EXPECT_NE(complaint(coarse.mesh(), fine.mesh(), wrong, 0.01), "");
 }
 
 // Far from the origin a cut moves by more than the distance is rounded by. A segment between two
 // points of the reference, whose maximum is known: where both are equally far.
-TEST(SurfaceDistance, ChecksCatchAMissingMarginForTheRoundingOfCuts) {
+TEST(SurfaceDistanceFault, ChecksCatchAMissingMarginForTheRoundingOfCuts) {
   using Vector = Eigen::Matrix<long double, 3, 1>;
   test::Random random(206);
   int caught = 0;
@@ -284,7 +281,7 @@ TEST(SurfaceDistance, ChecksCatchAMissingMarginForTheRoundingOfCuts) {
     EXPECT_GE(found.upper, exact) << "case " << i;
     EXPECT_LE(found.lower, exact) << "case " << i;
     EXPECT_LE(found.upper - found.lower, 1e-5) << "case " << i;
-    options.fault = Fault::kNoMargin;
+    const DeliberateFault fault(Fault::kCutsWithoutMargin);
     const auto wrong = surface_distance(mesh.view(), ExactMesh(points.view()), options);
     caught += wrong.upper < exact || wrong.lower > exact ? 1 : 0;
   }

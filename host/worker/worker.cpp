@@ -1,0 +1,170 @@
+#include "host/worker/worker.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <string_view>
+#include <thread>
+
+#include "host/chain/chain.h"
+#include "host/worker_pool/message.h"
+#include "host/worker_pool/worker_process.h"
+#include "sw_model/base/error.h"
+#include "sw_model/model/self_test.h"
+
+namespace emax {
+namespace {
+
+// Static objects of the libraries are left alone: PCL's Poisson does not survive their destruction.
+[[noreturn]] void leave(int code) { _exit(code); }
+
+// The program is gone, even while a library calculates: nobody waits for the answer.
+void leave_on_hangup() {
+  std::thread([] {
+    pollfd channel{kChannelFd, 0, 0};
+    while (poll(&channel, 1, -1) < 0 && errno == EINTR) {
+    }
+    leave(0);
+  }).detach();
+}
+
+void limit(int resource, std::uint64_t bytes) {
+  const rlimit value{bytes, bytes};
+  setrlimit(static_cast<__rlimit_resource>(resource), &value);
+}
+
+void send(const Bytes& bytes) {
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t n = write(kChannelFd, bytes.data() + sent, bytes.size() - sent);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) leave(1);
+    sent += static_cast<std::size_t>(n);
+  }
+}
+
+// Leaves when the stream ends before `bytes` is full.
+void read_fully(int fd, std::span<std::uint8_t> bytes) {
+  for (std::size_t got = 0; got < bytes.size();) {
+    const ssize_t n = read(fd, bytes.data() + got, bytes.size() - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) leave(n < 0);
+    got += static_cast<std::size_t>(n);
+  }
+}
+
+Message receive() {
+  std::array<std::uint8_t, kLengthBytes> length;
+  read_fully(kChannelFd, length);
+  Bytes body(announced_length(length));
+  read_fully(kChannelFd, body);
+  return decode(body);
+}
+
+// The file is shared with other workers, its position too: it is read by offset.
+PointsMessage read_points() {
+  struct stat status;
+  if (fstat(kPointsFd, &status) != 0) throw Error(std::string("no points: ") + strerror(errno));
+  Bytes bytes(static_cast<std::size_t>(status.st_size));
+  for (std::size_t got = 0; got < bytes.size();) {
+    const ssize_t n =
+        pread(kPointsFd, bytes.data() + got, bytes.size() - got, static_cast<off_t>(got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw Error("the points are cut short");
+    got += static_cast<std::size_t>(n);
+  }
+  return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes)));
+}
+
+// Whether the program asks for the mesh at hand. Nothing else can arrive during a run.
+bool asked_to_stop() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kBetween{5};
+  static Clock::time_point next;
+  const Clock::time_point now = Clock::now();
+  if (now < next) return false;
+  pollfd channel{kChannelFd, POLLIN, 0};
+  if (poll(&channel, 1, 0) > 0) return true;
+  next = now + kBetween;
+  return false;
+}
+
+// The next run. What asks to stop one that has been answered comes too late.
+RunMessage next_run() {
+  while (true) {
+    Message message = receive();
+    if (!std::holds_alternative<StopMessage>(message))
+      return std::get<RunMessage>(std::move(message));
+  }
+}
+
+// The answer's bytes, which take memory too.
+Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
+  try {
+    if (before) before(run.settings);
+    return encode(MeshMessage{run.ticket, chain.run(run.settings, asked_to_stop)});
+  } catch (const std::bad_alloc&) {
+    return encode(FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}});
+  } catch (const std::exception& e) {
+    return encode(FailureMessage{run.ticket, {FailureReason::kError, e.what()}});
+  }
+}
+
+// What lacks memory between evaluations costs one of them, as a crash does.
+[[noreturn]] void answer_requests(Chain& chain, const BeforeRun& before) {
+  try {
+    for (bool first = true;; first = false) {
+      const Bytes answer = evaluate(chain, next_run(), before);
+      // A library may have changed the rounding or flush mode when it was first used.
+      if (first) verify_arithmetic();
+      send(answer);
+    }
+  } catch (const std::bad_alloc&) {
+    leave(1);
+  }
+}
+
+[[noreturn]] void serve(const BeforeRun& before) {
+  verify_arithmetic();
+  PointsMessage given = read_points();
+  Chain chain(std::move(given.points), std::move(given.bound));
+  send(encode(ReadyMessage{}));
+  answer_requests(chain, before);
+}
+
+}  // namespace
+
+int run_worker(std::span<char*> arguments, const BeforeRun& before) {
+  if (arguments.size() < 2 || fcntl(kChannelFd, F_GETFD) < 0 || fcntl(kPointsFd, F_GETFD) < 0) {
+    std::fputs("emax_worker: emax starts this program itself; run emax instead\n", stderr);
+    return 1;
+  }
+  const std::string_view memory = arguments[1];
+  std::uint64_t memory_limit = 0;
+  std::from_chars(memory.data(), memory.data() + memory.size(), memory_limit);
+  if (memory_limit != 0) limit(RLIMIT_AS, memory_limit);
+  limit(RLIMIT_CORE, 0);
+  // Whoever stops the program may signal its workers too; they end when it does, and not before, as
+  // if their evaluation had failed.
+  for (const int signal_number : {SIGHUP, SIGINT, SIGTERM}) std::signal(signal_number, SIG_IGN);
+  leave_on_hangup();
+  try {
+    serve(before);
+  } catch (const std::bad_alloc&) {
+    send(encode(UnusableMessage{"the cloud alone needs more memory; raise the memory limit"}));
+  } catch (const std::exception& e) {
+    send(encode(UnusableMessage{e.what()}));
+  }
+  leave(1);
+}
+
+}  // namespace emax
