@@ -1,6 +1,5 @@
-# The verb `cosim` of ./dev, which sources this file: it uses the functions there, in the root of
-# the project.
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154  # part of ./dev, which has the names used here
+# The verb of ./dev that runs the Verilated hardware beside the model.
 
 # cosim_help: the text of emax_cosim's source, so that nothing is built for it.
 cosim_help() {
@@ -49,7 +48,7 @@ cosim_run() {
   return $status
 }
 
-cosim() {
+verb_cosim() {
   case " $* " in
     *" --help "* | *" -h "*) cosim_help ;;
     *" --replay "*) cosim_replay "$@" ;;

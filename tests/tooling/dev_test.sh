@@ -8,6 +8,9 @@ copy=$folder/copy
 bin=$folder/bin
 mkdir "$copy" "$bin"
 cp "$project/dev" "$project/packages.txt" "$project/CMakePresets.json" "$copy"
+mkdir -p "$copy/tests/data"
+cp "$project/tests/data/verbs.sh" "$copy/tests/data"
+data=$copy/tests/data/verbs.sh
 dev=$copy/dev
 PATH=$bin:$PATH
 calls=$folder/calls
@@ -84,7 +87,7 @@ building=$'ply\nformat ascii 1.0\nelement vertex 1\nend_header\n0 0 0\n'
 sum() { printf '%s' "$1" | sha256sum | cut -d' ' -f1; }
 sed -i -e "/^fandisk.off /d" -e "s|^\(bunny00.off .*off\) .*|\1 $(sum "$bunny") 2|" \
   -e "s|^\(building.ply .*ply\) .*|\1 $(sum "$building") 1\"|" \
-  -e "s|^readonly meshes_sha256=.*|readonly meshes_sha256=$(sum "$bunny")|" "$dev"
+  -e "s|^readonly meshes_sha256=.*|readonly meshes_sha256=$(sum "$bunny")|" "$data"
 export DEB=$folder/libcgal-demo_9.9-1_all.deb
 # shellcheck disable=SC2016
 stand_in apt-get 'echo "$*" >>"$CALLS"; [ ! -f "$DEB" ] || cp "$DEB" .; exit "${APT_STATUS:-0}"'
@@ -114,13 +117,13 @@ expect fail "building.ply could not be fetched" "a package with other data" "$de
 expect_calls 2 "download libcgal-demo"
 expect_files "./bunny00.off ./meshes ./meshes/bunny00.off"
 
-sed -i "s|$(sum "$building") 1|$(sum "$building") 2|" "$dev"
+sed -i "s|$(sum "$building") 1|$(sum "$building") 2|" "$data"
 pack "$bunny" "$building"
 expect fail "building.ply could not be fetched" "another number of points" "$dev" data
 
 mv "$DEB" "$folder/libcgal-demo_5.5.1-2_all.deb"
 DEB=$folder/libcgal-demo_5.5.1-2_all.deb
-sed -i "s|$(sum "$building") 2|$(sum "$building") 1|" "$dev"
+sed -i "s|$(sum "$building") 2|$(sum "$building") 1|" "$data"
 expect fail "FAILED" "the pinned version of the package with other bytes" "$dev" data
 rm "$DEB"
 APT_STATUS=100 expect fail "cannot be downloaded" "no network" "$dev" data

@@ -33,7 +33,6 @@ accept tests/a.cpp '#include "host/b.h"\n#include "b.h"'
 accept docs/a.md "$(seq 499)"
 accept dev 'mktemp XXXXXX'
 
-fault docs/a.md '500\n501' 'docs/a.md:501: over 500 lines; split the file by subject [length]'
 fault sw_model/a.h '\tint a;' 'sw_model/a.h:4: tab or trailing white space [whitespace]'
 fault docs/b.md 'end ' 'docs/b.md:1: tab or trailing white space'
 fault docs/b.md 'end\r' 'docs/b.md:1: tab or trailing white space'

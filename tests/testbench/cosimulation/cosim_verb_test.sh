@@ -7,7 +7,7 @@ project=$1
 copy=$folder/copy
 mkdir -p "$copy/testbench/cosimulation" "$copy/build/kernel/bin" "$folder/bin" "$folder/elsewhere/failure"
 cp "$project/dev" "$project/packages.txt" "$project/CMakePresets.json" "$copy"
-cp "$project"/testbench/cosimulation/cosim.{sh,cpp} "$copy/testbench/cosimulation"
+cp "$project"/testbench/cosimulation/{verbs.sh,cosim.cpp} "$copy/testbench/cosimulation"
 for name in cmake hls tests CMakeLists.txt; do mkdir "$copy/$name"; done
 touch "$copy/build/kernel/build.ninja"
 dev=$copy/dev
