@@ -23,7 +23,8 @@ function(emax_flags target)
   endif()
 endfunction()
 
-# emax_export_room(<target> <scope> <room>): lets users of <target> include "<room>/...".
+# emax_export_room(<target> <scope> <room>): lets users of <target> include "<room>/...", and the
+# room's public headers, those in its folder emax/, as <emax/...>, as they are installed.
 function(emax_export_room target scope room)
   string(REPLACE "/" "." flat ${room})
   set(view ${PROJECT_BINARY_DIR}/include/${flat})
@@ -31,6 +32,13 @@ function(emax_export_room target scope room)
   file(MAKE_DIRECTORY ${parent})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${room} ${view}/${room} SYMBOLIC)
   target_include_directories(${target} ${scope} ${view})
+  file(GLOB public CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/emax/*.h)
+  foreach(header ${public})
+    get_filename_component(name ${header} NAME)
+    file(MAKE_DIRECTORY ${view}.public/emax)
+    file(CREATE_LINK ${header} ${view}.public/emax/${name} SYMBOLIC)
+    target_include_directories(${target} ${scope} ${view}.public)
+  endforeach()
 endfunction()
 
 # emax_library(<target> SOURCES ... LINKS ... PRIVATE_LINKS ... [VARIANT]): the library of the folder

@@ -63,8 +63,9 @@ class DecimateCommand {
     settings_.decimation.two_sided = options.two_sided;
     settings_.decimation.effort = effort_named(options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
-    settings_.format = mesh_format(options.output);
-    require_storable(given_, settings_.format, std::min(epsilon_, epsilon_back()), options.output);
+    format_ = mesh_format(options.output);
+    settings_.storage = storage_of(format_);
+    require_storable(given_, format_, std::min(epsilon_, epsilon_back()), options.output);
   }
 
   int run() {
@@ -235,7 +236,7 @@ class DecimateCommand {
   }
 
   void keep() {
-    const std::string bytes = mesh_bytes(result_.mesh, settings_.format);
+    const std::string bytes = mesh_bytes(result_.mesh, format_);
     Certificate certificate;
     certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
     certificate.mesh_sha256 = sha256(bytes);
@@ -358,6 +359,7 @@ class DecimateCommand {
   std::string mesh_sha256_, cloud_sha256_;
   double epsilon_ = 0;
   CertifiedDecimationSettings settings_;
+  MeshFormat format_ = MeshFormat::kPly;
   ReferenceSurface reference_;
   std::optional<MeshTopology> before_repair_;
   std::optional<ClosedSurface> closed_;  // where that was asked for

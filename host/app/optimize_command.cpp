@@ -307,7 +307,7 @@ class OptimizeCommand {
     BestMesh whole = {};
     whole.index = kReferenceIndex;
     whole.chain = {settings_.method, kNoDecimator, {}};
-    whole.mesh = as_stored(settings_.bound.reference, mesh_format(settings_.output));
+    whole.mesh = as_stored(settings_.bound.reference, storage_of(mesh_format(settings_.output)));
     whole.triangles = whole.mesh.triangles.size();
     whole.error = constraint_->measure(whole.mesh.view(), was_interrupted);
     if (!whole.error.feasible) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/genocop/problem.h"
+#include <emax/genocop.h>
 #include "host/genocop/settings.h"
 #include "host/parameters/parameter_spec.h"
 

@@ -26,7 +26,7 @@ class Attempts {
                                                            : epsilon_) {}
 
   CertifiedDecimation run() {
-    const double rounding = storage_displacement(reference_, settings_.format);
+    const double rounding = storage_displacement(reference_, settings_.storage);
     double reduction = 2 * rounding / std::min(epsilon_, epsilon_back_);
     for (int restart = 0; restart <= kRestarts; ++restart) {
       if (holds(decimated(reduction))) return std::move(result_);
@@ -40,7 +40,7 @@ class Attempts {
     }
     if (!holds(reference_)) {
       if (rounding > 0) {
-        throw Error("the mesh cannot be kept as this format rounds it; write .ply, .obj or .off");
+        throw Error("32-bit coordinates cannot keep the mesh within its bounds; write .ply, .obj or .off");
       }
       throw std::logic_error("the reference is not within the bounds of itself");
     }
@@ -60,7 +60,7 @@ class Attempts {
 
   // Judges the mesh as stored.
   bool holds(const TriangleMesh& mesh) {
-    result_.mesh = as_stored(mesh, settings_.format);
+    result_.mesh = as_stored(mesh, settings_.storage);
     const MeshView view = result_.mesh.view();
     const ExactMesh exact(view);
     result_.validity = check_mesh(view);

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "host/decimate/bounded_decimation.h"
-#include "host/files/mesh_file.h"
 #include "host/geometry/mesh_validity.h"
+#include "host/geometry/stored_mesh.h"
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
 
@@ -13,7 +13,7 @@ namespace emax {
 
 struct CertifiedDecimationSettings {
   DecimationSettings decimation;
-  MeshFormat format = MeshFormat::kPly;  // what is judged is what such a file will hold
+  Storage storage = Storage::kExact;  // what is judged is the mesh as this keeps it
 };
 
 // A decimated mesh and what is proven of it. All of it is within the bounds.
@@ -33,7 +33,7 @@ struct CertifiedDecimation {
 // decimated again under smaller bounds, and in the end the reference stands for itself. Pairs of
 // triangles that meet are permitted up to the number that the reference has. Interrupted, it gives
 // the mesh at hand, certified too.
-// Throws Error as BoundedDecimator does and where the format cannot hold the mesh within epsilon.
+// Throws Error as BoundedDecimator does and where the storage cannot hold the mesh within epsilon.
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings);
 

@@ -93,16 +93,6 @@ std::string stl_bytes(const TriangleMesh& mesh) {
   return bytes;
 }
 
-// Through memory: GCC 12 vectorises a pair of double(float(x)) into no rounding at all.
-Point stored_in_stl(const Point& vertex) {
-  Point stored;
-  for (int k = 0; k < 3; ++k) {
-    const volatile float rounded = static_cast<float>(vertex[k]);
-    stored[k] = static_cast<double>(rounded);
-  }
-  return stored;
-}
-
 FileContent read_content(const InputFile& input, const std::filesystem::path& path) {
   const std::size_t format = static_cast<std::size_t>(mesh_format(path));
   check_ending_fits(input, kEndings[format]);
@@ -177,28 +167,13 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   write_atomically(path, mesh_bytes(mesh, mesh_format(path)));
 }
 
-TriangleMesh as_stored(const TriangleMesh& mesh, MeshFormat format) {
-  TriangleMesh stored = mesh;
-  if (format == MeshFormat::kStl) {
-    for (Point& vertex : stored.vertices) vertex = stored_in_stl(vertex);
-    merge_equal_vertices(stored.vertices, stored.triangles);
-  }
-  return stored;
-}
-
-double storage_displacement(const TriangleMesh& mesh, MeshFormat format) {
-  double greatest = 0;
-  if (format == MeshFormat::kStl) {
-    for (const Point& vertex : mesh.vertices) {
-      greatest = std::max(greatest, (stored_in_stl(vertex) - vertex).norm());
-    }
-  }
-  return greatest;
+Storage storage_of(MeshFormat format) {
+  return format == MeshFormat::kStl ? Storage::kBinary32 : Storage::kExact;
 }
 
 void require_storable(const TriangleMesh& mesh, MeshFormat format, double epsilon,
                       const std::filesystem::path& path) {
-  const double displacement = storage_displacement(mesh, format);
+  const double displacement = storage_displacement(mesh, storage_of(format));
   if (displacement > epsilon / 100) {
     throw Error(
         fmt::format("{}: 32-bit STL would move a vertex by {:.3g}, more than a hundredth of "

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/geometry/stored_mesh.h"
 #include "host/geometry/triangle_mesh.h"
 
 namespace emax {
@@ -41,16 +42,10 @@ std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format);
 // Writes them whole or not at all. Throws Error.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-// Exactly what read_mesh gives back from that file, bit for bit. PLY, OBJ and OFF keep a mesh as it
-// is. STL rounds coordinates to 32 bit and then drops unused vertices and merges equal ones in the
-// order of first use; triangles keep their number and order, so one that collapses stays, with a
-// repeated index, for check_mesh to report. Coordinates are finite.
-TriangleMesh as_stored(const TriangleMesh& mesh, MeshFormat format);
+// What as_stored needs to give exactly what read_mesh gives back from a file of this format.
+Storage storage_of(MeshFormat format);
 
-// The greatest distance by which storing moves a vertex.
-double storage_displacement(const TriangleMesh& mesh, MeshFormat format);
-
-// Throws Error when that is more than epsilon/100.
+// Throws Error when storing moves a vertex by more than epsilon/100.
 void require_storable(const TriangleMesh& mesh, MeshFormat format, double epsilon,
                       const std::filesystem::path& path);
 

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include <emax/genocop.h>
 #include "host/genocop/adaptive_frequencies.h"
 #include "host/genocop/finish.h"
 #include "host/genocop/linear_step.h"
 #include "host/genocop/monotone_step.h"
-#include "host/genocop/problem.h"
 #include "host/genocop/repair.h"
 #include "host/genocop/settings.h"
 

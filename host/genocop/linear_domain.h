@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/genocop/problem.h"
+#include <emax/genocop.h>
 #include "host/genocop/random_stream.h"
 
 namespace emax {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <emax/genocop.h>
 #include "host/genocop/linear_domain.h"
-#include "host/genocop/problem.h"
 
 namespace emax {
 

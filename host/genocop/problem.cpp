@@ -1,14 +1,16 @@
-#include "host/genocop/problem.h"
+#include <emax/genocop.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <string>
 
 namespace emax {
+inline namespace v1 {
 
 Evaluation make_evaluation(const std::vector<NonlinearConstraint>& nonlinear, double objective,
                            std::vector<double> constraints) {
   if (constraints.size() != nonlinear.size()) {
-    throw std::logic_error("as many values as nonlinear constraints are needed");
+    throw Error("constraints: " + std::to_string(constraints.size()) + " values, the problem has " +
+                std::to_string(nonlinear.size()));
   }
   Evaluation evaluation{std::isfinite(objective), objective, nonlinear.empty() ? -1.0 : -HUGE_VAL,
                         std::move(constraints)};
@@ -20,4 +22,5 @@ Evaluation make_evaluation(const std::vector<NonlinearConstraint>& nonlinear, do
   return evaluation;
 }
 
+}  // namespace v1
 }  // namespace emax

@@ -287,7 +287,7 @@ class Run {
     const auto start = Clock::now();
     try {
       require_storable(made.mesh, format, constraint_.epsilon(), settings_.output);
-      result.mesh = as_stored(made.mesh, format);
+      result.mesh = as_stored(made.mesh, storage_of(format));
       result.error = device_ != nullptr
                          ? constraint_.measure(result.mesh.view(), *device_, search_)
                          : constraint_.measure(result.mesh.view(), search_.interrupted);
@@ -436,7 +436,8 @@ class Run {
                   "; repeat the command, with more --evaluation-time or "
                   "--evaluation-memory if that is what it lacks");
     }
-    return as_stored(std::get<ChainResult>(completed.outcome).mesh, mesh_format(settings_.output));
+    return as_stored(std::get<ChainResult>(completed.outcome).mesh,
+                     storage_of(mesh_format(settings_.output)));
   }
 
   std::span<const Point> cloud_;

@@ -12,7 +12,7 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
   const bool two_sided = settings.epsilon_back.has_value();
   // Storing moves vertices, and with them both distances.
   const TriangleMesh box{{cloud.begin(), cloud.end()}, {}};
-  const double moved = 2 * storage_displacement(box, mesh_format(settings.output));
+  const double moved = 2 * storage_displacement(box, storage_of(mesh_format(settings.output)));
   bound.epsilon = constraint.provable_distance() - moved;
   if (two_sided) bound.epsilon_back = *settings.epsilon_back - moved;
   if (bound.epsilon <= 0 || (two_sided && bound.epsilon_back <= 0)) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "host/genocop/problem.h"
+#include <emax/genocop.h>
 #include "host/measure/error_constraint.h"
 #include "host/optimize/reduction_walk.h"
 #include "host/run_log/run_log.h"

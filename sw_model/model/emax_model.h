@@ -33,6 +33,7 @@ inline double distance_of(std::uint32_t squared_bits) {
 }
 
 // The kernel's squared distance of one pair on the flushing scalar.
-std::uint32_t pair_squared_bits(const Vector3<float>& point, const TriangleRecord<float>& record);
+[[gnu::visibility("default")]] std::uint32_t pair_squared_bits(const Vector3<float>& point,
+                                                               const TriangleRecord<float>& record);
 
 }  // namespace emax

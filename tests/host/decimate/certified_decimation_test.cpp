@@ -8,11 +8,11 @@
 namespace emax::test {
 namespace {
 
-CertifiedDecimationSettings with(double epsilon, MeshFormat format = MeshFormat::kPly) {
+CertifiedDecimationSettings with(double epsilon, Storage storage = Storage::kExact) {
   CertifiedDecimationSettings settings;
   settings.decimation.epsilon = epsilon;
   settings.decimation.effort = DecimationSettings::Effort::kCollapse;
-  settings.format = format;
+  settings.storage = storage;
   return settings;
 }
 
@@ -20,7 +20,7 @@ CertifiedDecimationSettings with(double epsilon, MeshFormat format = MeshFormat:
 void expect_certified(const CertifiedDecimation& result, const TriangleMesh& reference,
                       const CertifiedDecimationSettings& settings) {
   const double epsilon = settings.decimation.epsilon;
-  EXPECT_TRUE(same_bytes(as_stored(result.mesh, settings.format), result.mesh));
+  EXPECT_TRUE(same_bytes(as_stored(result.mesh, settings.storage), result.mesh));
   EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
   EXPECT_TRUE(certify(reference.vertices, result.mesh.view()).within(epsilon));
   SurfaceDistanceOptions decide;
@@ -37,8 +37,8 @@ void expect_certified(const CertifiedDecimation& result, const TriangleMesh& ref
 
 TEST(CertifiedDecimation, BoundsBothSurfacesAsStored) {
   for (const TriangleMesh& mesh : {bumpy(24, 40), sheet(24, 0.3), cube(4)}) {
-    for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kStl}) {
-      const CertifiedDecimationSettings settings = with(0.02, format);
+    for (const Storage storage : {Storage::kExact, Storage::kBinary32}) {
+      const CertifiedDecimationSettings settings = with(0.02, storage);
       const CertifiedDecimation result = decimate_certified(mesh, mesh.vertices, settings);
       expect_certified(result, mesh, settings);
       EXPECT_LT(result.mesh.triangles.size(), mesh.triangles.size());

@@ -58,9 +58,9 @@ TEST(MeshFile, ReadsBackExactlyWhatAsStoredTells) {
       const MeshFormat format = mesh_format(name);
       write_mesh(folder / name, mesh);
       EXPECT_EQ(bytes_of(folder / name), mesh_bytes(mesh, format));
-      const TriangleMesh stored = as_stored(mesh, format);
+      const TriangleMesh stored = as_stored(mesh, storage_of(format));
       expect_same_bits(read_mesh(folder / name), stored);
-      expect_same_bits(as_stored(stored, format), stored);
+      expect_same_bits(as_stored(stored, storage_of(format)), stored);
       if (format != MeshFormat::kStl) expect_same_bits(stored, mesh);
     }
   }
@@ -71,18 +71,18 @@ TEST(MeshFile, StlRoundsMergesAndKeepsCollapsedTriangles) {
   const TriangleMesh mesh{
       {{0, 0, 0}, {16777216, 0, 0}, {0, 1, 0}, {16777217, 0, 0}, {-0.0, 0, 0}, {9, 9, 9}},
       {{2, 0, 1}, {4, 3, 1}}};
-  const TriangleMesh stored = as_stored(mesh, MeshFormat::kStl);
+  const TriangleMesh stored = as_stored(mesh, Storage::kBinary32);
   EXPECT_EQ(stored.vertices, (std::vector<Point>{{0, 1, 0}, {0, 0, 0}, {16777216, 0, 0}}));
   EXPECT_EQ(stored.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 2}}));
-  EXPECT_EQ(storage_displacement(mesh, MeshFormat::kStl), 1.0);
+  EXPECT_EQ(storage_displacement(mesh, Storage::kBinary32), 1.0);
 }
 
 TEST(MeshFile, StorageDisplacementDecidesWhatMayBeStored) {
   const TriangleMesh mesh{{{10000000.001, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}};
-  const double displacement = storage_displacement(mesh, MeshFormat::kStl);
+  const double displacement = storage_displacement(mesh, Storage::kBinary32);
   EXPECT_NEAR(displacement, 0.001, 1e-8);
   for (const MeshFormat exact : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kOff}) {
-    EXPECT_EQ(storage_displacement(mesh, exact), 0);
+    EXPECT_EQ(storage_displacement(mesh, storage_of(exact)), 0);
     EXPECT_NO_THROW(require_storable(mesh, exact, 1e-300, "out.ply"));
   }
   EXPECT_NO_THROW(require_storable(mesh, MeshFormat::kStl, 101 * displacement, "out.stl"));

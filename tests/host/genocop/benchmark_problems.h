@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/genocop/problem.h"
+#include <emax/genocop.h>
 
 // The constrained test functions g01 to g11 (Michalewicz & Schoenauer 1996; Runarsson & Yao 2000).
 // Linear constraints are given as such; the values of the others are divided by the scale of their

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "host/genocop/problem.h"
+#include <emax/genocop.h>
 
 namespace emax::testing_help {
 

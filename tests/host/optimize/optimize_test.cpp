@@ -291,7 +291,7 @@ TEST_F(OptimizeTest, AnEvaluationWalksTheReduction) {
   EXPECT_EQ(log.find(0)->walked, walked);
   Chain chain(cloud_);
   ChainSettings candidate = state.best->chain;
-  EXPECT_TRUE(same_bytes(as_stored(chain.run(candidate).mesh, MeshFormat::kPly), state.best->mesh));
+  EXPECT_TRUE(same_bytes(as_stored(chain.run(candidate).mesh, Storage::kExact), state.best->mesh));
   std::size_t fewest = state.best->triangles;
   for (int i = 0; i < 100; ++i) {
     candidate.parameters["schroeder.reduction"] = 0.98 * i / 100;
@@ -412,7 +412,7 @@ TEST_F(DeepOptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   settings_.polish = true;
   const OptimizeState whole = run();
   EXPECT_EQ(whole.polished, plain.best->triangles);
-  EXPECT_TRUE(same_bytes(whole.best->mesh, as_stored(twin, MeshFormat::kPly)));
+  EXPECT_TRUE(same_bytes(whole.best->mesh, as_stored(twin, Storage::kExact)));
   EXPECT_EQ(whole.best->chain.parameters, deep.parameters);
   EXPECT_EQ(whole.evaluations, plain.evaluations);
 

@@ -1,13 +1,33 @@
+// Genocop III for a function of your own: minimised where evaluations are dear, under domains,
+// linear and nonlinear constraints, with real, whole and categorical variables.
+//
+//   #include <emax/genocop.h>
+//
+//   emax::Problem problem;
+//   problem.genes = {{.name = "x", .lower = -5, .upper = 5}, {.name = "y", .lower = -5, .upper =
+//   5}}; problem.nonlinear = {{}};                                  // value <= 0 const
+//   emax::Minimum found = emax::minimize(problem, [&](const emax::Genes& g) {
+//     return emax::make_evaluation(problem.nonlinear, g[0] * g[0] + g[1] * g[1],   // minimised
+//                                  {1 - g[0] - g[1]});                          // x + y >= 1
+//   }, {.budget = 200, .seed = 1});
+//
+// Links with emax::genocop. Source: section 2.3; Michalewicz & Nazhiyath (1995); what differs from
+// it: docs/genocop3.md.
 #pragma once
+
+#include <emax/error.h>
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace emax {
+inline namespace v1 {
 
 // Values of the genes in the problem's order; those of integer and categorical genes are whole.
 using Genes = std::vector<double>;
@@ -80,8 +100,33 @@ struct Problem {
   std::optional<std::size_t> monotone_gene;
 };
 
-// An evaluation from its parts; failed when a number is not finite.
-Evaluation make_evaluation(const std::vector<NonlinearConstraint>& nonlinear, double objective,
-                           std::vector<double> constraints);
+// An evaluation from its parts; failed when a number is not finite. Throws Error for another number
+// of constraints than the problem's.
+EMAX_API Evaluation make_evaluation(const std::vector<NonlinearConstraint>& nonlinear,
+                                    double objective, std::vector<double> constraints);
 
+struct MinimizeOptions {
+  std::size_t budget = 150;  // evaluations
+  std::uint64_t seed = 1;
+  // How many evaluations run at a time, each in a thread; `evaluate` must permit it.
+  std::size_t jobs = 1;
+  // Asked between evaluations; true ends the search with what it has found.
+  std::function<bool()> interrupted = nullptr;
+};
+
+struct Minimum {
+  Genes genes;
+  Evaluation evaluation;  // feasible, or of the least violation where nothing feasible was found
+  std::size_t evaluations = 0;  // made
+};
+
+// The same result for any number of jobs. What `evaluate` throws ends the search and comes out; an
+// evaluation that fails is Evaluation{}. Throws Error for an empty domain, for constraints, starts
+// and known results that do not fit the genes, and where nothing was evaluated.
+// Beside the evaluations O(budget * (budget * genes + (genes + constraints)^3)).
+EMAX_API Minimum minimize(const Problem& problem,
+                          const std::function<Evaluation(const Genes&)>& evaluate,
+                          const MinimizeOptions& options = {});
+
+}  // namespace v1
 }  // namespace emax

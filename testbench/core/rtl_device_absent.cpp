@@ -1,0 +1,19 @@
+#include <array>
+
+#include "sw_model/base/error.h"
+#include "testbench/core/rtl_device.h"
+
+namespace emax {
+
+std::span<const std::uint32_t> rtl_element_counts() {
+  static constexpr std::array<std::uint32_t, 1> kCounts = {1};
+  return kCounts;
+}
+
+std::unique_ptr<Device> make_rtl_device(std::uint32_t) {
+  throw Error(
+      "device rtl: this emax was built without the simulated hardware; install verilator and build "
+      "with cmake -DEMAX_RTL=ON, or take --device sim");
+}
+
+}  // namespace emax

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# installed_test.sh PROJECT BUILD COMPILER CLANG VERILATOR: emax installed from BUILD into a prefix of
+# its own; a project outside the tree builds the examples against it and gets the same lines with
+# every compiler and set of flags; arithmetic that is not the contract's is noticed.
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "${BASH_SOURCE[0]}")/../tooling/expect.sh"
+project=$1 build=$2 gcc=$3 clang=$4 verilator=$5
+prefix=$folder/prefix
+examples=$project/docs/examples
+export LD_LIBRARY_PATH=
+expect pass "" "the installation" cmake --install "$build" --prefix "$prefix"
+
+# same_lines NAME COMPILER FLAGS [CMAKE_ARGUMENT...]
+same_lines() {
+  local out=$folder/$1 example
+  expect pass "" "$1: configured" cmake -S "$project/tests/consumer" -B "$out" -G Ninja \
+    -DCMAKE_PREFIX_PATH="$prefix" -DEXAMPLES="$examples" -DCMAKE_CXX_COMPILER="$2" \
+    -DCMAKE_CXX_FLAGS="$3" -DCMAKE_BUILD_TYPE=Release "${@:4}"
+  expect pass "" "$1: built" cmake --build "$out"
+  for example in measure decimate verify minimize own_top; do
+    echo "== $example"
+    "$out/$example" || true
+  done >"$folder/$1.lines"
+  expect pass "" "$1: the lines" diff "$project/tests/consumer/lines.txt" "$folder/$1.lines"
+}
+same_lines gcc "$gcc" "-O2"
+same_lines gcc_native "$gcc" "-O3 -march=native"
+same_lines gcc_static "$gcc" "-O2" -DEMAX_STATIC=ON
+same_lines clang "$clang" "-O2 -march=native"
+
+# pkg-config says the same.
+flags=$(PKG_CONFIG_PATH=$(echo "$prefix"/lib*/pkgconfig "$prefix"/lib/*/pkgconfig | tr ' ' ':') \
+  pkg-config --define-variable=prefix="$prefix" --cflags --libs emax)
+# shellcheck disable=SC2086  # flags
+expect pass "" "pkg-config" "$gcc" -std=c++20 "$examples/verify.cpp" $flags -o "$folder/verify"
+
+# Arithmetic that is not the contract's.
+include=(-I"$prefix/include" -I"$prefix/include/emax")
+library=$(dirname "$(find "$prefix" -name libemax.so)")
+expect fail "-ffast-math changes the kernel's roundings" "fast math" \
+  "$gcc" -std=c++20 -O2 -ffast-math "${include[@]}" -c "$examples/measure.cpp" -o "$folder/fast.o"
+contracted=(-O2 -ffp-contract=fast -mfma)
+if grep -qw fma /proc/cpuinfo; then
+  expect pass "" "contraction compiles" "$gcc" -std=c++20 "${contracted[@]}" "${include[@]}" \
+    "$examples/measure.cpp" -L"$library" -Wl,-rpath,"$library" -lemax -o "$folder/contracted"
+  expect fail "were contracted" "contraction is noticed" "$folder/contracted"
+fi
+expect pass "" "flushing links" "$gcc" -std=c++20 -O2 -ffp-contract=off -c "${include[@]}" \
+  "$examples/measure.cpp" -o "$folder/measure.o"
+expect pass "" "flushing links" "$gcc" -ffast-math "$folder/measure.o" -L"$library" \
+  -Wl,-rpath,"$library" -lemax -o "$folder/flushing"
+expect fail "subnormals are flushed" "flushing is noticed" "$folder/flushing"
+
+# The element in a design of one's own gives the words of the kernel in C++.
+rtl=$prefix/share/emax/rtl
+expect pass "" "the design is Verilated" "$verilator" --binary -Wno-PINCONNECTEMPTY \
+  -F "$rtl/element.f" "$examples/own_design/triangle_distance.sv" \
+  "$examples/own_design/simulation.sv" --top simulation -Mdir "$folder/design"
+expect pass "" "the design's words" diff <("$folder/design/Vsimulation" | grep -v finish) \
+  <("$folder/gcc/own_top")
+finish
