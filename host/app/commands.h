@@ -40,8 +40,9 @@ struct DecimateOptions {
   std::string max_error;
   std::string back_error;  // empty: max_error
   std::string output;
-  std::string effort = "normal";  // or quick, deep
-  double feature_angle = 0;       // degrees; 0: no features
+  std::string effort = "normal";        // or quick, deep
+  std::string objective = "triangles";  // or hoppe
+  double feature_angle = 0;             // degrees; 0: no features
   std::string json;
   std::string excluded_share = "0";
   std::optional<double> seconds;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "host/app/commands.h"
 #include "host/app/decimation_progress.h"
@@ -9,12 +10,14 @@
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
 #include "host/decimate/certified_decimation.h"
+#include "host/decimate/decimation_sequence.h"
 #include "host/files/atomic_file.h"
 #include "host/files/sha256.h"
 #include "host/files/tolerance.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/measure/error_constraint.h"
 #include "host/report/certificate_file.h"
+#include "host/report/curve_svg.h"
 #include "host/report/result_json.h"
 #include "host/surface/close_holes.h"
 #include "host/surface/manifold_part.h"
@@ -31,6 +34,43 @@ Effort effort_named(const std::string& name) {
 
 constexpr double kAnyHole = 1;  // as wide as the mesh
 
+// Tolerances as given, between commas, and the mesh that each is written to: where there are
+// several, the output's name with the tolerance behind its stem (part-0.1pct.ply).
+struct Bound {
+  std::string text;
+  Tolerance tolerance;
+  std::filesystem::path output;
+};
+
+std::vector<Bound> bounds_of_options(const std::string& tolerances,
+                                     const std::filesystem::path& output) {
+  std::vector<Bound> bounds;
+  for (std::size_t start = 0; start <= tolerances.size();) {
+    const std::size_t end = std::min(tolerances.find(',', start), tolerances.size());
+    const std::string text = tolerances.substr(start, end - start);
+    bounds.push_back({text, parse_tolerance(text), output});
+    start = end + 1;
+  }
+  if (bounds.size() == 1) return bounds;
+  for (const Bound& bound : bounds) {
+    if (std::ranges::count(bounds, bound.text, &Bound::text) > 1) {
+      throw Error("--max-error: " + bound.text + " is given twice");
+    }
+  }
+  for (Bound& bound : bounds) {
+    std::string label = bound.text;
+    if (bound.tolerance.percent) label.replace(label.size() - 1, 1, "pct");
+    bound.output.replace_filename(output.stem().string() + "-" + label +
+                                  output.extension().string());
+  }
+  return bounds;
+}
+
+std::filesystem::path curve_path(const std::filesystem::path& output, const char* ending) {
+  std::filesystem::path path = output;
+  return path.replace_filename(output.stem().string() + "-curve" + ending);
+}
+
 class DecimateCommand {
  public:
   explicit DecimateCommand(const DecimateOptions& options)
@@ -39,13 +79,21 @@ class DecimateCommand {
         options_(options),
         own_cloud_(options.cloud.empty()),
         share_(parse_share(options.excluded_share)),
-        tolerance_(parse_tolerance(options.max_error)) {
+        bounds_(bounds_of_options(options.max_error, options.output)),
+        output_(bounds_.front().output) {
+    const bool several = bounds_.size() > 1;
+    if (several && share_ > 0) {
+      throw Error("--exclude-outliers: give one --max-error, as each would exclude other points");
+    }
     std::optional<Tolerance> back;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
-    check_mesh_outputs(options.output, options.two_sided);
+    const std::filesystem::path curve = several ? curve_path(options.output, ".svg") : "";
+    for (const Bound& bound : bounds_) {
+      check_mesh_outputs(bound.output, options.two_sided);
+      check_distinct({bound.output, certificate_path(bound.output), options.json, curve},
+                     {options.mesh, options.cloud});
+    }
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
-    check_distinct({options.output, certificate_path(options.output), options.json},
-                   {options.mesh, options.cloud});
     progress_.begin("reading", reading_seconds(options.mesh) +
                                    (own_cloud_ ? 0 : reading_seconds(options.cloud)));
     MeshFile file = read_mesh_file(options.mesh);
@@ -57,12 +105,18 @@ class DecimateCommand {
     // Of what was read: the files may change while the decimation runs.
     mesh_sha256_ = sha256_of_file(options.mesh);
     cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_file(scan_.path);
-    epsilon_ = below_width(tolerance_, "--max-error", scan_);
-    settings_.decimation.epsilon = epsilon_;
-    settings_.decimation.epsilon_back = back ? below_width(*back, "--back-error", scan_) : epsilon_;
+    if (back) back_ = below_width(*back, "--back-error", scan_);
+    // The reference is the same for all of them, and has room for the smallest.
+    std::ranges::sort(bounds_, {},
+                      [&](const Bound& b) { return b.tolerance.in_units(scan_.width); });
+    for (const Bound& bound : bounds_) below_width(bound.tolerance, "--max-error", scan_);
+    set_bound(bounds_.front());
     settings_.decimation.two_sided = options.two_sided;
     settings_.decimation.effort = effort_named(options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
+    if (options.objective == "hoppe") {
+      settings_.decimation.objective = DecimationSettings::Objective::kHoppe;
+    }
     format_ = mesh_format(options.output);
     settings_.storage = storage_of(format_);
     require_storable(given_, format_, std::min(epsilon_, epsilon_back()), options.output);
@@ -90,6 +144,7 @@ class DecimateCommand {
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
       progress_.show(share, triangles);
     };
+    if (bounds_.size() > 1) return run_sequence(kept);
     progress_.begin("assigning the points", joining_seconds(points));
     result_ = decimate_certified(reference_.mesh, kept, settings_);
     if (!outliers.empty()) {
@@ -121,6 +176,71 @@ class DecimateCommand {
   }
 
  private:
+  void set_bound(const Bound& bound) {
+    output_ = bound.output;
+    epsilon_ = bound.tolerance.in_units(scan_.width);
+    settings_.decimation.epsilon = epsilon_;
+    settings_.decimation.epsilon_back = back_.value_or(epsilon_);
+  }
+
+  // A mesh for each bound, the smallest first, from one sequence of collapses.
+  int run_sequence(const std::vector<Point>& kept) {
+    DecimationSequence sequence(reference_.mesh, kept);
+    std::vector<CurvePoint> curve;
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    const bool percent =
+        std::ranges::all_of(bounds_, [](const Bound& b) { return b.tolerance.percent; });
+    bool all_feasible = true;
+    std::string table;
+    for (const Bound& bound : bounds_) {
+      set_bound(bound);
+      progress_.begin("assigning the points", joining_seconds(kept.size()));
+      result_ = decimate_certified(
+          reference_.mesh, kept, settings_,
+          [&](const DecimationSettings& settings) { return sequence.cut(settings); });
+      progress_.begin("certifying the result", certifying_seconds(kept.size()));
+      kernel_ = kernel_error(scan_, result_.mesh.view(), result_.points.excluded);
+      const bool feasible = may_leave_out_own_vertices() || result_.points.excluded.empty();
+      all_feasible = all_feasible && feasible;
+      if (feasible) {
+        write();
+        curve.push_back(
+            {percent ? bound.tolerance.value : epsilon_, result_.mesh.triangles.size()});
+      }
+      progress_.finish();
+      table += fmt::format("  {:<12} {:>12.6g} {:>10} {:>12.6g}  {}\n", bound.text, epsilon_,
+                           feasible ? grouped(result_.mesh.triangles.size()) : "-",
+                           result_.points.e_max_upper, feasible ? output_.string() : "infeasible");
+      rows.push_back({{"max_error", bound.text},
+                      {"epsilon", epsilon_},
+                      {"feasible", feasible},
+                      {"triangles", result_.mesh.triangles.size()},
+                      {"e_max", result_.points.e_max_upper},
+                      {"mesh", feasible ? nlohmann::ordered_json(output_.string()) : nullptr}});
+      if (was_interrupted() || result_.interrupted) break;
+    }
+    print_reference();
+    fmt::print("  {:<12} {:>12} {:>10} {:>12}  {}\n{}", "--max-error", "tolerance", "triangles",
+               "e_max", "mesh, with its certificate beside it", table);
+    if (curve.size() > 1) {
+      const std::filesystem::path picture = curve_path(options_.output, ".svg");
+      write_atomically(picture,
+                       curve_svg(curve, percent ? "% of the width" : "the unit of the points"));
+      fmt::print("curve          {}\n", picture.string());
+    }
+    fmt::print("decimation     {:.1f} s{}\n", progress_.seconds(),
+               was_interrupted()     ? "; interrupted"
+               : result_.interrupted ? "; out of time"
+                                     : "");
+    if (json_is_wanted(options_.json)) {
+      const nlohmann::ordered_json json = {
+          {"schema", "emax-curve-1"}, {"mesh", options_.mesh}, {"curve", rows}};
+      emax::write_json(options_.json, json.dump(2) + "\n");
+    }
+    if (was_interrupted()) return kExitInterrupted;
+    return all_feasible && curve.size() == bounds_.size() ? kExitOk : kExitNo;
+  }
+
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
   // The vertices of triangles that were removed are no part of the surface that is left.
@@ -226,8 +346,15 @@ class DecimateCommand {
     }
     fmt::print("points         {}: {}{}, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "", scan_.width);
-    fmt::print("tolerance      {}, {}", to_text(tolerance_, scan_.width),
-               options_.two_sided ? "two-sided" : "one-sided");
+    std::string tolerances;
+    for (const Bound& bound : bounds_) {
+      if (bounds_.size() == 1) {
+        tolerances = to_text(bound.tolerance, scan_.width);
+      } else {
+        tolerances += (tolerances.empty() ? "" : ", ") + bound.text;
+      }
+    }
+    fmt::print("tolerance      {}, {}", tolerances, options_.two_sided ? "two-sided" : "one-sided");
     if (options_.two_sided && epsilon_back() != epsilon_) {
       fmt::print(", mesh to reference {:.6g}", epsilon_back());
     }
@@ -236,9 +363,15 @@ class DecimateCommand {
   }
 
   void keep() {
+    write();
+    progress_.finish();
+    print_result();
+  }
+
+  void write() {
     const std::string bytes = mesh_bytes(result_.mesh, format_);
     Certificate certificate;
-    certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
+    certificate.mesh_file = output_.filename().string();
     certificate.mesh_sha256 = sha256(bytes);
     certificate.cloud_file = scan_.path.filename().string();
     certificate.cloud_sha256 = cloud_sha256_;
@@ -256,6 +389,7 @@ class DecimateCommand {
                          "bounded",
                          {{kBoundedEffort, static_cast<double>(settings_.decimation.effort)},
                           {"bounded.feature_angle", settings_.decimation.feature_angle}}};
+    if (options_.objective == "hoppe") certificate.chain.parameters["bounded.hoppe"] = 1;
     std::vector<OutputFile> files;
     if (options_.two_sided) {
       std::string sum;
@@ -267,11 +401,9 @@ class DecimateCommand {
       }
       certificate.reference = reference_bound_ = bound(std::move(sum));
     }
-    files.push_back({options_.output, bytes});
-    files.push_back({certificate_path(options_.output), to_json_text(certificate)});
+    files.push_back({output_, bytes});
+    files.push_back({certificate_path(output_), to_json_text(certificate)});
     write_together(files);
-    progress_.finish();
-    print_result();
   }
 
   ReferenceBound bound(std::string sum) const {
@@ -290,7 +422,7 @@ class DecimateCommand {
 
   void print_result() const {
     print_reference();
-    fmt::print("result         {}: {} triangles; {}\n", options_.output,
+    fmt::print("result         {}: {} triangles; {}\n", output_.string(),
                grouped(result_.mesh.triangles.size()), describe(result_.validity));
     fmt::print(
         "topology       {}\n",
@@ -311,7 +443,7 @@ class DecimateCommand {
     }
     fmt::print("kernel         e_max^2 bits 0x{:08x} at point {}\n", kernel_.squared_bits,
                kernel_.worst_point);
-    fmt::print("certificate    {}\n", certificate_path(options_.output).string());
+    fmt::print("certificate    {}\n", certificate_path(output_).string());
   }
 
   void refuse() const {
@@ -352,7 +484,9 @@ class DecimateCommand {
   const DecimateOptions& options_;
   bool own_cloud_;
   double share_;
-  Tolerance tolerance_;
+  std::vector<Bound> bounds_;     // ascending
+  std::filesystem::path output_;  // of the bound at hand
+  std::optional<double> back_;    // of the other direction, where it has one of its own
   TriangleMesh given_;
   std::vector<std::string> lost_attributes_;
   Scan scan_;

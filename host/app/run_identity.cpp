@@ -23,10 +23,16 @@ std::string build() {
 
 // The C library chooses its functions by these.
 std::string processor() {
+#if defined(__x86_64__)
   std::string text = "x86-64";
   if (__builtin_cpu_supports("avx2") != 0) text += " avx2";
   if (__builtin_cpu_supports("fma") != 0) text += " fma";
   return text;
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+#error "emax: say here what this processor's results depend on"
+#endif
 }
 
 }  // namespace

@@ -212,7 +212,6 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   }
   std::ranges::sort(result.left_out);
   DecimationPasses::Options options;
-  options.length_weight = settings.length_weight;
   if (settings.feature_angle > 0) options.features = FeatureEdges(ordered, settings.feature_angle);
   const bool hoppe = settings.objective == DecimationSettings::Objective::kHoppe;
   if (hoppe) {

@@ -49,8 +49,6 @@ struct DecimationSettings {
   double normal_cosine = 0.2;  // least, between a triangle and the one that it replaces
   double flatness = 1e-3;      // least height of a new triangle over its longest side
 
-  // What edges cost in the order of collapses: times (length / epsilon)^2.
-  double length_weight = 0;
   // In degrees; over 0, edges of the start over which its normals turn by more are features: they
   // and the corners where they meet or end stay (VertexClass).
   double feature_angle = 0;

@@ -15,12 +15,13 @@ constexpr double kGrowth = 8;
 class Attempts {
  public:
   Attempts(const TriangleMesh& reference, std::span<const Point> cloud,
-           const CertifiedDecimationSettings& settings)
+           const CertifiedDecimationSettings& settings, const Decimate& decimate)
       : reference_(reference),
         exact_reference_(reference.view()),
         own_validity_(check_mesh(reference.view())),
         cloud_(cloud),
         settings_(settings),
+        decimate_(decimate),
         epsilon_(settings.decimation.epsilon),
         epsilon_back_(settings.decimation.epsilon_back > 0 ? settings.decimation.epsilon_back
                                                            : epsilon_) {}
@@ -40,7 +41,8 @@ class Attempts {
     }
     if (!holds(reference_)) {
       if (rounding > 0) {
-        throw Error("32-bit coordinates cannot keep the mesh within its bounds; write .ply, .obj or .off");
+        throw Error(
+            "32-bit coordinates cannot keep the mesh within its bounds; write .ply, .obj or .off");
       }
       throw std::logic_error("the reference is not within the bounds of itself");
     }
@@ -52,7 +54,7 @@ class Attempts {
     DecimationSettings settings = settings_.decimation;
     settings.epsilon = epsilon_ * (1 - reduction);
     settings.epsilon_back = epsilon_back_ * (1 - reduction);
-    DecimatedMesh decimated = BoundedDecimator(reference_, cloud_).run(settings);
+    DecimatedMesh decimated = decimate_(settings);
     result_.interrupted = result_.interrupted || decimated.interrupted;
     left_out_.insert(left_out_.end(), decimated.left_out.begin(), decimated.left_out.end());
     return std::move(decimated.mesh);
@@ -100,6 +102,7 @@ class Attempts {
   const MeshValidity own_validity_;
   std::span<const Point> cloud_;
   const CertifiedDecimationSettings& settings_;
+  const Decimate& decimate_;
   double epsilon_, epsilon_back_;
   std::vector<std::uint32_t> left_out_;
   CertifiedDecimation result_;
@@ -109,7 +112,15 @@ class Attempts {
 
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings) {
-  return Attempts(reference, cloud, settings).run();
+  return decimate_certified(reference, cloud, settings, [&](const DecimationSettings& bounded) {
+    return BoundedDecimator(reference, cloud).run(bounded);
+  });
+}
+
+CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
+                                       const CertifiedDecimationSettings& settings,
+                                       const Decimate& decimate) {
+  return Attempts(reference, cloud, settings, decimate).run();
 }
 
 }  // namespace emax

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -36,5 +37,11 @@ struct CertifiedDecimation {
 // Throws Error as BoundedDecimator does and where the storage cannot hold the mesh within epsilon.
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings);
+
+// The same by another decimator of that reference and cloud: DecimationSequence::cut.
+using Decimate = std::function<DecimatedMesh(const DecimationSettings&)>;
+CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
+                                       const CertifiedDecimationSettings& settings,
+                                       const Decimate& decimate);
 
 }  // namespace emax

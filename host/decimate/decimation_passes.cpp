@@ -75,7 +75,6 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   candidate.stamp = edits_;
   if (!search_.prepare_collapse(a, b)) return false;
   const Point pa = state_.mesh().position(a), pb = state_.mesh().position(b);
-  candidate.cost = options_.length_weight * (pa - pb).squaredNorm() / state_.squared_limit();
   const bool hoppe = options_.representation > 0;
   LocalSearch::Options options;
   if (hoppe) options.power = 2;
@@ -105,7 +104,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
     return false;
   }
   if (hoppe && !(fit.energy < before)) return false;
-  candidate.cost += fit.energy - before;
+  candidate.cost = fit.energy - before;
   candidate.fit = std::move(fit);
   return true;
 }

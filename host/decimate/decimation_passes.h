@@ -20,7 +20,6 @@ class DecimationPasses {
   using Poll = std::function<bool(double)>;
   struct Options {
     FeatureEdges features;     // which collapses and flips keep
-    double length_weight = 0;  // of (an edge's length / epsilon)^2 in the order of the collapses
     // Hoppe's objective: what an edge's squared length costs, and what a vertex less is worth in
     // units of epsilon^2. A collapse is then made only where it lowers the energy.
     double spring = 0, representation = 0;

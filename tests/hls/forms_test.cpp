@@ -59,7 +59,6 @@ TEST(Forms, CostTheOperationsTheirHeadersState) {
 TEST(Forms, AgreeOnEveryStimulus) {
   for (const test::Stimulus& s : test::all_stimuli(11)) {
     SCOPED_TRACE(s.name + ", seed 11");
-    if (s.name == "slivers") continue;  // the literal form loses accuracy there: next test
     const Normalization normalization = normalization_of(s.cloud);
     const auto points = normalized_points(s.cloud, normalization);
     const MeshView mesh = s.mesh();

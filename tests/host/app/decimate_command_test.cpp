@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -104,6 +105,47 @@ TEST_F(DecimateCommand, KeepsTheCornersOfAPartSharp) {
   EXPECT_EQ(certificate("sharp.ply").at("parameters").at("bounded.feature_angle"), 40);
   EXPECT_EQ(verify("sharp.ply"), 0);
   EXPECT_NE(decimate("no.ply", {"--feature-angle", "200"}).exit_code, 0);
+}
+
+TEST_F(DecimateCommand, SeveralTolerancesGiveACertifiedMeshEach) {
+  const ProgramRun run =
+      decimate("part.ply", {"--json", "curve.json"}, "surface.off", "2%,0.5%,1%");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  std::size_t last = mesh_.triangles.size();
+  const json curve = read("curve.json")["curve"];
+  ASSERT_EQ(curve.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = std::array{"part-0.5pct.ply", "part-1pct.ply", "part-2pct.ply"}[i];
+    EXPECT_EQ(verify(name), 0) << name;
+    const std::size_t triangles = read_mesh(folder_ / name).triangles.size();
+    EXPECT_LT(triangles, last) << name;
+    last = triangles;
+    EXPECT_EQ(curve[i]["mesh"], name);
+    EXPECT_EQ(curve[i]["triangles"], triangles);
+    EXPECT_LE(curve[i]["e_max"], curve[i]["epsilon"]);
+    EXPECT_NE(run.output.find(name), std::string::npos);
+  }
+  EXPECT_NE(test::file_text(folder_ / "part-curve.svg").find("</svg>"), std::string::npos);
+}
+
+TEST_F(DecimateCommand, SeveralTolerancesThatMakeNoSenseAreRefused) {
+  for (const char* wrong : {"1%,", ",1%", "1%,1%", "1%,x", "1%,-2%"}) {
+    EXPECT_EQ(decimate("part.ply", {}, "surface.off", wrong).exit_code, 1) << wrong;
+  }
+  const ProgramRun run = decimate("part.ply", {"--exclude-outliers", "1%"}, "surface.off", "1%,2%");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.errors.find("give one --max-error"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "part-1pct.ply"));
+}
+
+TEST_F(DecimateCommand, HoppesEnergyIsLoweredWithinTheBound) {
+  ASSERT_EQ(decimate("fewest.ply", {}).exit_code, 0);
+  ASSERT_EQ(decimate("hoppe.ply", {"--objective", "hoppe"}).exit_code, 0);
+  EXPECT_EQ(verify("hoppe.ply"), 0);
+  EXPECT_GT(read_mesh(folder_ / "hoppe.ply").triangles.size(),
+            read_mesh(folder_ / "fewest.ply").triangles.size());
+  EXPECT_EQ(certificate("hoppe.ply")["parameters"]["bounded.hoppe"], 1);
+  EXPECT_FALSE(certificate("fewest.ply")["parameters"].contains("bounded.hoppe"));
 }
 
 TEST_F(DecimateCommand, KeepsToTheCloudThatIsGiven) {

@@ -1,0 +1,283 @@
+#include "host/app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "host/app/interrupt.h"
+#include "host/app/option_checks.h"
+#include "host/config/config.h"
+#include "host/device/device_address.h"
+
+namespace emax {
+namespace {
+
+void add_json(CLI::App& command, std::string& json) {
+  command.add_option("--json", json,
+                     "also write the result to this file, or with - to standard output; the text "
+                     "then goes to standard error");
+}
+
+void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& skip_invalid,
+                         std::string& json) {
+  add_json(command, json);
+  command
+      .add_option("--exclude-outliers", excluded_share,
+                  "share of the points (N or N%) that may lie farther than the tolerance; the "
+                  "certificate lists them")
+      ->capture_default_str();
+  command.add_flag("--skip-invalid", skip_invalid,
+                   "leave out points with NaN or infinite coordinates");
+}
+
+void add_common(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .txt .pts .obj .off")
+      ->required();
+  command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
+      ->capture_default_str();
+  add_points_and_json(command, options.excluded_share, options.skip_invalid, options.json);
+  command.add_flag("--brute-force", options.brute_force,
+                   "compare every point with every triangle: slow, with the same result");
+}
+
+constexpr const char* kClosedHelp =
+    "close every hole, so that the result is closed; exit code 2 where one cannot be, which the "
+    "output names (default: holes and borders stay)";
+
+void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
+  command
+      .add_option("--method", method,
+                  "reconstruction; fit: the one that fits the scan best; auto: the search chooses")
+      ->check(CLI::IsMember({"fit", "gp3", "poisson", "hoppe", "imls", "auto"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--decimator", decimator,
+          "bounded: every edit keeps the bound; schroeder: the paper's decimation, whose error is "
+          "measured afterwards; auto: the search chooses, under a one-sided bound")
+      ->check(CLI::IsMember({"bounded", "schroeder", "auto"}))
+      ->capture_default_str();
+}
+
+void add_optimize(CLI::App& app, CommandLine& line) {
+  auto& optimize = line.optimize;
+  CLI::App& command =
+      *app.add_subcommand("optimize",
+                          "make a mesh of a scan, searching for the reconstruction and the "
+                          "decimation that give the fewest triangles");
+  add_common(command, optimize.common);
+  command
+      .add_option("--max-error", optimize.max_error,
+                  "tolerance: N in the cloud's unit, or N% of its width")
+      ->required();
+  command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off")->required();
+  add_chain(command, optimize.method, optimize.decimator);
+  command
+      .add_option(
+          "--bound", optimize.bound,
+          "one-sided: every point of the cloud lies within the tolerance of the mesh; two-sided: "
+          "also all of the mesh within the tolerance of a reference surface, and all of that "
+          "surface within the tolerance of the mesh (default: two-sided, but one-sided with "
+          "--decimator schroeder or auto)")
+      ->check(CLI::IsMember({"two-sided", "one-sided"}));
+  command.add_option("--seed", optimize.seed, "seed of every random choice")
+      ->check(whole())
+      ->capture_default_str();
+  command
+      .add_option("--effort", optimize.effort,
+                  "quick: one good candidate; deep: four times as many as normal")
+      ->check(CLI::IsMember({"quick", "normal", "deep"}))
+      ->capture_default_str();
+  command
+      .add_option("--budget", optimize.budget,
+                  "evaluations (default: by --effort; normal are those of --config, or without it "
+                  "40, with the paper's decimation 60, fewer for more than 100,000 points)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
+  command.add_option("--time", optimize.seconds, "stop the search after this many seconds")
+      ->check(positive("seconds"));
+  command
+      .add_option("--jobs", optimize.jobs,
+                  "worker processes, at most search.look_ahead of the configuration (default: one "
+                  "per processor, as far as the memory allows)")
+      ->check(CLI::Range(1u, 256u));
+  command
+      .add_option("--target-triangles", optimize.target_triangles,
+                  "stop at a mesh within the tolerance of at most so many triangles")
+      ->check(positive("triangles"));
+  command
+      .add_option("--stagnation", optimize.stagnation,
+                  "stop after so many evaluations without a better mesh")
+      ->check(positive("evaluations"));
+  command.add_flag("--closed", optimize.closed, kClosedHelp);
+  CLI::Option& polish =
+      *command.add_flag("--polish,!--no-polish", optimize.polish,
+                        "decimate the best mesh once more in the end, deep (default unless "
+                        "--effort is quick; only of the bounded decimator)");
+  command.add_option("--resume", optimize.resume,
+                     "folder that keeps the run: created when missing, continued when "
+                     "there (default: MESH.run, removed when the run has ended)");
+  command
+      .add_option("--evaluation-time", optimize.evaluation_seconds,
+                  "give an evaluation up after this many seconds (default: 600, or 0.002 a point "
+                  "where that is more), and --polish after ten times as many")
+      ->check(within(0.001, 1e7));
+  command
+      .add_option("--evaluation-memory", optimize.evaluation_memory,
+                  "give an evaluation up that needs more: bytes, or N MB, N GB (default: 2 GB "
+                  "and 8 KB a point, at most 7/8 of the memory)")
+      ->transform(CLI::AsSizeValue(false))
+      ->transform(not_negative());  // before the other
+  command.add_option("--config", optimize.config,
+                     "settings and domains; `emax config` prints the defaults");
+  command.callback([&] {
+    if (polish.count() == 0) optimize.polish = optimize.effort != "quick";
+    line.chosen = [&optimize] { return run_optimize(optimize); };
+  });
+}
+
+void add_decimate(CLI::App& app, CommandLine& line) {
+  auto& decimate = line.decimate;
+  CLI::App& command = *app.add_subcommand(
+      "decimate", "reduce a mesh to as few triangles as a certified bound allows");
+  command.add_option("MESH", decimate.mesh, "mesh: .ply .obj .stl .off")->required();
+  command.add_option(
+      "--cloud", decimate.cloud,
+      "point cloud whose points have to lie within the tolerance of the result (default: "
+      "the vertices of MESH)");
+  command
+      .add_option(
+          "--max-error", decimate.max_error,
+          "tolerance: N in the unit of the points, or N% of their width; several, with commas "
+          "between, write a mesh for each, MESH-N.ply, and their curve")
+      ->required();
+  command
+      .add_option("--bound", line.decimate_bound,
+                  "one-sided: every point lies within the tolerance of the result; two-sided: also "
+                  "all of the result within the tolerance of MESH, and all of MESH within the "
+                  "tolerance of the result")
+      ->check(CLI::IsMember({"two-sided", "one-sided"}))
+      ->capture_default_str();
+  command.add_option("--back-error", decimate.back_error,
+                     "how far the result may be from MESH, N or N% (default: --max-error)");
+  command.add_option("-o,--output", decimate.output, "mesh: .ply .obj .stl .off")->required();
+  command
+      .add_option("--effort", decimate.effort,
+                  "how long to look for fewer triangles: quick only collapses edges, deep goes on "
+                  "until nothing is gained")
+      ->check(CLI::IsMember({"quick", "normal", "deep"}))
+      ->capture_default_str();
+  command
+      .add_option("--objective", decimate.objective,
+                  "triangles: as few as the bound allows; hoppe: the least energy of Hoppe et al. "
+                  "(1993) within the bound, which spreads vertices evenly and leaves more of them")
+      ->check(CLI::IsMember({"triangles", "hoppe"}))
+      ->capture_default_str();
+  command.add_flag("--repair", decimate.repair,
+                   "remove triangles that intersect others or are not manifold, and close "
+                   "the holes that leaves in a closed mesh (default: kept, cut apart)");
+  command.add_flag("--closed", decimate.closed, kClosedHelp);
+  command
+      .add_option("--feature-angle", decimate.feature_angle,
+                  "keep edges sharp over which the surface turns by more than this many degrees, "
+                  "and their corners; 40 suits machine parts; leave it out for noisy scans")
+      ->check(within(1, 180));
+  add_points_and_json(command, decimate.excluded_share, decimate.skip_invalid, decimate.json);
+  command
+      .add_option("--time", decimate.seconds,
+                  "stop after this many seconds, with the mesh reached by then")
+      ->check(positive("seconds"));
+  command.callback([&] {
+    decimate.two_sided = line.decimate_bound == "two-sided";
+    if (!decimate.two_sided && !decimate.back_error.empty()) {
+      throw CLI::ValidationError(
+          "--back-error bounds the other direction: it needs --bound two-sided");
+    }
+    line.chosen = [&decimate] { return run_decimate(decimate); };
+  });
+}
+
+void add_error(CLI::App& app, CommandLine& line) {
+  auto& error = line.error;
+  CLI::App& command =
+      *app.add_subcommand("error", "measure and certify the maximum error of a mesh");
+  add_common(command, error.common);
+  command.add_option("MESH", error.mesh, "mesh: .ply .obj .stl .off")->required();
+  command.add_option("--max-error", error.max_error,
+                     "tolerance, N or N%: the output counts the points that are farther; exit "
+                     "code 2 when the tolerance is exceeded");
+  command.add_flag("--two-sided", error.two_sided,
+                   "also bound the distance of the whole mesh from the reference");
+  command
+      .add_option("--reference", error.reference,
+                  "mesh or cloud that --two-sided measures against (default: the cloud itself)")
+      ->needs("--two-sided");
+  command
+      .add_option("--quantile", error.quantiles,
+                  "percent of the points whose greatest distance is printed; may be repeated "
+                  "(default: 50 90 95 99 99.9)")
+      ->expected(1)
+      ->take_all()
+      ->check(within(0, 100));
+  command.add_option("--worst", error.worst, "how many of the farthest points are printed")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
+      ->capture_default_str();
+  command.add_option("--color", error.color, "write the cloud coloured by its distances: .ply");
+  command
+      .add_option("--color-mesh", error.color_mesh,
+                  "write the mesh coloured by its vertices' distances to the reference: .ply")
+      ->needs("--two-sided");
+  command.callback([&] { line.chosen = [&error] { return run_error(error); }; });
+}
+
+void add_verify(CLI::App& app, CommandLine& line) {
+  auto& verify = line.verify;
+  CLI::App& command = *app.add_subcommand(
+      "verify", "recompute what a certificate says; exit code 0 for yes, 2 for no");
+  command
+      .add_option("CERTIFICATE", verify.certificate, "MESH.certificate.json, written beside a mesh")
+      ->required();
+  command.add_option(
+      "--cloud", verify.cloud,
+      "the cloud, if it lies neither beside the certificate nor in the current folder");
+  command.add_option("--mesh", verify.mesh, "the mesh, if it is not beside the certificate");
+  command.add_option("--reference", verify.reference,
+                     "the reference of a two-sided bound, if it lies neither beside the "
+                     "certificate nor in the current folder");
+  add_json(command, verify.json);
+  command.callback([&] { line.chosen = [&verify] { return run_verify(verify); }; });
+}
+
+void add_config(CLI::App& app, CommandLine& line) {
+  CLI::App& command =
+      *app.add_subcommand("config", "print the default settings and domains, commented");
+  add_chain(command, line.config_method, line.config_decimator);
+  command.callback([&] {
+    line.chosen = [&line] {
+      fmt::print(
+          "{}", default_config_text(chain_parameters(
+                    method_for(line.config_method, line.config_decimator), line.config_decimator)));
+      return kExitOk;
+    };
+  });
+}
+
+constexpr std::array kCommands = {add_optimize, add_decimate, add_error, add_verify, add_config};
+
+}  // namespace
+
+void add_commands(CLI::App& app, CommandLine& line) {
+  for (const auto add : kCommands) add(app, line);
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_type_name() == "TEXT") option->check(not_empty());
+    }
+  }
+}
+
+std::array<std::string*, 4> json_options(CommandLine& line) {
+  return {&line.optimize.common.json, &line.decimate.json, &line.error.common.json,
+          &line.verify.json};
+}
+
+}  // namespace emax
