@@ -19,7 +19,7 @@ class DecimationPasses {
   // the edit at hand.
   using Poll = std::function<bool(double)>;
   struct Options {
-    FeatureEdges features;     // which collapses and flips keep
+    FeatureEdges features;  // which collapses and flips keep
     // Hoppe's objective: what an edge's squared length costs, and what a vertex less is worth in
     // units of epsilon^2. A collapse is then made only where it lowers the energy.
     double spring = 0, representation = 0;

@@ -23,7 +23,11 @@ class Axis {
   }
   std::vector<double> ticks() const {
     std::vector<double> ticks;
-    for (double tick = low_; tick <= high_ * (1 + 1e-9); tick = next(tick)) ticks.push_back(tick);
+    double tick = low_;
+    while (tick <= high_ * (1 + 1e-9)) {
+      ticks.push_back(tick);
+      tick = next(tick);
+    }
     return ticks;
   }
 
