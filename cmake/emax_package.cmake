@@ -16,8 +16,7 @@ foreach(kind STATIC SHARED)
   string(TOLOWER emax_${kind} target)
   add_library(${target} ${kind} ${objects})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME emax VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LINKER_LANGUAGE CXX
-    EXPORT_NAME ${kind})
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LINKER_LANGUAGE CXX)
   target_link_libraries(${target} PRIVATE fmt::fmt hwy::hwy Threads::Threads)
 endforeach()
 set_target_properties(emax_static emax_shared PROPERTIES ARCHIVE_OUTPUT_DIRECTORY

@@ -66,9 +66,9 @@ std::vector<Bound> bounds_of_options(const std::string& tolerances,
   return bounds;
 }
 
-std::filesystem::path curve_path(const std::filesystem::path& output, const char* ending) {
+std::filesystem::path curve_path(const std::filesystem::path& output) {
   std::filesystem::path path = output;
-  return path.replace_filename(output.stem().string() + "-curve" + ending);
+  return path.replace_filename(output.stem().string() + "-curve.svg");
 }
 
 class DecimateCommand {
@@ -87,7 +87,7 @@ class DecimateCommand {
     }
     std::optional<Tolerance> back;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
-    const std::filesystem::path curve = several ? curve_path(options.output, ".svg") : "";
+    const std::filesystem::path curve = several ? curve_path(options.output) : "";
     for (const Bound& bound : bounds_) {
       check_mesh_outputs(bound.output, options.two_sided);
       check_distinct({bound.output, certificate_path(bound.output), options.json, curve},
@@ -172,7 +172,7 @@ class DecimateCommand {
                               : "");
     write_json();
     if (was_interrupted()) return kExitInterrupted;
-    return feasible_ && !(closed_ && !closed_->open.empty()) ? kExitOk : kExitNo;
+    return feasible_ && all_closed() ? kExitOk : kExitNo;
   }
 
  private:
@@ -223,7 +223,7 @@ class DecimateCommand {
     fmt::print("  {:<12} {:>12} {:>10} {:>12}  {}\n{}", "--max-error", "tolerance", "triangles",
                "e_max", "mesh, with its certificate beside it", table);
     if (curve.size() > 1) {
-      const std::filesystem::path picture = curve_path(options_.output, ".svg");
+      const std::filesystem::path picture = curve_path(options_.output);
       write_atomically(picture,
                        curve_svg(curve, percent ? "% of the width" : "the unit of the points"));
       fmt::print("curve          {}\n", picture.string());
@@ -238,9 +238,11 @@ class DecimateCommand {
       emax::write_json(options_.json, json.dump(2) + "\n");
     }
     if (was_interrupted()) return kExitInterrupted;
-    return all_feasible && curve.size() == bounds_.size() ? kExitOk : kExitNo;
+    return all_feasible && curve.size() == bounds_.size() && all_closed() ? kExitOk : kExitNo;
   }
 
+  // That was asked for.
+  bool all_closed() const { return !closed_ || closed_->open.empty(); }
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
   // The vertices of triangles that were removed are no part of the surface that is left.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "host/block_search/simd_evaluator.h"
+#include "host/measure/point_distances.h"
 #include "sw_model/base/error.h"
 #include "sw_model/model/emax_model.h"
 #include "sw_model/model/error_bound.h"
@@ -26,7 +27,7 @@ ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
       threads_(threads) {}
 
 double ErrorConstraint::in_file_units(std::uint32_t squared_bits) const {
-  return distance_of(squared_bits) / cloud_.normalization().scale;
+  return emax::in_file_units(cloud_, squared_bits);
 }
 
 std::optional<std::uint32_t> ErrorConstraint::threshold(MeshView mesh) const {

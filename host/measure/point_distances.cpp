@@ -7,6 +7,10 @@
 
 namespace emax {
 
+double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits) {
+  return distance_of(squared_bits) / cloud.normalization().scale;
+}
+
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
                                     const std::function<bool()>& interrupted, std::size_t threads) {
   ErrorEngine engine(cloud, {.threads = threads, .interrupted = interrupted});
@@ -14,7 +18,7 @@ std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
   std::vector<double> distances;
   distances.reserve(cloud.points().size());
   for (const std::uint32_t bits : engine.squared_distances(prepared)) {
-    distances.push_back(distance_of(bits) / cloud.normalization().scale);
+    distances.push_back(in_file_units(cloud, bits));
   }
   return distances;
 }

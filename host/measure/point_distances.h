@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
+
+// The distance that a squared one of the kernel says, in the cloud's unit.
+double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits);
 
 // The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the
 // square roots of what brute force gives, to the bit, with any number of threads. Throws as

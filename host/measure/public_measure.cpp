@@ -4,7 +4,6 @@
 #include "host/engine/mesh_batch.h"
 #include "host/measure/point_distances.h"
 #include "sw_model/base/public_arguments.h"
-#include "sw_model/model/emax_model.h"
 
 namespace emax {
 inline namespace v1 {
@@ -15,12 +14,8 @@ std::size_t checked_threads(std::size_t threads) {
   return threads;
 }
 
-double in_units(const PreparedCloud& cloud, std::uint32_t squared_bits) {
-  return distance_of(squared_bits) / cloud.normalization().scale;
-}
-
 Measurement measurement(const PreparedCloud& cloud, const EmaxResult& result) {
-  return {in_units(cloud, result.squared_bits), result.worst_point, result.squared_bits};
+  return {in_file_units(cloud, result.squared_bits), result.worst_point, result.squared_bits};
 }
 
 }  // namespace
@@ -56,14 +51,14 @@ Measurement ErrorMeter::e_max(SurfaceSpan mesh) {
 
 double ErrorMeter::quantile(SurfaceSpan mesh, double share) {
   if (!(share > 0 && share <= 1)) throw Error("share: above 0 and at most 1");
-  return in_units(parts_->cloud,
-                  parts_->engine.quantile(parts_->prepared(mesh), share).squared_bits);
+  return in_file_units(parts_->cloud,
+                       parts_->engine.quantile(parts_->prepared(mesh), share).squared_bits);
 }
 
 std::vector<double> ErrorMeter::distances(SurfaceSpan mesh) {
   std::vector<double> distances;
   for (const std::uint32_t bits : parts_->engine.squared_distances(parts_->prepared(mesh))) {
-    distances.push_back(in_units(parts_->cloud, bits));
+    distances.push_back(in_file_units(parts_->cloud, bits));
   }
   return distances;
 }
