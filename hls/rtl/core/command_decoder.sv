@@ -96,17 +96,24 @@ module command_decoder #(
       drop  <= met;
     end
 
-    if (take_header) begin
+    // What only counts once the header is taken is prepared before: so the decision whether to take
+    // it reaches few registers.
+    if (state == HEADER) begin
       items <= count - 1'b1;
       left  <= opcode == RECORDS ? 5'd19 : 5'd2;
-      request_list  <= count[0];
-      request_empty <= !met;
-      request_count <= points;
+      to_element <= NUM_PE'(1);
+      next_row <= '0;
+      skips_records <= opcode == RECORDS;
+    end
+    request_list  <= count[0];
+    request_empty <= !met;
+    request_kind  <= opcode == IDENTIFY ? ASK_IDENTITY : opcode == COUNTERS ? ASK_COUNTERS
+        : block && fault == '0 ? ASK_RESULT : ASK_FAULT;
+    request_count <= fault != '0 ? 11'(fault) : block ? points : 11'(NO_POINTS);
+
+    if (take_header) begin
       case (opcode)
-        IDENTIFY, COUNTERS: begin
-          request_valid <= 1'b1;
-          request_kind  <= opcode == IDENTIFY ? ASK_IDENTITY : ASK_COUNTERS;
-        end
+        IDENTIFY, COUNTERS: request_valid <= 1'b1;
         LOAD_POINTS: begin
           points <= count[10:0];
           met    <= 1'b0;
@@ -117,9 +124,6 @@ module command_decoder #(
         RECORDS: if (count != '0) state <= block ? RECORD : SKIP;
         REDUCE: begin
           request_valid <= 1'b1;
-          request_kind  <= block && fault == '0 ? ASK_RESULT : ASK_FAULT;
-          if (fault != '0) request_count <= 11'(fault);
-          else if (!block) request_count <= 11'(NO_POINTS);
           finish <= block && fault == '0 && met;
           drop   <= fault != '0 && met;
           fault  <= '0;
@@ -148,12 +152,6 @@ module command_decoder #(
         if (to_element[NUM_PE-1]) next_row <= next_row + 1'b1;
       end
     end
-    if (take_header) begin
-      to_element <= NUM_PE'(1);
-      next_row <= '0;
-      skips_records <= opcode == RECORDS;
-    end
-
     if (take_record) begin
       assembled <= {word, assembled[639:32]};
       if (last_word) assembled_full <= 1'b1;
