@@ -57,23 +57,17 @@ class EmaxKernel {
     return {x, y, z};
   }
 
-  static PlanarEdge<Scalar> read_edge(Stream<Word>& commands) {
-    const Scalar y = read_scalar(commands);
-    const Scalar z = read_scalar(commands);
-    const Scalar length = read_scalar(commands);
-    return {{y, z}, length};
-  }
+  struct ReadScalar {
+    Stream<Word>& commands;
+    void operator()(Scalar& scalar) const { scalar = read_scalar(commands); }
+  };
 
   static TriangleRecord<Scalar> read_record(Stream<Word>& commands) {
-    const Vector3<Scalar> v1 = read_vector(commands);
-    const Vector3<Scalar> normal = read_vector(commands);
-    const Vector3<Scalar> in_plane = read_vector(commands);
-    const Vector3<Scalar> along = read_vector(commands);
-    const Scalar length12 = read_scalar(commands);
-    const PlanarEdge<Scalar> edge13 = read_edge(commands);
-    const PlanarEdge<Scalar> edge23 = read_edge(commands);
-    const Word tag = commands.read();
-    return {v1, normal, in_plane, along, length12, edge13, edge23, tag};
+    TriangleRecord<Scalar> record;
+    const ReadScalar read = {commands};
+    for_each_scalar(read, record);
+    record.tag = commands.read();
+    return record;
   }
 
   void load_points(Word count, Stream<Word>& commands) {

@@ -31,7 +31,54 @@ struct TriangleRecord {
   std::uint32_t tag;  // index of the triangle, kSegmentFlag in the highest bit
 };
 
+// Calls visit for each scalar of records of the same triangle, in the order of a record's words:
+// visit(a.v1.x, b.v1.x) to visit(a.edge23.length, b.edge23.length). The last word is the tag.
+// Whoever reads, writes, names or converts the words takes their order from here.
+template <class Visit, class... Records>
+void for_each_scalar(const Visit& visit, Records&... records) {
+  visit(records.v1.x...);
+  visit(records.v1.y...);
+  visit(records.v1.z...);
+  visit(records.normal.x...);
+  visit(records.normal.y...);
+  visit(records.normal.z...);
+  visit(records.in_plane.x...);
+  visit(records.in_plane.y...);
+  visit(records.in_plane.z...);
+  visit(records.along.x...);
+  visit(records.along.y...);
+  visit(records.along.z...);
+  visit(records.length12...);
+  visit(records.edge13.direction.y...);
+  visit(records.edge13.direction.z...);
+  visit(records.edge13.length...);
+  visit(records.edge23.direction.y...);
+  visit(records.edge23.direction.z...);
+  visit(records.edge23.length...);
+}
+
 constexpr std::uint32_t kRecordWords = 20;
+// The names of the words, for people and for the ports of the datapath.
+constexpr const char* kRecordWordNames[kRecordWords] = {"v1_x",
+                                                        "v1_y",
+                                                        "v1_z",
+                                                        "normal_x",
+                                                        "normal_y",
+                                                        "normal_z",
+                                                        "in_plane_x",
+                                                        "in_plane_y",
+                                                        "in_plane_z",
+                                                        "along_x",
+                                                        "along_y",
+                                                        "along_z",
+                                                        "length12",
+                                                        "edge13_direction_y",
+                                                        "edge13_direction_z",
+                                                        "edge13_length",
+                                                        "edge23_direction_y",
+                                                        "edge23_direction_z",
+                                                        "edge23_length",
+                                                        "tag"};
 constexpr std::uint32_t kSegmentFlag = 0x80000000u;
 constexpr std::uint32_t kMaxTriangles = kSegmentFlag;
 

@@ -46,20 +46,13 @@ class Inputs {
   RecordedValue field(const std::string& name) {
     return RecordedValue(graph_.add_input(name, ValueKind::kReal, Arrival::kMemory, 32 * words_++));
   }
-  Vector3<RecordedValue> vector3(const std::string& name) {
-    return {field(name + "_x"), field(name + "_y"), field(name + "_z")};
-  }
   Vector2<RecordedValue> vector2(const std::string& name) {
     return {field(name + "_y"), field(name + "_z")};
   }
-  PlanarEdge<RecordedValue> edge(const std::string& name) {
-    return {vector2(name + "_direction"), field(name + "_length")};
-  }
   TriangleRecord<RecordedValue> record(const std::string& name, RecordedCondition& segment) {
-    TriangleRecord<RecordedValue> t{vector3(name + "_v1"),       vector3(name + "_normal"),
-                                    vector3(name + "_in_plane"), vector3(name + "_along"),
-                                    field(name + "_length12"),   edge(name + "_edge13"),
-                                    edge(name + "_edge23"),      0};
+    TriangleRecord<RecordedValue> t{};
+    for_each_scalar(
+        [&](RecordedValue& scalar) { scalar = field(name + "_" + kRecordWordNames[words_]); }, t);
     constexpr std::uint32_t kSegmentBit = 31;
     static_assert(kSegmentFlag == 1u << kSegmentBit, "the flag is the highest bit of the tag");
     segment = RecordedCondition(graph_.add_input("segment", ValueKind::kCondition, Arrival::kMemory,

@@ -129,17 +129,24 @@ HWY_INLINE double make_some_leaves(const NormalizedVertex* vertices, LeafLanes& 
     c[i] = {{p.x, q.x}, {p.y, q.y}, {p.z, q.z}};
   }
 
-  const auto f = kernel::frame_of(c);
-  store_words(f.v1.x, f.v1.y, f.v1.z, f.normal.x, lanes.words[0].data());
-  store_words(f.normal.y, f.normal.z, f.in_plane.x, f.in_plane.y, lanes.words[1].data());
-  store_words(f.in_plane.z, f.along.x, f.along.y, f.along.z, lanes.words[2].data());
-  store_words(f.length12, f.direction13.y, f.direction13.z, f.length13, lanes.words[3].data());
-  store_words(f.direction23.y, f.direction23.z, f.length23, Doubles(0.0), lanes.words[4].data());
+  auto f = kernel::frame_of(c);
+  // The tag's place stays 0.
+  std::array<Doubles, kRecordWords> words{};
+  std::size_t word = 0;
+  const auto take = [&](const Doubles& scalar) HWY_ATTR __attribute__((always_inline)) {
+    words[word++] = scalar;
+  };
+  kernel::for_each_scalar(take, f.record);
+  for (std::size_t w = 0; w < kRecordWords; w += kWordsAtOnce) {
+    store_words(words[w], words[w + 1], words[w + 2], words[w + 3],
+                lanes.words[w / kWordsAtOnce].data());
+  }
   const Doubles seg = select(f.segment, Doubles(1.0), Doubles(0.0));
   seg.a.store(lanes.segment.data());
   seg.b.store(lanes.segment.data() + kVector);
 
-  const Doubles reach = magnitude(f.v1.x) + magnitude(f.v1.y) + magnitude(f.v1.z) + f.length12;
+  const auto& v1 = f.record.v1;
+  const Doubles reach = magnitude(v1.x) + magnitude(v1.y) + magnitude(v1.z) + f.record.length12;
   const Doubles margin = reach * Doubles(kBoxMargin) + Doubles(kBoxFloor);
   const auto bounds = [&](Doubles p, Doubles q, Doubles r, std::size_t axis) HWY_ATTR {
     const Doubles lo = minimum(minimum(p, q), r) - margin, hi = maximum(maximum(p, q), r) + margin;

@@ -13,19 +13,12 @@ Vector3<FlushedFloat> flushed(const Vector3<float>& v) {
   return {FlushedFloat(v.x), FlushedFloat(v.y), FlushedFloat(v.z)};
 }
 
-PlanarEdge<FlushedFloat> flushed(const PlanarEdge<float>& e) {
-  return {{FlushedFloat(e.direction.y), FlushedFloat(e.direction.z)}, FlushedFloat(e.length)};
-}
-
 TriangleRecord<FlushedFloat> flushed(const TriangleRecord<float>& r) {
-  return {flushed(r.v1),
-          flushed(r.normal),
-          flushed(r.in_plane),
-          flushed(r.along),
-          FlushedFloat(r.length12),
-          flushed(r.edge13),
-          flushed(r.edge23),
-          r.tag};
+  TriangleRecord<FlushedFloat> to{};
+  for_each_scalar([](FlushedFloat& scalar, const float& word) { scalar = FlushedFloat(word); }, to,
+                  r);
+  to.tag = r.tag;
+  return to;
 }
 
 std::uint32_t pair_bits(const Vector3<FlushedFloat>& point,

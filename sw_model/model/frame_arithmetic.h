@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "hls/kernel/scalar.h"
+#include "hls/kernel/triangle_record.h"
 
 namespace emax {
 
@@ -50,9 +50,8 @@ Vector3<Real> select(const Condition& condition, const Vector3<Real>& if_true,
 
 template <class Real, class Condition>
 struct FrameOf {
-  Vector3<Real> v1, normal, in_plane, along;
-  Real length12, length13, length23;
-  Vector2<Real> direction13, direction23, v3;
+  TriangleRecord<Real> record;  // its tag is not set
+  Vector2<Real> v3;             // in the frame
   Condition segment;
 };
 
@@ -69,12 +68,15 @@ Vector3<Real> across(const Vector3<Real>& axis) {
   return scaled(v, one / square_root(dot(v, v)));
 }
 
+// An edge of length 0 has the direction (0, 1).
 template <class Real>
-Vector2<Real> planar_direction(const Vector2<Real>& v, const Real& length) {
+PlanarEdge<Real> planar_edge(const Vector2<Real>& v) {
   const Real zero(0.0), one(1.0);
+  const Real length = square_root(v.y * v.y + v.z * v.z);
   const auto has_length = zero < length;
   const Real inverse = one / select(has_length, length, one);
-  return {select(has_length, v.y * inverse, zero), select(has_length, v.z * inverse, one)};
+  return {{select(has_length, v.y * inverse, zero), select(has_length, v.z * inverse, one)},
+          length};
 }
 
 // Corners in normalised units, finite.
@@ -88,32 +90,31 @@ auto frame_of(const std::array<Vector3<Real>, 3>& corners) {
   const auto ca_is_longest = both(ab2 < ca2, bc2 < ca2);
 
   FrameOf<Real, decltype(ab2 < bc2)> frame{};
-  frame.v1 = select(ca_is_longest, c, select(bc_is_longest, b, a));
+  TriangleRecord<Real>& record = frame.record;
+  record.v1 = select(ca_is_longest, c, select(bc_is_longest, b, a));
   const Vector3<Real> v2 = select(ca_is_longest, a, select(bc_is_longest, c, b));
   const Vector3<Real> v3 = select(ca_is_longest, b, select(bc_is_longest, a, c));
-  const Vector3<Real> to2 = v2 - frame.v1, to3 = v3 - frame.v1;
+  const Vector3<Real> to2 = v2 - record.v1, to3 = v3 - record.v1;
 
-  frame.length12 = square_root(dot(to2, to2));
-  const auto is_point = frame.length12 < Real(kSmallestLength);
-  frame.length12 = select(is_point, zero, frame.length12);
-  frame.along = select(is_point, Vector3<Real>{zero, zero, one},
-                       scaled(to2, one / select(is_point, one, frame.length12)));
-  const Vector3<Real> off_axis = to3 - scaled(frame.along, dot(frame.along, to3));
+  record.length12 = square_root(dot(to2, to2));
+  const auto is_point = record.length12 < Real(kSmallestLength);
+  record.length12 = select(is_point, zero, record.length12);
+  record.along = select(is_point, Vector3<Real>{zero, zero, one},
+                        scaled(to2, one / select(is_point, one, record.length12)));
+  const Vector3<Real> off_axis = to3 - scaled(record.along, dot(record.along, to3));
   const Real height = square_root(dot(off_axis, off_axis));
-  frame.segment = either(height < Real(kSliverRatio) * frame.length12, is_point);
+  frame.segment = either(height < Real(kSliverRatio) * record.length12, is_point);
   Vector3<Real> upwards = scaled(off_axis, one / select(frame.segment, one, height));
-  if (any(frame.segment)) upwards = select(frame.segment, across(frame.along), upwards);
+  if (any(frame.segment)) upwards = select(frame.segment, across(record.along), upwards);
   // Orthogonalised twice: once leaves a cancellation error of the size of the sliver ratio.
-  const Vector3<Real> in_plane = upwards - scaled(frame.along, dot(frame.along, upwards));
-  frame.in_plane = scaled(in_plane, one / square_root(dot(in_plane, in_plane)));
-  frame.normal = cross(frame.in_plane, frame.along);
+  const Vector3<Real> in_plane = upwards - scaled(record.along, dot(record.along, upwards));
+  record.in_plane = scaled(in_plane, one / square_root(dot(in_plane, in_plane)));
+  record.normal = cross(record.in_plane, record.along);
 
-  frame.v3 = {dot(frame.in_plane, to3), dot(frame.along, to3)};
-  const Vector2<Real> edge23 = {frame.v3.y, frame.v3.z - frame.length12};
-  frame.length13 = square_root(frame.v3.y * frame.v3.y + frame.v3.z * frame.v3.z);
-  frame.length23 = square_root(edge23.y * edge23.y + edge23.z * edge23.z);
-  frame.direction13 = planar_direction(frame.v3, frame.length13);
-  frame.direction23 = planar_direction(edge23, frame.length23);
+  frame.v3 = {dot(record.in_plane, to3), dot(record.along, to3)};
+  const Vector2<Real> edge23 = {frame.v3.y, frame.v3.z - record.length12};
+  record.edge13 = planar_edge(frame.v3);
+  record.edge23 = planar_edge(edge23);
   return frame;
 }
 

@@ -9,20 +9,16 @@
 
 namespace emax {
 
-// The frame of a triangle in double, before its one rounding to a record: the translation and
-// rotation that put V1 on the origin, V2 on the z axis and V3 in the yz plane (paper, section 4).
+// The frame of a triangle in double, before its one rounding to what the kernel reads: the
+// translation and rotation that put V1 on the origin, V2 on the z axis and V3 in the yz plane
+// (paper, section 4).
 //
 // V1V2 is the longest edge; ties go to the first of V1V2, V2V3, V3V1 in file order, by squared
 // length in double. A triangle whose height over that edge is below kSliverRatio of its length is a
 // segment; one whose vertices are all equal is a segment of length 0.
-struct TriangleFrame {
-  Point v1;
-  Point normal, in_plane, along;  // orthonormal, right-handed
-  double length12, length13, length23;
-  Eigen::Vector2d direction13, direction23;  // unit, (y, z) in the frame; (0, 1) for length 0
-  Eigen::Vector2d v3;                        // (y, z) in the frame
-  bool segment;
-};
+using TriangleFrame = FrameOf<double, bool>;
+
+inline Point eigen(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
 
 // Corners in normalised units. O(1).
 TriangleFrame make_frame(const std::array<Point, 3>& corners);

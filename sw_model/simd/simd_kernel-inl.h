@@ -14,15 +14,15 @@ namespace emax {
 namespace HWY_NAMESPACE {
 
 template <class Real>
-HWY_INLINE kernel::TriangleRecord<Real> on_all_lanes(const TriangleRecord<float>& r) {
-  const auto vector = [](const Vector3<float>& v) {
-    return kernel::Vector3<Real>{Real(v.x), Real(v.y), Real(v.z)};
+HWY_INLINE kernel::TriangleRecord<Real> on_all_lanes(const TriangleRecord<typename Real::T>& r) {
+  kernel::TriangleRecord<Real> to;
+  const auto broadcast =
+      [](Real & lanes, typename Real::T word) HWY_ATTR __attribute__((always_inline)) {
+    lanes = Real(word);
   };
-  const auto edge = [](const PlanarEdge<float>& e) {
-    return kernel::PlanarEdge<Real>{{Real(e.direction.y), Real(e.direction.z)}, Real(e.length)};
-  };
-  return {vector(r.v1),     vector(r.normal), vector(r.in_plane), vector(r.along),
-          Real(r.length12), edge(r.edge13),   edge(r.edge23),     r.tag};
+  kernel::for_each_scalar(broadcast, to, r);
+  to.tag = r.tag;
+  return to;
 }
 
 // nearest[v] = min(nearest[v], d^2 of the points v). Under the flush mode, the bits of the model:

@@ -111,7 +111,9 @@ void write_run(std::ostream& out, const ElementRun& run) {
       << "patterns " << name_of(p.record) << ' ' << name_of(p.point) << ' ' << name_of(p.nearest)
       << ' ' << name_of(p.worst) << ' ' << p.seed << '\n';
   if (run.cut) out << "cut " << *run.cut << "  # cycles, then the next run's reset\n";
-  out << "# records: v1, normal, in_plane, along, length12, edge13, edge23, tag\n";
+  out << "# records:";
+  for (const char* name : kRecordWordNames) out << ' ' << name;
+  out << '\n';
   for (const RecordWords& record : run.records) {
     out << "record";
     for (const Word word : record) out << ' ' << hex(word);

@@ -69,7 +69,7 @@ TEST(Forms, AgreeOnEveryStimulus) {
       const TriangleRecord<float> record = make_record(frame, j);
       const BarycentricRecord<float> literal = make_barycentric_record(frame, j);
       for (std::size_t i = 0; i < points.size(); i += 5) {
-        const double reach = frame.v1.norm() + frame.length12 + 2;
+        const double reach = eigen(frame.record.v1).norm() + frame.record.length12 + 2;
         const double d = std::sqrt(squared_distance(record, frame.segment, points[i]));
         ASSERT_NEAR(d, std::sqrt(squared_distance_three_edge(record, frame.segment, points[i])),
                     2e-6 * reach)

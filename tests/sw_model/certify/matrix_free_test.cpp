@@ -26,8 +26,9 @@ Sample well_shaped(test::Random& random) {
   for (;;) {
     const Corners c = {random.point(-1, 1), random.point(-1, 1), random.point(-1, 1)};
     const TriangleFrame frame = make_frame(c);
-    if (frame.v3.x() < 0.05 * frame.length12 || frame.length13 < 0.05 * frame.length12 ||
-        frame.length23 < 0.05 * frame.length12) {
+    if (frame.v3.y < 0.05 * frame.record.length12 ||
+        frame.record.edge13.length < 0.05 * frame.record.length12 ||
+        frame.record.edge23.length < 0.05 * frame.record.length12) {
       continue;
     }
     return {c, random.point(-2, 2)};

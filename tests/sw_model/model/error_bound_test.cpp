@@ -64,7 +64,9 @@ Measured measure(const Kernel& kernel, const Pair& pair) {
   const double computed = kernel(kernel_point(pair.p), make_record(frame, 0));
   const long double exact = test::long_double_distance(pair.p, pair.corners);
   const double difference = static_cast<double>(computed - exact);
-  return {std::abs(difference), (pair.p - frame.v1).norm() + frame.length12 + frame.v1.norm(),
+  return {std::abs(difference),
+          (pair.p - eigen(frame.record.v1)).norm() + frame.record.length12 +
+              eigen(frame.record.v1).norm(),
           difference, static_cast<double>(exact), frame.segment};
 }
 
@@ -171,7 +173,8 @@ Point adversarial_point(test::Random& random, const std::array<Point, 3>& corner
       const TriangleFrame frame = make_frame(corners);
       const double across = size * random.uniform(-1, 1), reach = size * log_uniform(random, -5, 0);
       const double along = reach * random.uniform(-1, 1);
-      return frame.v1 + (frame.v3.y() + along) * frame.along + across * frame.in_plane;
+      return eigen(frame.record.v1) + (frame.v3.z + along) * eigen(frame.record.along) +
+             across * eigen(frame.record.in_plane);
     }
     default: {
       const double away = log_uniform(random, 0, 3) * size;
@@ -190,7 +193,7 @@ Pair random_pair(test::Random& random, const Family& family) {
   const Point move = distance * any_direction(random);
   for (Point& corner : corners) corner = scale * (turn * corner) + move;
   if (random.below(2) == 0) {
-    const Point v1 = make_frame(corners).v1;
+    const Point v1 = eigen(make_frame(corners).record.v1);
     if (distance == 0) {
       for (Point& corner : corners) corner -= v1;
     }
@@ -307,7 +310,7 @@ TEST(ErrorBound, StandsOnFramesThatAreExactToTwoToTheMinus28) {
       const TriangleFrame frame = make_frame(corners);
       if (frame.segment) continue;
       const std::size_t first = static_cast<std::size_t>(
-          std::find(corners.begin(), corners.end(), frame.v1) - corners.begin());
+          std::find(corners.begin(), corners.end(), eigen(frame.record.v1)) - corners.begin());
       ASSERT_LT(first, 3u);
       const Vector v1 = corners[first].cast<long double>();
       const Vector edge12 = corners[(first + 1) % 3].cast<long double>() - v1;
@@ -324,21 +327,21 @@ TEST(ErrorBound, StandsOnFramesThatAreExactToTwoToTheMinus28) {
       };
       constexpr double kAllowed = 0x1p-28;
       for (Eigen::Index k = 0; k < 3; ++k) {
-        ASSERT_LE(off(frame.along[k], along[k], 1), kAllowed);
-        ASSERT_LE(off(frame.in_plane[k], in_plane[k], 1), kAllowed);
-        ASSERT_LE(off(frame.normal[k], normal[k], 1), kAllowed);
+        ASSERT_LE(off(eigen(frame.record.along)[k], along[k], 1), kAllowed);
+        ASSERT_LE(off(eigen(frame.record.in_plane)[k], in_plane[k], 1), kAllowed);
+        ASSERT_LE(off(eigen(frame.record.normal)[k], normal[k], 1), kAllowed);
       }
       const long double l12 = edge12.norm(), l13 = edge13.norm(), l23 = edge23.norm();
-      ASSERT_LE(off(frame.length12, l12, l12), kAllowed);
-      ASSERT_LE(off(frame.length13, l13, l13), kAllowed);
-      ASSERT_LE(off(frame.length23, l23, l23), kAllowed);
+      ASSERT_LE(off(frame.record.length12, l12, l12), kAllowed);
+      ASSERT_LE(off(frame.record.edge13.length, l13, l13), kAllowed);
+      ASSERT_LE(off(frame.record.edge23.length, l23, l23), kAllowed);
       const long double e2y = edge13.dot(in_plane) / l13, e3y = edge23.dot(in_plane) / l23;
-      ASSERT_LE(off(frame.direction13.x(), e2y, e2y), kAllowed) << i;
-      ASSERT_LE(off(frame.direction23.x(), e3y, e3y), kAllowed) << i;
-      ASSERT_LE(off(frame.direction13.y(), edge13.dot(along) / l13, 1), kAllowed);
-      ASSERT_LE(off(frame.direction23.y(), edge23.dot(along) / l23, 1), kAllowed);
-      ASSERT_GT(frame.direction13.y(), 0);
-      ASSERT_LT(frame.direction23.y(), 0);
+      ASSERT_LE(off(frame.record.edge13.direction.y, e2y, e2y), kAllowed) << i;
+      ASSERT_LE(off(frame.record.edge23.direction.y, e3y, e3y), kAllowed) << i;
+      ASSERT_LE(off(frame.record.edge13.direction.z, edge13.dot(along) / l13, 1), kAllowed);
+      ASSERT_LE(off(frame.record.edge23.direction.z, edge23.dot(along) / l23, 1), kAllowed);
+      ASSERT_GT(frame.record.edge13.direction.z, 0);
+      ASSERT_LT(frame.record.edge23.direction.z, 0);
     }
   }
   std::printf("frames: greatest error %.3g, allowed %.3g\n", greatest, 0x1p-28);
@@ -353,7 +356,8 @@ TEST(DistanceMargin, CoversTheKernelAndNothingLessDoes) {
     const TriangleFrame frame = make_frame(pair.corners);
     const double bound = static_cast<double>(test::long_double_distance(pair.p, pair.corners));
     const double kernel = kernel_distance(kernel_point(pair.p), make_record(frame, 0));
-    const double margin = kernel_distance_margin(bound, frame.length12, frame.v1.norm());
+    const double margin =
+        kernel_distance_margin(bound, frame.record.length12, eigen(frame.record.v1).norm());
     ASSERT_GE(kernel, bound - margin) << "seed 21, pair " << i;
     below_the_true_distance += kernel < bound ? 1 : 0;
   }

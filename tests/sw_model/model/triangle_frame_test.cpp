@@ -15,7 +15,8 @@ using Corners = std::array<Point, 3>;
 
 void expect_rotation(const TriangleFrame& frame) {
   Eigen::Matrix3d rows;
-  rows << frame.normal.transpose(), frame.in_plane.transpose(), frame.along.transpose();
+  rows << eigen(frame.record.normal).transpose(), eigen(frame.record.in_plane).transpose(),
+      eigen(frame.record.along).transpose();
   EXPECT_LT((rows * rows.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_NEAR(rows.determinant(), 1, 1e-15);
 }
@@ -30,27 +31,31 @@ TEST(TriangleFrame, PutsV1OnTheOriginV2OnZAndV3InThePlane) {
     double longest = 0;
     for (int k = 0; k < 3; ++k) {
       longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
-      const Point p = corners[k] - frame.v1;
-      const Point local(frame.normal.dot(p), frame.in_plane.dot(p), frame.along.dot(p));
+      const Point p = corners[k] - eigen(frame.record.v1);
+      const Point local(eigen(frame.record.normal).dot(p), eigen(frame.record.in_plane).dot(p),
+                        eigen(frame.record.along).dot(p));
       const bool is_a_vertex = (local - Point(0, 0, 0)).norm() < 1e-14 ||
-                               (local - Point(0, 0, frame.length12)).norm() < 1e-14 ||
-                               (local - Point(0, frame.v3.x(), frame.v3.y())).norm() < 1e-14;
+                               (local - Point(0, 0, frame.record.length12)).norm() < 1e-14 ||
+                               (local - Point(0, frame.v3.y, frame.v3.z)).norm() < 1e-14;
       EXPECT_TRUE(is_a_vertex) << local.transpose();
     }
-    EXPECT_DOUBLE_EQ(frame.length12, longest);
-    EXPECT_GT(frame.v3.x(), 0);
+    EXPECT_DOUBLE_EQ(frame.record.length12, longest);
+    EXPECT_GT(frame.v3.y, 0);
   }
 }
 
 TEST(TriangleFrame, GivesTiesToTheFirstEdgeInFileOrder) {
   const Point a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(1, 1, 0);
-  EXPECT_EQ(make_frame({a, d, b}).v1, a);  // only a-d is longest
-  EXPECT_EQ(make_frame({b, a, d}).v1, a);  // second edge
-  EXPECT_EQ(make_frame({d, b, a}).v1, a);  // third edge, a to d
-  EXPECT_EQ(make_frame({Point(0, 3, 0), Point(0, 0, 4), Point(0, 0, -4)}).v1, Point(0, 0, 4));
+  EXPECT_EQ(eigen(make_frame({a, d, b}).record.v1), a);  // only a-d is longest
+  EXPECT_EQ(eigen(make_frame({b, a, d}).record.v1), a);  // second edge
+  EXPECT_EQ(eigen(make_frame({d, b, a}).record.v1), a);  // third edge, a to d
+  EXPECT_EQ(eigen(make_frame({Point(0, 3, 0), Point(0, 0, 4), Point(0, 0, -4)}).record.v1),
+            Point(0, 0, 4));
   // Isosceles: V1V2 and V3V1 equal and longest; then V2V3 and V3V1.
-  EXPECT_EQ(make_frame({Point(0, 0, 5), Point(1, 0, 0), Point(-1, 0, 0)}).v1, Point(0, 0, 5));
-  EXPECT_EQ(make_frame({Point(1, 0, 0), Point(-1, 0, 0), Point(0, 0, 5)}).v1, Point(-1, 0, 0));
+  EXPECT_EQ(eigen(make_frame({Point(0, 0, 5), Point(1, 0, 0), Point(-1, 0, 0)}).record.v1),
+            Point(0, 0, 5));
+  EXPECT_EQ(eigen(make_frame({Point(1, 0, 0), Point(-1, 0, 0), Point(0, 0, 5)}).record.v1),
+            Point(-1, 0, 0));
   (void)c;
 }
 
@@ -62,7 +67,7 @@ TEST(TriangleFrame, TakesLowTrianglesAsSegments) {
   EXPECT_TRUE(make_frame({a, b, a}).segment);
   const TriangleFrame point = make_frame({b, b, b});
   EXPECT_TRUE(point.segment);
-  EXPECT_EQ(point.length12, 0);
+  EXPECT_EQ(point.record.length12, 0);
   expect_rotation(point);
   expect_rotation(make_frame({a, b, a}));
 }
