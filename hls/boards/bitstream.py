@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from synthesis import comparison, designs, document, netlists, routed, tools
-from synthesis.tools import Background, Failure, Runner, run_command
+from synthesis.tools import Background, Failure, Runner, TookTooLong, run_command
 
 FOLDER = Path("build/bitstream")
 DOCUMENT = Path("docs/synthesis.md")
@@ -22,7 +22,9 @@ TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
 # Where two elements meet the clock with the pinned tools (docs/decisions/0007).
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
-SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 4, 10, 25
+SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 3, 13, 17
+# Some placements are never routed: of two that were watched, arcs still overlapped after 44 minutes.
+SEED_LIMIT = 40
 # Into the netlist: frames, damaged ones among them, and blocks whose distances must be answered rightly.
 DRIVEN = ["--frames", 30, "--blocks", 6]
 
@@ -34,23 +36,32 @@ def build(runner, options, results):
     driven = {"synthesized": drive(runner, f"board{options.elements}_ecp5", netlists.renamed(text, design.top))}
 
     def route(seed):
-        report, log, placed, design_routed = runner.step(
-            "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
-            ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{TARGET:g}",
-             "--placer", "static",  # 364,000 of wire where the default takes 475,000 (docs/decisions/0007)
-             "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist),
-             "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json",
-             "--write", "{folder}/routed.json"],
-            [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config", "routed.json"])
+        """Figures of the placement with this seed; None if it was not routed within the limit."""
+        try:
+            report, log, placed, design_routed = runner.step(
+                "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
+                ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{TARGET:g}",
+                 "--placer", "static",  # 364,000 of wire where the default takes 475,000 (docs/decisions/0007)
+                 "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist),
+                 "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json",
+                 "--write", "{folder}/routed.json"],
+                [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config", "routed.json"],
+                60 * options.limit)
+        except TookTooLong as failure:
+            runner.say(f"{failure}; the router may never end with this placement")
+            return None
         figures, detail = designs.board_figures(report, log)
         runner.say(f"{design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {TARGET:g}")
         return {"figures": figures, **detail, "seed": seed, "placed": placed, "routed": design_routed}
 
-    tried = first_that_meets(route, range(options.first_seed, options.first_seed + options.seeds),
-                             options.jobs, TARGET)
-    best = max(tried, key=lambda result: result["figures"]["fmax"])
+    seeds = range(options.first_seed, options.first_seed + options.seeds)
+    tried = first_that_meets(route, seeds, options.jobs, TARGET)
+    if not any(tried):
+        raise Failure(f"no placement was routed within {options.limit} min: try more --seeds or a greater --limit")
+    best = max(filter(None, tried), key=lambda result: result["figures"]["fmax"])
     best.update(elements=options.elements, target=TARGET, driven=driven,
-                tried={str(result["seed"]): result["figures"]["fmax"] for result in tried})
+                tried={str(seed): result and result["figures"]["fmax"]
+                       for seed, result in zip(seeds, tried)})
     if best["figures"]["fmax"] >= TARGET:
         text = routed.verilog(routed.read(best["routed"]), design.top)
         netlists.write(tools.FOLDER / folder / "routed.v", text)
@@ -73,14 +84,15 @@ def drive(runner, name, text):
 
 
 def first_that_meets(route, seeds, at_once, target):
-    """Results of route(seed), in the order of the seeds, up to the first whose fmax is the target."""
+    """Results of route(seed), in the order of the seeds, up to the first whose fmax is the target.
+    A result may be None."""
     tried = []
     for first in range(0, len(seeds), at_once):
         batch = seeds[first:first + at_once]
         with ThreadPoolExecutor(len(batch)) as pool:
             for result in pool.map(route, batch):
                 tried.append(result)
-                if result["figures"]["fmax"] >= target:
+                if result and result["figures"]["fmax"] >= target:
                     return tried
     return tried
 
@@ -95,14 +107,16 @@ def arguments():
     parser.add_argument("--elements", type=int, default=2, metavar="N", help="processing elements (2)")
     parser.add_argument("--seeds", type=int, default=8, metavar="N", help="at most N placements (8)")
     parser.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="S", help=f"and the seed of the first ({FIRST_SEED})")
+    parser.add_argument("--limit", type=int, default=SEED_LIMIT, metavar="MIN", help="minutes after which a placement that is"
+                        f" not routed is given up ({SEED_LIMIT})")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="placements at a time (1; each wants a core and 3 GB)")
     parser.add_argument("--fresh", action="store_true", help="run every step again")
     parser.add_argument("--plan", action="store_true", help="say what would be done and how long it takes, and stop")
     options = parser.parse_args()
     if options.elements > 2:
         parser.error("--elements must be 1 or 2: testbench/netlists drives the netlists of these alone")
-    if min(options.elements, options.seeds, options.first_seed, options.jobs) < 1:
-        parser.error("--elements, --seeds, --first-seed and --jobs must be positive")
+    if min(options.elements, options.seeds, options.first_seed, options.limit, options.jobs) < 1:
+        parser.error("--elements, --seeds, --first-seed, --limit and --jobs must be positive")
     return options
 
 

@@ -98,8 +98,8 @@ class StepTest(unittest.TestCase):
     def runner(self, **options):
         return tools.Runner(1, tools={"yosys": ["sh"]}, out=io.StringIO(), **options)
 
-    def step(self, runner, script, outputs=("out",)):
-        return runner.step("yosys", "a step", "s", ["-c", script], [Path("in")], outputs)
+    def step(self, runner, script, outputs=("out",), **options):
+        return runner.step("yosys", "a step", "s", ["-c", script], [Path("in")], outputs, **options)
 
     def test_is_run_again_only_when_something_changed(self):
         script = "echo x >>{folder}/out"
@@ -124,6 +124,15 @@ class StepTest(unittest.TestCase):
                 self.step(self.runner(), "touch {folder}/out; echo broken wire; exit 3")
         with self.assertRaisesRegex(tools.Failure, "did not write build/synth/s/none"):
             self.step(self.runner(), "true", ["none"])
+
+    def test_a_step_at_its_time_limit_is_ended_and_is_not_remembered(self):
+        script = "touch {folder}/out; exec sleep 60"
+        for _ in range(2):
+            start = time.monotonic()
+            with self.assertRaisesRegex(tools.TookTooLong, "a step: ended after 0:00; its log is build/synth/s/yosys.log"):
+                self.step(self.runner(), script, limit=0.2)
+            self.assertLess(time.monotonic() - start, 30)
+        self.step(self.runner(), "touch {folder}/out", limit=30)
 
     def test_stopping_ends_the_tool_and_its_children(self):
         runner = self.runner()
@@ -380,6 +389,8 @@ class DocumentTest(unittest.TestCase):
                  "target": 120.0, "seed": 3, "tried": {"1": 110.0, "3": 121.0}}
         section = document.board_section(board, {"yosys": "1"})
         self.assertIn("Clock: 121.0 MHz, target 120 MHz met, seed 3 (tried 1: 110.0 MHz, 3: 121.0 MHz).", section)
+        self.assertIn("(tried 1: not routed, 3: 121.0 MHz)",
+                      document.board_section({**board, "tried": {"1": None, "3": 121.0}}, {}))
         self.assertIn("as synthesized, fuzz: 3 answers right; as routed, fuzz: 4 answers right.", section)
         self.assertRegex(section, r"\| LUT +\| 41,820 \| 83,640 \| 50% +\|")
         self.assertIn("missed", document.board_section({**board, "target": 122.0}, {}))
@@ -399,7 +410,7 @@ class BitstreamTest(unittest.TestCase):
         class Steps:
             say = staticmethod(lambda text: None)
 
-            def step(self, tool, title, folder, arguments, inputs, outputs):
+            def step(self, tool, title, folder, arguments, inputs, outputs, limit=None):
                 done.append(tool)
                 return [Path(output) for output in outputs]
 
@@ -409,7 +420,7 @@ class BitstreamTest(unittest.TestCase):
                 raise tools.Failure(f"{name} is refused")
             return "driven"
 
-        options = argparse.Namespace(elements=1, first_seed=1, seeds=1, jobs=1)
+        options = argparse.Namespace(elements=1, first_seed=1, seeds=1, limit=1, jobs=1)
         with (mock.patch.object(bitstream.netlists, "renamed"), mock.patch.object(bitstream.netlists, "write"),
               mock.patch.object(bitstream.comparison, "drive", drive), mock.patch.object(bitstream.comparison, "holds"),
               mock.patch.object(bitstream, "routed"),
@@ -437,6 +448,10 @@ class BitstreamTest(unittest.TestCase):
     def test_seeds_are_tried_until_one_meets_the_clock(self):
         self.assertEqual(self.tried([110.0, 120.0, 130.0], 1), [1, 2])
         self.assertEqual(self.tried([110.0, 119.9, 115.0], 1), [1, 2, 3])
+
+    def test_a_seed_that_is_not_routed_is_passed_over(self):
+        route = {1: None, 2: {"figures": {"fmax": 120.0}}, 3: None}.get
+        self.assertEqual(bitstream.first_that_meets(route, range(1, 4), 1, 120.0), [None, route(2)])
 
     def test_the_result_does_not_depend_on_how_many_run_at_once(self):
         for at_once in (1, 2, 3, 4):

@@ -62,7 +62,7 @@ def _tried(subjects):
     lines = []
     for name, result in subjects.items():
         if len(result["tried"]) > 1:
-            seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" for seed, fmax in result["tried"].items())
+            seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" if fmax else f"{seed}: not routed" for seed, fmax in result["tried"].items())
             lines.append(f"Seeds tried for {name}: {seeds}.")
     return lines
 
@@ -121,7 +121,7 @@ def board_section(result, versions):
     verdict = "met" if figures["fmax"] >= result["target"] else "missed"
     rows = [[name, f"{used:,}", f"{there:,}", f"{used / there:.0%}"]
             for name, (used, there) in {"LUT": (figures["lut"], LUTS), **result["utilisation"]}.items()]
-    seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" for seed, fmax in result["tried"].items())
+    seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" if fmax else f"{seed}: not routed" for seed, fmax in result["tried"].items())
     tools = ", ".join(f"{tool} {version}" for tool, version in versions.items())
     return "\n\n".join([
         BOARD_TITLE,

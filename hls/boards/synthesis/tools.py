@@ -42,6 +42,10 @@ class Failure(Exception):
     """One line for the person who runs this."""
 
 
+class TookTooLong(Failure):
+    """A step was ended at its time limit."""
+
+
 def minutes(seconds):
     return f"{int(seconds) // 60}:{int(seconds) % 60:02}"
 
@@ -86,8 +90,9 @@ class Runner:
             work.start(self._run, tool, f"{tool}, compiling its WebAssembly", FOLDER / f"{tool}.version.log", [option])
         work.wait(15)
 
-    def step(self, tool, title, folder, arguments, inputs, outputs):
+    def step(self, tool, title, folder, arguments, inputs, outputs, limit=None):
         """Runs the tool unless that is done already. Returns the paths of the outputs in `folder`.
+        Raises TookTooLong after `limit` seconds.
 
         The arguments may hold {output} for a path in the folder: "{folder}/name".
         """
@@ -103,7 +108,7 @@ class Runner:
             return made
         folder.mkdir(parents=True, exist_ok=True)
         stamp.unlink(missing_ok=True)
-        took = self._run(tool, title, folder / f"{tool}.log", arguments)
+        took = self._run(tool, title, folder / f"{tool}.log", arguments, limit)
         missing = [str(path) for path in made if not path.exists()]
         if missing:
             raise Failure(f"{title}: {tool} did not write {missing[0]}; its log is {folder}/{tool}.log")
@@ -111,7 +116,7 @@ class Runner:
         self.say(f"{title}: done in {minutes(took)}")
         return made
 
-    def _run(self, tool, title, log, arguments):
+    def _run(self, tool, title, log, arguments, limit=None):
         with self.slots:
             if self.stopped:
                 raise Failure("stopped")
@@ -122,7 +127,14 @@ class Runner:
                         [*self.tools[tool], *arguments], stdin=subprocess.DEVNULL, stdout=out,
                         stderr=subprocess.STDOUT, env=self.environment, start_new_session=True)
                     self.active[process] = (title, start, log)
-                status = process.wait()
+                try:
+                    status = process.wait(limit)
+                except subprocess.TimeoutExpired:
+                    os.killpg(process.pid, signal.SIGKILL)
+                    process.wait()
+                    with self.lock:
+                        del self.active[process]
+                    raise TookTooLong(f"{title}: ended after {minutes(limit)}; its log is {log}") from None
             with self.lock:
                 del self.active[process]
             if self.stopped:
