@@ -80,11 +80,8 @@ void throw_if_interrupted() {
 // the limit.
 class CloudMeasurement {
  public:
-  CloudMeasurement(const PreparedCloud& prepared, const Scan& scan, const TriangleMesh& mesh,
-                   const ExactMesh& exact)
-      : scan_(scan),
-        exact_(exact),
-        distances_(point_distances(prepared, mesh.view(), was_interrupted, processor_threads())) {}
+  CloudMeasurement(const Scan& scan, const ExactMesh& exact, std::vector<double> distances)
+      : scan_(scan), exact_(exact), distances_(std::move(distances)) {}
 
   void settle(double limit, double margin) {
     for (std::size_t i = 0; i < distances_.size(); ++i) {
@@ -126,9 +123,9 @@ class CloudMeasurement {
   std::vector<double> distances_;
 };
 
-SurfaceErrors measure_surface(const TriangleMesh& from, const TriangleMesh& to, double width,
+SurfaceErrors measure_surface(const TriangleMesh& from, const TriangleMesh& to,
+                              const ExactMesh& exact, double width,
                               const std::vector<double>& quantiles, std::optional<double> limit) {
-  const ExactMesh exact(to.view());
   SurfaceDistanceOptions options;
   options.relative = kSurfacePrecision;
   options.absolute = kFinest * width;
@@ -145,8 +142,9 @@ SurfaceErrors measure_surface(const TriangleMesh& from, const TriangleMesh& to, 
   return {distance, statistics_of(distances, quantiles, limit)};
 }
 
-ReferenceErrors measure_reference(const TriangleMesh& mesh, const Reference& reference,
-                                  double width, const std::vector<double>& quantiles,
+ReferenceErrors measure_reference(const TriangleMesh& mesh, const ExactMesh& exact_mesh,
+                                  const Reference& reference, double width,
+                                  const std::vector<double>& quantiles,
                                   std::optional<double> limit) {
   using Kind = Reference::Kind;
   ReferenceErrors errors;
@@ -154,9 +152,10 @@ ReferenceErrors measure_reference(const TriangleMesh& mesh, const Reference& ref
   errors.is_cloud = reference.kind != Kind::kSurface;
   errors.size = reference.mesh.triangles.size();
   if (reference.kind == Kind::kSurface) errors.topology = topology_of(reference.mesh.view());
-  errors.from_mesh = measure_surface(mesh, reference.mesh, width, quantiles, limit);
+  errors.from_mesh = measure_surface(mesh, reference.mesh, ExactMesh(reference.mesh.view()), width,
+                                     quantiles, limit);
   if (reference.kind != Kind::kScan) {
-    errors.to_mesh = measure_surface(reference.mesh, mesh, width, quantiles, limit);
+    errors.to_mesh = measure_surface(reference.mesh, mesh, exact_mesh, width, quantiles, limit);
   }
   return errors;
 }
@@ -284,10 +283,14 @@ int run_error(const ErrorOptions& options) {
   // Without a tolerance the farthest points are excluded whatever their distance.
   ErrorConstraint constraint(scan.cloud.points, limit.value_or(0), share,
                              options.common.brute_force, processor_threads());
-  const PreparedCloud& prepared = constraint.cloud();
   const auto device = make_evaluator(address);
-  f.measured = device ? constraint.measure(mesh.view(), *device, {.interrupted = was_interrupted})
-                      : constraint.measure(mesh.view(), was_interrupted);
+  std::optional<PreparedMesh> prepared;
+  if (device) {
+    f.measured = constraint.measure(mesh.view(), *device, {.interrupted = was_interrupted});
+  } else {
+    prepared = constraint.prepare(mesh.view());
+    f.measured = constraint.measure(mesh.view(), *prepared, was_interrupted);
+  }
   f.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (device) f.counters = device->counters();
   f.board = address.board;
@@ -308,11 +311,14 @@ int run_error(const ErrorOptions& options) {
       options.quantiles.empty()
           ? std::vector<double>(kUsualQuantiles.begin(), kUsualQuantiles.end())
           : options.quantiles;
-  CloudMeasurement cloud(prepared, scan, mesh, mesh_findings.exact);
-  if (limit) cloud.settle(*limit, point_distance_margin(prepared, mesh.view(), *limit));
+  if (!prepared) prepared = constraint.prepare(mesh.view());
+  CloudMeasurement cloud(scan, mesh_findings.exact,
+                         constraint.distances(*prepared, was_interrupted));
+  if (limit) cloud.settle(*limit, point_distance_margin(constraint.cloud(), mesh.view(), *limit));
   f.errors.cloud = cloud.errors(quantiles, options.worst, limit);
   if (reference) {
-    f.errors.reference = measure_reference(mesh, *reference, scan.width, quantiles, limit);
+    f.errors.reference =
+        measure_reference(mesh, mesh_findings.exact, *reference, scan.width, quantiles, limit);
   }
 
   const std::string& json = options.common.json;
@@ -326,7 +332,7 @@ int run_error(const ErrorOptions& options) {
     write_colors(options.color_mesh, mesh.vertices, distances, mesh.triangles, limit);
   }
   if (json_is_wanted(json)) {
-    write_json(json, json_text(f, options, mesh, scan, prepared.normalization()));
+    write_json(json, json_text(f, options, mesh, scan, constraint.cloud().normalization()));
   }
   return f.tolerance && !f.feasible() ? kExitNo : kExitOk;
 }

@@ -58,15 +58,29 @@ double ErrorConstraint::provable_distance() const {
 }
 
 MeasuredError ErrorConstraint::measure(MeshView mesh, const std::function<bool()>& interrupted) {
+  return measure(mesh, prepare(mesh), interrupted);
+}
+
+MeasuredError ErrorConstraint::measure(MeshView mesh, const PreparedMesh& prepared,
+                                       const std::function<bool()>& interrupted) {
   if (brute_force_) {
     SimdEvaluator every_pair;
     return measure(mesh, every_pair, {.interrupted = interrupted});
   }
   engine_.interrupt_with(interrupted);
-  const PreparedMesh prepared(mesh, cloud_.normalization(), engine_.target(), threads_);
   return judge(
       mesh, [&] { return engine_.e_max(prepared); },
       [&] { return engine_.squared_distances(prepared); });
+}
+
+PreparedMesh ErrorConstraint::prepare(MeshView mesh) const {
+  return PreparedMesh(mesh, cloud_.normalization(), engine_.target(), threads_);
+}
+
+std::vector<double> ErrorConstraint::distances(const PreparedMesh& prepared,
+                                               const std::function<bool()>& interrupted) {
+  engine_.interrupt_with(interrupted);
+  return point_distances(cloud_, engine_, prepared);
 }
 
 MeasuredError ErrorConstraint::measure(MeshView mesh, Evaluator& device,

@@ -40,6 +40,13 @@ class ErrorConstraint {
 
   // On this processor.
   MeasuredError measure(MeshView mesh, const std::function<bool()>& interrupted = nullptr);
+  // With what the engine needs of the same mesh, made before by prepare().
+  MeasuredError measure(MeshView mesh, const PreparedMesh& prepared,
+                        const std::function<bool()>& interrupted = nullptr);
+  PreparedMesh prepare(MeshView mesh) const;
+  // The kernel's distance of every point, in cloud order and the cloud's unit.
+  std::vector<double> distances(const PreparedMesh& prepared,
+                                const std::function<bool()>& interrupted = nullptr);
   // In blocks on a device.
   MeasuredError measure(MeshView mesh, Evaluator& device, const SearchOptions& options = {}) const;
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "host/engine/error_engine.h"
 #include "sw_model/model/error_bound.h"
 
 namespace emax {
@@ -14,10 +13,15 @@ double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits) {
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
                                     const std::function<bool()>& interrupted, std::size_t threads) {
   ErrorEngine engine(cloud, {.threads = threads, .interrupted = interrupted});
-  const PreparedMesh prepared(mesh, cloud.normalization(), engine.target(), threads);
+  return point_distances(cloud, engine,
+                         PreparedMesh(mesh, cloud.normalization(), engine.target(), threads));
+}
+
+std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& engine,
+                                    const PreparedMesh& mesh) {
   std::vector<double> distances;
   distances.reserve(cloud.points().size());
-  for (const std::uint32_t bits : engine.squared_distances(prepared)) {
+  for (const std::uint32_t bits : engine.squared_distances(mesh)) {
     distances.push_back(in_file_units(cloud, bits));
   }
   return distances;

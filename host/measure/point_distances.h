@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "host/engine/error_engine.h"
 #include "host/engine/prepared_cloud.h"
 #include "sw_model/base/mesh_view.h"
 
@@ -18,6 +19,10 @@ double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits);
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
                                     const std::function<bool()>& interrupted = nullptr,
                                     std::size_t threads = 1);
+
+// The same from an engine and a mesh that are there already. The engine is of this cloud.
+std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& engine,
+                                    const PreparedMesh& mesh);
 
 // The greatest difference between such a distance of at most `distance` and the true one, in the
 // cloud's unit (docs/numerics.md). O(vertices).
