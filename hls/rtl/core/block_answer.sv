@@ -52,6 +52,7 @@ module block_answer #(
   } state_t;
   state_t state;
 
+  logic [31:0]  header;
   logic [191:0] fixed;   // words that follow a header, the next one lowest
   logic [10:0]  left;    // words or points to come
   logic [NUM_PE-1:0] element, done, has_points;
@@ -87,12 +88,7 @@ module block_answer #(
     case (state)
       HEADER: begin
         word_valid = 1'b1;
-        case (kind)
-          ASK_IDENTITY: word = {IDENTIFY, 24'd5};
-          ASK_RESULT: word = {REDUCE, 24'd2 + (list ? 24'(count) : 24'd0)};
-          ASK_COUNTERS: word = {COUNTERS, 24'd6};
-          default: word = {ERROR, 24'd1};
-        endcase
+        word = header;
       end
       FIXED: word_valid = 1'b1;
       UNMET: begin
@@ -128,6 +124,13 @@ module block_answer #(
     end
     case (state)
       WAIT: begin
+        // A cycle before it is sent: the sum's carries would be between the queue and the answers.
+        case (kind)
+          ASK_IDENTITY: header <= {IDENTIFY, 24'd5};
+          ASK_RESULT: header <= {REDUCE, 24'd2 + (list ? 24'(count) : 24'd0)};
+          ASK_COUNTERS: header <= {COUNTERS, 24'd6};
+          default: header <= {ERROR, 24'd1};
+        endcase
         left <= count;
         squared_distance <= INFINITY_WORD;
         index <= '0;
