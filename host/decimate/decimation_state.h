@@ -69,8 +69,9 @@ class DecimationState {
 
   // No sliver; false for a frame that is not finite.
   bool well_shaped(const LocalFrame& f) const {
-    const double longest = std::max({f.length, f.length13, f.length23});
-    return f.length * f.length13 * f.y13 > guards_.flatness * longest * longest;
+    const double longest = std::max({f.length12, f.edge13.length, f.edge23.length});
+    return f.length12 * f.edge13.length * f.edge13.direction.y >
+           guards_.flatness * longest * longest;
   }
 
   // Whether the added triangles keep the back bound, those of the reference stay within the limit

@@ -4,61 +4,49 @@
 #define HWY_TARGET_INCLUDE "host/decimate/local_distance.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.
-#include <hwy/highway.h>
+#include "sw_model/simd/simd_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace emax {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
+// The kernel's distance up to its edges. Of those that a point sees the least square is taken,
+// where the kernel takes the least residual: the same edge but for roundings, at less cost here.
+template <class Real>
+HWY_INLINE Real squared_distance_of(const kernel::TriangleRecord<Real>& triangle,
+                                    const kernel::Vector3<Real>& p) {
+  const Real zero(0.0);
+  const kernel::Vector3<Real> at = kernel::to_frame(triangle, p);
+  const kernel::TriangleView<Real> view = kernel::view_edges(triangle, at.y, at.z);
+  Real least(1e300);
+  auto outside = view.edge12.across < zero;
+  for (const kernel::EdgeView<Real>& edge : {view.edge12, view.edge13, view.edge23}) {
+    const auto visible = edge.across < zero;
+    const Real squared = edge.across * edge.across + edge.residual * edge.residual;
+    least = select(visible, minimum(least, squared), least);
+    outside = either(outside, visible);
+  }
+  return at.x * at.x + select(outside, least, zero);
+}
 
-// Products and sums are rounded apart, so that every target gives the same bits.
-void measure(LocalPoints& points, std::span<const LocalFrame> triangles) {
-  const hn::ScalableTag<double> tag;
-  using Lanes = hn::Vec<decltype(tag)>;
-  const auto all = [&](double value) HWY_ATTR { return hn::Set(tag, value); };
-  const Lanes zero = hn::Zero(tag);
-  for (std::size_t i = 0; i < points.count; i += hn::Lanes(tag)) {
-    const Lanes px = hn::LoadU(tag, &points.x[i]);
-    const Lanes py = hn::LoadU(tag, &points.y[i]);
-    const Lanes pz = hn::LoadU(tag, &points.z[i]);
-    Lanes best = all(1e300);
-    Lanes which = zero;
+// Points on lanes.
+[[gnu::flatten]] void measure(LocalPoints& points, std::span<const LocalFrame> triangles) {
+  using Real = Lanes<hn::ScalableTag<double>>;
+  for (std::size_t i = 0; i < points.count; i += Real::kCount) {
+    const kernel::Vector3<Real> p = {Real::load_unaligned(&points.x[i]),
+                                     Real::load_unaligned(&points.y[i]),
+                                     Real::load_unaligned(&points.z[i])};
+    Real best(1e300), which(0.0);
     double index = 0;
-    for (const LocalFrame& t : triangles) {
-      const Lanes qx = hn::Sub(px, all(t.origin[0]));
-      const Lanes qy = hn::Sub(py, all(t.origin[1]));
-      const Lanes qz = hn::Sub(pz, all(t.origin[2]));
-      const auto dot = [&](const Point& axis) HWY_ATTR {
-        return hn::Add(hn::Add(hn::Mul(qx, all(axis[0])), hn::Mul(qy, all(axis[1]))),
-                       hn::Mul(qz, all(axis[2])));
-      };
-      const Lanes x = dot(t.normal), y = dot(t.in_plane), z = dot(t.along);
-      const Lanes zl = hn::Sub(z, all(t.length));
-      Lanes planar = all(1e300);
-      hn::Mask<decltype(tag)> outside = hn::Lt(y, zero);
-      const auto edge = [&](Lanes across, Lanes s, Lanes beyond) HWY_ATTR {
-        const auto visible = hn::Lt(across, zero);
-        const Lanes r = hn::IfThenElse(hn::Lt(s, zero), s, hn::Max(beyond, zero));
-        const Lanes squared = hn::Add(hn::Mul(across, across), hn::Mul(r, r));
-        planar = hn::IfThenElse(visible, hn::Min(planar, squared), planar);
-        outside = hn::Or(outside, visible);
-      };
-      edge(y, z, zl);
-      const Lanes s2 = hn::Add(hn::Mul(y, all(t.y13)), hn::Mul(z, all(t.z13)));
-      edge(hn::Sub(hn::Mul(z, all(t.y13)), hn::Mul(y, all(t.z13))), s2,
-           hn::Sub(s2, all(t.length13)));
-      const Lanes s3 = hn::Add(hn::Mul(y, all(t.y23)), hn::Mul(zl, all(t.z23)));
-      edge(hn::Sub(hn::Mul(y, all(t.z23)), hn::Mul(zl, all(t.y23))), s3,
-           hn::Sub(s3, all(t.length23)));
-      const Lanes squared = hn::Add(hn::Mul(x, x), hn::IfThenElse(outside, planar, zero));
-      const auto nearer = hn::Lt(squared, best);
-      best = hn::IfThenElse(nearer, squared, best);
-      which = hn::IfThenElse(nearer, all(index), which);
+    for (const LocalFrame& triangle : triangles) {
+      const Real squared = squared_distance_of(on_all_lanes<Real>(triangle), p);
+      const auto nearer = squared < best;
+      best = select(nearer, squared, best);
+      which = select(nearer, Real(index), which);
       index += 1;
     }
-    hn::StoreU(best, tag, &points.squared[i]);
-    hn::StoreU(which, tag, &points.nearest[i]);
+    best.store_unaligned(&points.squared[i]);
+    which.store_unaligned(&points.nearest[i]);
   }
 }
 
@@ -94,56 +82,54 @@ void LocalPoints::push_back(const Point& p) {
 }
 
 LocalFrame local_frame(const std::array<Point, 3>& corners) {
+  const auto vector = [](const Point& v) { return Vector3<double>{v[0], v[1], v[2]}; };
+  const auto edge = [](double y, double z) {
+    const double length = std::sqrt(y * y + z * z);
+    return PlanarEdge<double>{{y / length, z / length}, length};
+  };
   const Point u = corners[1] - corners[0];
   const Point w = corners[2] - corners[0];
-  LocalFrame f;
-  f.origin = corners[0];
-  f.length = u.norm();
-  f.along = u / f.length;
-  f.normal = u.cross(w).normalized();
-  f.in_plane = f.normal.cross(f.along);
-  const double y = f.in_plane.dot(w);
-  const double z = f.along.dot(w);
-  f.length13 = std::sqrt(y * y + z * z);
-  f.y13 = y / f.length13;
-  f.z13 = z / f.length13;
-  const double zl = z - f.length;
-  f.length23 = std::sqrt(y * y + zl * zl);
-  f.y23 = y / f.length23;
-  f.z23 = zl / f.length23;
-  return f;
+  const double length = u.norm();
+  const Point along = u / length;
+  const Point normal = u.cross(w).normalized();
+  const Point in_plane = normal.cross(along);
+  const double y = in_plane.dot(w), z = along.dot(w);
+  return {vector(corners[0]),
+          vector(normal),
+          vector(in_plane),
+          vector(along),
+          length,
+          edge(y, z),
+          edge(y, z - length),
+          0};
 }
 
 Foot foot_on(const LocalFrame& f, const Point& p) {
-  const Point q = p - f.origin;
-  const double x = f.normal.dot(q), y = f.in_plane.dot(q), z = f.along.dot(q);
-  const double zl = z - f.length;
-  const double s2 = y * f.y13 + z * f.z13;
-  const double s3 = y * f.y23 + zl * f.z23;
-  const double h2 = z * f.y13 - y * f.z13;
-  const double h3 = y * f.z23 - zl * f.y23;
-  // The height of the first corner over edge 2-3, as h3 measures it.
-  const double height = f.length * f.y23;
-  double foot_y = y, foot_z = z, best = 1e300;
-  const auto edge = [&](double across, double s, double length, double from_z, double dy,
-                        double dz) {
+  const Vector3<double> at = to_frame(f, {p[0], p[1], p[2]});
+  const double z_from_v2 = at.z - f.length12;
+  double foot_y = at.y, foot_z = at.z, best = 1e300;
+  const auto edge = [&](double across, double s, const PlanarEdge<double>& e, double from_z) {
     if (across >= 0) return;
-    const double at = std::clamp(s, 0.0, length);
-    const double squared = across * across + (s - at) * (s - at);
+    const double on_edge = std::clamp(s, 0.0, e.length);
+    const double squared = across * across + (s - on_edge) * (s - on_edge);
     if (squared >= best) return;
     best = squared;
-    foot_y = at * dy;
-    foot_z = from_z + at * dz;
+    foot_y = on_edge * e.direction.y;
+    foot_z = from_z + on_edge * e.direction.z;
   };
-  edge(y, z, f.length, 0, 0, 1);
-  edge(h2, s2, f.length13, 0, f.y13, f.z13);
-  edge(h3, s3, f.length23, f.length, f.y23, f.z23);
+  const Vector2<double>&e2 = f.edge13.direction, &e3 = f.edge23.direction;
+  edge(at.y, at.z, {{0, 1}, f.length12}, 0);
+  edge(at.z * e2.y - at.y * e2.z, at.y * e2.y + at.z * e2.z, f.edge13, 0);
+  edge(at.y * e3.z - z_from_v2 * e3.y, at.y * e3.y + z_from_v2 * e3.z, f.edge23, f.length12);
+  const auto eigen = [](const Vector3<double>& v) { return Point(v.x, v.y, v.z); };
   Foot foot;
-  foot.residual = x * f.normal + (y - foot_y) * f.in_plane + (z - foot_z) * f.along;
-  const double at_foot = foot_y * f.z23 - (foot_z - f.length) * f.y23;
-  foot.weight = std::clamp(at_foot / height, 0.0, 1.0);
+  foot.residual = at.x * eigen(f.normal) + (at.y - foot_y) * eigen(f.in_plane) +
+                  (at.z - foot_z) * eigen(f.along);
+  // Both are heights over edge 2-3: of the foot, and of the first corner.
+  const double at_foot = foot_y * e3.z - (foot_z - f.length12) * e3.y;
+  foot.weight = std::clamp(at_foot / (f.length12 * e3.y), 0.0, 1.0);
   const double distance = foot.residual.norm();
-  foot.direction = best < 1e300 && distance > 0 ? Point(foot.residual / distance) : f.normal;
+  foot.direction = best < 1e300 && distance > 0 ? Point(foot.residual / distance) : eigen(f.normal);
   return foot;
 }
 

@@ -5,18 +5,15 @@
 #include <span>
 #include <vector>
 
+#include "hls/kernel/triangle_record.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
 
-// A triangle as the local test sees it: in binary64, an orthonormal frame at its first corner and
-// the edges in its plane. Not degenerate.
-struct LocalFrame {
-  Point origin, normal, in_plane, along;  // along: to the second corner; normal: right-handed
-  double length;                          // of the first edge
-  double y13, z13, length13;              // unit direction in the plane and length, of edge 1-3
-  double y23, z23, length23;              // and of edge 2-3
-};
+// A triangle as the kernel reads it, in binary64 and unrounded, from its first corner: the local
+// search moves that corner and wants its weight in a foot, where the record begins at the longest
+// edge. Not degenerate; no tag.
+using LocalFrame = TriangleRecord<double>;
 
 LocalFrame local_frame(const std::array<Point, 3>& corners);
 

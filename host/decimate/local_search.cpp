@@ -195,7 +195,9 @@ bool LocalSearch::shape(const Point& position) {
     frames_.push_back(local_frame(corners));
     const LocalFrame& f = frames_.back();
     if (!state_.well_shaped(f)) return false;
-    if (!(f.normal.dot(normals_[i]) >= state_.guards().normal_cosine)) return false;
+    if (!(Point(f.normal.x, f.normal.y, f.normal.z).dot(normals_[i]) >=
+          state_.guards().normal_cosine))
+      return false;
   }
   return true;
 }

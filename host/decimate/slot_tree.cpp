@@ -30,6 +30,8 @@ double to_segment(const Point& p, const Point& a, const Point& b) {
 
 }  // namespace
 
+// Not the kernel's: here a triangle meets one point, and its frame would be made for that point
+// alone. Through frame_of() and the kernel in double, bunny00.off at 0.321% takes 8% more time.
 double squared_distance(const Point& p, const std::array<Point, 3>& corners) {
   const auto& [a, b, c] = corners;
   const Point n = (b - a).cross(c - a);

@@ -46,6 +46,8 @@ struct Lanes {
   HWY_INLINE explicit Lanes(T value) : vec(hn::Set(D(), value)) {}
   static HWY_INLINE Lanes load(const T* from) { return Lanes(hn::Load(D(), from)); }
   HWY_INLINE void store(T* to) const { hn::Store(vec, D(), to); }
+  static HWY_INLINE Lanes load_unaligned(const T* from) { return Lanes(hn::LoadU(D(), from)); }
+  HWY_INLINE void store_unaligned(T* to) const { hn::StoreU(vec, D(), to); }
 
   friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(hn::Add(a.vec, b.vec)); }
   friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(hn::Sub(a.vec, b.vec)); }
