@@ -17,146 +17,199 @@ std::string upper(std::string text) {
   return text;
 }
 
-}  // namespace
+// Fields of a record in memories that are read at different cycles.
+//
+// A field that the datapath reads at cycle c is read with the slot delayed by c - 1. Its write is
+// as many cycles late as there are earlier cycles of reading, so that one write reaches a few
+// memories at a time.
+class RecordUnit {
+ public:
+  explicit RecordUnit(const LoweredDesign& design)
+      : design_(design),
+        module_(design.options.module),
+        identifiers_(module_),
+        used_(static_cast<std::size_t>(32 * info(design.form).record_words), false) {
+    if (used_.empty()) {
+      throw std::invalid_argument(std::string(info(design.form).name) +
+                                  " has no record, so there is no unit: leave --unit out");
+    }
+    for (const Input& input : design_.graph.inputs()) identifiers_.take(input.name);
+    for (const Output& output : design_.graph.outputs()) identifiers_.take(output.name);
+    name_slots();
+    for (const Input& input : design_.graph.inputs()) {
+      ports_.push_back("." + input.name);
+      if (input.arrival == Arrival::kSample) {
+        samples_.push_back(input.name);
+      } else {
+        add_field(input);
+      }
+    }
+    for (const Output& output : design_.graph.outputs()) ports_.push_back("." + output.name);
+  }
 
-std::string unit_module(const LoweredDesign& design) {
-  const int record_bits = 32 * info(design.form).record_words;
-  const std::string& module = design.options.module;
-  if (record_bits == 0) {
-    throw std::invalid_argument(std::string(info(design.form).name) +
-                                " has no record, so there is no unit: leave --unit out");
+  std::string text() {
+    const std::string slot_delays = delay_slots();
+    std::string text = head() + declarations("logic [SLOT_BITS-1:0] ", slot_names());
+    text += declarations("logic [31:0] ", reals_) + declarations("logic ", conditions_);
+    text += declarations("logic [31:0] ", late_reals_) + declarations("logic ", late_conditions_);
+    text += declarations("logic ", {enables_.begin() + 1, enables_.end()});
+    text += declarations("logic [SLOT_BITS-1:0] ", {write_slots_.begin() + 1, write_slots_.end()});
+    text += "\n" + slot_delays + "\n" + late_writes() + memories_ + "\n" + datapath();
+    return text + "  wire unused_parts = &{1'b0, LATENCY[0], LAST_READ[0]" + unused_bits() +
+           "};\nendmodule\n";
   }
-  const Schedule& schedule = design.schedule;
-  std::set<int> slots;  // the cycles in which fields are read, but 0
-  for (const Input& input : design.graph.inputs()) {
-    const int cycle = schedule.start[input.node] - 1;
-    if (input.arrival == Arrival::kMemory && cycle > 0) slots.insert(cycle);
-  }
-  Identifiers identifiers(module);
-  for (const Input& input : design.graph.inputs()) identifiers.take(input.name);
-  for (const Output& output : design.graph.outputs()) identifiers.take(output.name);
-  // The slot as it is presented and delayed to the cycles of `slots`; a write's enable and slot as
-  // they come and delayed by one cycle for each of `slots`.
-  std::map<int, std::string> slot_at = {{0, "slot"}};
-  std::vector<std::string> enables = {"write_enable"}, write_slots = {"write_slot"};
-  for (const int cycle : slots) {
-    slot_at[cycle] = identifiers.take(at_cycle("slot", cycle));
-    const std::string suffix = "_" + std::to_string(enables.size());
-    enables.push_back(identifiers.take("write_enable" + suffix));
-    write_slots.push_back(identifiers.take("write_slot" + suffix));
-  }
-  std::vector<bool> used(static_cast<std::size_t>(record_bits), false);
-  std::vector<std::string> reals, conditions, samples, late_reals, late_conditions;
-  std::vector<std::string> ports = {".clk"};
-  std::string memories;
-  for (const Input& input : design.graph.inputs()) {
-    ports.push_back("." + input.name);
-    if (input.arrival == Arrival::kSample) {
-      samples.push_back(input.name);
-      continue;
+
+ private:
+  // The cycle in which the slot of a field is presented to its memory.
+  int slot_cycle(const Input& input) const { return design_.schedule.start[input.node] - 1; }
+
+  // Names the slot at each of the cycles in which fields are read, and the writes' delayed enables
+  // and slots.
+  void name_slots() {
+    for (const Input& input : design_.graph.inputs()) {
+      const int cycle = slot_cycle(input);
+      if (input.arrival == Arrival::kMemory && cycle > 0) late_cycles_.insert(cycle);
     }
-    const int cycle = schedule.start[input.node] - 1;
-    const auto late =
-        static_cast<std::size_t>(std::distance(slots.begin(), slots.upper_bound(cycle)));
-    const int bits = width(design.graph.node(input.node).kind);
-    (bits == 1 ? conditions : reals).push_back(input.name);
-    for (int bit = 0; bit < bits; ++bit) used[input.record_bit + static_cast<unsigned>(bit)] = true;
-    const std::string low = std::to_string(input.record_bit);
-    const std::string range =
-        bits == 1 ? low
-                  : std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":" + low;
-    std::string data = "write_record[" + range + "]";
-    if (late > 0) {
-      const std::string name = identifiers.take(input.name + "_late");
-      (bits == 1 ? late_conditions : late_reals).push_back(name);
-      memories +=
-          instance("delay_line #(.WIDTH(" + std::to_string(bits) + "), .DEPTH(" +
-                       std::to_string(late) + "))",
-                   identifiers.take(name + "_delay"), ".clk, .d(" + data + "), .q(" + name + ")");
-      data = name;
+    for (const int cycle : late_cycles_) {
+      slot_at_[cycle] = identifiers_.take(at_cycle("slot", cycle));
+      const std::string suffix = "_" + std::to_string(enables_.size());
+      enables_.push_back(identifiers_.take("write_enable" + suffix));
+      write_slots_.push_back(identifiers_.take("write_slot" + suffix));
     }
-    memories +=
+  }
+
+  void add_field(const Input& input) {
+    const int cycle = slot_cycle(input);
+    const auto late = static_cast<std::size_t>(
+        std::distance(late_cycles_.begin(), late_cycles_.upper_bound(cycle)));
+    const int bits = width(design_.graph.node(input.node).kind);
+    (bits == 1 ? conditions_ : reals_).push_back(input.name);
+    for (int bit = 0; bit < bits; ++bit)
+      used_[input.record_bit + static_cast<unsigned>(bit)] = true;
+    memories_ +=
         instance("field_memory #(.WIDTH(" + std::to_string(bits) + "), .SLOT_BITS(SLOT_BITS))",
-                 identifiers.take(input.name + "_memory"),
-                 ".clk, .write_enable(" + enables[late] + "), .write_slot(" + write_slots[late] +
-                     "), .write_data(" + data + "),\n      .read_slot(" + slot_at.at(cycle) +
-                     "), .read_data(" + input.name + ")");
+                 identifiers_.take(input.name + "_memory"),
+                 ".clk, .write_enable(" + enables_[late] + "), .write_slot(" + write_slots_[late] +
+                     "), .write_data(" + write_data(input, bits, late) + "),\n      .read_slot(" +
+                     slot_at_.at(cycle) + "), .read_data(" + input.name + ")");
   }
-  for (const Output& output : design.graph.outputs()) ports.push_back("." + output.name);
-  std::vector<std::string> slot_names;
-  std::string slot_delays;
-  for (auto to = std::next(slot_at.begin()); to != slot_at.end(); ++to) {
-    const auto& [at, from] = *std::prev(to);
-    slot_names.push_back(to->second);
-    slot_delays += delay_line(kNarrowBits / 2, "SLOT_BITS", to->first - at, design.options.delays,
-                              identifiers.take(to->second + "_delay"), from, to->second);
+
+  // The field in the record that is written, `late` cycles later.
+  std::string write_data(const Input& input, int bits, std::size_t late) {
+    const std::string low = std::to_string(input.record_bit);
+    const std::string high =
+        std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":";
+    const std::string data = "write_record[" + (bits == 1 ? "" : high) + low + "]";
+    if (late == 0) return data;
+    const std::string name = identifiers_.take(input.name + "_late");
+    (bits == 1 ? late_conditions_ : late_reals_).push_back(name);
+    memories_ += instance(
+        "delay_line #(.WIDTH(" + std::to_string(bits) + "), .DEPTH(" + std::to_string(late) + "))",
+        identifiers_.take(name + "_delay"), ".clk, .d(" + data + "), .q(" + name + ")");
+    return name;
   }
-  std::string writes;
-  for (std::size_t late = 1; late < enables.size(); ++late) {
-    for (const auto& names : {enables, write_slots}) {
-      writes += "    " + names[late] + " <= " + names[late - 1] + ";\n";
+
+  std::vector<std::string> slot_names() const {
+    std::vector<std::string> names;
+    for (const int cycle : late_cycles_) names.push_back(slot_at_.at(cycle));
+    return names;
+  }
+
+  std::string delay_slots() {
+    std::string text;
+    for (auto to = std::next(slot_at_.begin()); to != slot_at_.end(); ++to) {
+      const auto& [at, from] = *std::prev(to);
+      text += delay_line(kNarrowBits / 2, "SLOT_BITS", to->first - at, design_.options.delays,
+                         identifiers_.take(to->second + "_delay"), from, to->second);
     }
+    return text;
   }
-  const std::vector<std::string> late_enables(enables.begin() + 1, enables.end());
-  const std::vector<std::string> late_slots(write_slots.begin() + 1, write_slots.end());
-  std::string unused;
-  for (int bit = 0; bit < record_bits;) {
-    int end = bit;
-    while (end < record_bits && !used[static_cast<std::size_t>(end)]) ++end;
-    if (end > bit) {
-      unused += ", write_record[" + std::to_string(end - 1) + ":" + std::to_string(bit) + "]";
+
+  std::string late_writes() const {
+    std::string writes;
+    for (std::size_t late = 1; late < enables_.size(); ++late) {
+      for (const auto* names : {&enables_, &write_slots_}) {
+        writes += "    " + (*names)[late] + " <= " + (*names)[late - 1] + ";\n";
+      }
     }
-    bit = std::max(end, bit + 1);
+    return writes.empty() ? "" : "  always_ff @(posedge clk) begin\n" + writes + "  end\n\n";
   }
-  std::string sample_ports;
-  for (const std::string& name : samples) {
-    sample_ports += "    input  logic [31:0] " + name + ",  // cycle 0\n";
+
+  std::string unused_bits() const {
+    std::string unused;
+    const auto bits = used_.size();
+    for (std::size_t bit = 0; bit < bits;) {
+      std::size_t end = bit;
+      while (end < bits && !used_[end]) ++end;
+      if (end > bit) {
+        unused += ", write_record[" + std::to_string(end - 1) + ":" + std::to_string(bit) + "]";
+      }
+      bit = std::max(end, bit + 1);
+    }
+    return unused;
   }
-  std::string output_ports;
-  for (const Output& output : design.graph.outputs()) {
-    const bool is_last = &output == &design.graph.outputs().back();
-    output_ports += "    output logic " + vector_type(width(design.graph.node(output.node).kind)) +
-                    output.name + (is_last ? "" : ",") + "  // cycle " +
-                    std::to_string(schedule.latency) + "\n";
-  }
-  std::string text =
-      generated_line(design) + "//\n// " + module +
-      R"( with the memory of its records beside it: 2^SLOT_BITS slots, word w of a record
+
+  std::string head() const {
+    std::string sample_ports, output_ports;
+    for (const std::string& name : samples_) {
+      sample_ports += "    input  logic [31:0] " + name + ",  // cycle 0\n";
+    }
+    for (const Output& output : design_.graph.outputs()) {
+      const bool is_last = &output == &design_.graph.outputs().back();
+      output_ports += "    output logic " +
+                      vector_type(width(design_.graph.node(output.node).kind)) + output.name +
+                      (is_last ? "" : ",") + "  // cycle " +
+                      std::to_string(design_.schedule.latency) + "\n";
+    }
+    return generated_line(design_) + "//\n// " + module_ +
+           R"( with the memory of its records beside it: 2^SLOT_BITS slots, word w of a record
 // at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
 // own, read with the slot delayed to the cycle in which the datapath needs the field, and written
 // a cycle later than the fields that are read before: a write reaches a few memories at a time.
 //
 // A record written at a clock edge may be used by a slot presented in the cycle after it. A slot
 // may be written again in any cycle later than LAST_READ after the one that presented it last.
-module )" +
-      module + R"(_unit #(
+module )" + module_ +
+           R"(_unit #(
     parameter int SLOT_BITS = 4
 ) (
     input  logic clk,
     input  logic write_enable,
     input  logic [SLOT_BITS-1:0] write_slot,
     input  logic [)" +
-      std::to_string(record_bits - 1) + R"(:0] write_record,
+           std::to_string(used_.size() - 1) + R"(:0] write_record,
     input  logic [SLOT_BITS-1:0] slot,  // cycle 0
 )" + sample_ports +
-      output_ports + ");\n  localparam int LATENCY = " + std::to_string(schedule.latency) +
-      ";\n  localparam int LAST_READ = " + std::to_string(design.last_read()) + ";\n";
-  text += declarations("logic [SLOT_BITS-1:0] ", slot_names);
-  text += declarations("logic [31:0] ", reals) + declarations("logic ", conditions);
-  text += declarations("logic [31:0] ", late_reals) + declarations("logic ", late_conditions);
-  text += declarations("logic ", late_enables) + declarations("logic [SLOT_BITS-1:0] ", late_slots);
-  text += "\n" + slot_delays + "\n";
-  if (!writes.empty()) text += "  always_ff @(posedge clk) begin\n" + writes + "  end\n\n";
-  text += memories + "\n";
+           output_ports +
+           ");\n  localparam int LATENCY = " + std::to_string(design_.schedule.latency) +
+           ";\n  localparam int LAST_READ = " + std::to_string(design_.last_read()) + ";\n";
+  }
+
   // The unit is used as it is with and without probes.
-  const std::string probes = std::to_string(32 * design.probes.size() - 1);
-  text += "`ifdef EMAX_PROBES\n  logic [" + probes + ":0] unused_probes;\n`endif\n";
-  text += "  " + module + " datapath (\n";
-  text += listed("      ", "      ", ports, "");
-  text += "`ifdef EMAX_PROBES\n      , .probes(unused_probes)\n`endif\n  );\n\n";
-  return text + "  wire unused_parts = &{1'b0, LATENCY[0], LAST_READ[0]" + unused +
-         "};\nendmodule\n";
-}
+  std::string datapath() const {
+    const std::string probes = std::to_string(32 * design_.probes.size() - 1);
+    return "`ifdef EMAX_PROBES\n  logic [" + probes + ":0] unused_probes;\n`endif\n" + "  " +
+           module_ + " datapath (\n" + listed("      ", "      ", ports_, "") +
+           "`ifdef EMAX_PROBES\n      , .probes(unused_probes)\n`endif\n  );\n\n";
+  }
+
+  const LoweredDesign& design_;
+  const std::string& module_;
+  Identifiers identifiers_;
+  std::vector<bool> used_;     // bits of the record
+  std::set<int> late_cycles_;  // in which fields are read, but 0
+  // The slot as it is presented and delayed to the late cycles; a write's enable and slot as they
+  // come and delayed by one cycle for each of these.
+  std::map<int, std::string> slot_at_ = {{0, "slot"}};
+  std::vector<std::string> enables_ = {"write_enable"}, write_slots_ = {"write_slot"};
+  std::vector<std::string> reals_, conditions_, samples_, late_reals_, late_conditions_;
+  std::vector<std::string> ports_ = {".clk"};
+  std::string memories_;
+};
+
+}  // namespace
+
+std::string unit_module(const LoweredDesign& design) { return RecordUnit(design).text(); }
 
 std::string schedule_header(const LoweredDesign& design) {
   const std::string prefix = upper(design.options.module);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "host/decimate/decimation_passes.h"
+#include "host/decimate/decimation_schedule.h"
 #include "host/decimate/far_points.h"
 #include "host/decimate/spatial_order.h"
 #include "host/geometry/bounds.h"
@@ -15,18 +15,11 @@
 namespace emax {
 namespace {
 
-using Effort = DecimationSettings::Effort;
-
 // The local tests round a few units in the last place of the coordinates.
 constexpr double kRoundings = 0x1p-46;
 constexpr double kMargin = 1e-7;
 constexpr double kBelongs = 0.1;    // of the mesh's width
 constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference have a sample
-
-constexpr std::size_t kFew = 400;  // triangles: searching on takes next to nothing
-
-// Of the time that is thought to be left, what the passes take.
-constexpr double kSweeps = 0.4, kOtherPass = 0.3;
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -202,7 +195,6 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   const TriangleMesh ordered = spatially_ordered(start);
   DecimationState state(ordered, known.points, settings.two_sided ? known.back.get() : nullptr,
                         limit * limit, guards, settings.interrupted, known.triangles);
-
   if (!state.complete()) return {start, {}, true};
 
   DecimatedMesh result;
@@ -213,65 +205,12 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   std::ranges::sort(result.left_out);
   DecimationPasses::Options options;
   if (settings.feature_angle > 0) options.features = FeatureEdges(ordered, settings.feature_angle);
-  const bool hoppe = settings.objective == DecimationSettings::Objective::kHoppe;
-  if (hoppe) {
+  if (settings.objective == DecimationSettings::Objective::kHoppe) {
     const double width = bounds_of(reference_.vertices).width();
     options.spring = settings.hoppe.spring;
     options.representation = settings.hoppe.representation * width * width / (limit * limit);
   }
-  const bool single = hoppe || settings.effort == Effort::kSweep;
-  double begun = 0, weight = single ? 1 : kSweeps;
-  DecimationPasses passes(state, std::move(options), [&](double done) {
-    if (settings.advanced) settings.advanced(begun + weight * done, state.mesh().triangles());
-    return settings.interrupted && settings.interrupted();
-  });
-  const auto tell = [&](const char* pass, std::size_t edits) {
-    if (settings.progress) settings.progress(pass, edits, state.mesh().triangles());
-    begun += weight;
-    weight = (1 - begun) * (settings.effort == Effort::kCollapse ? 1 : kOtherPass);
-    return edits;
-  };
-  const auto relax = [&] {
-    tell("flips", passes.flip(4));
-    tell("relocations", passes.relocate(4));
-    return tell("collapses", passes.collapse());
-  };
-  if (hoppe) {
-    tell("descent", passes.descend());
-  } else {
-    tell("sweeps", passes.sweep());
-    if (settings.effort != Effort::kSweep) tell("collapses", passes.collapse());
-  }
-  if (!single && settings.effort != Effort::kCollapse && !passes.stopped()) {
-    state.reassign();
-    tell("relocations", passes.relocate(4));
-    relax();
-    const bool deep = settings.effort == Effort::kDeep || state.mesh().triangles() <= kFew;
-    // Once, or until nothing is gained; whether anything was.
-    const auto mend = [&] {
-      bool any = false;
-      for (bool again = true; again && !passes.stopped();) {
-        state.reassign();
-        const std::size_t mended = tell("mended collapses", passes.collapse_and_mend());
-        const bool gained = mended + relax() > 0;
-        any = any || gained;
-        again = gained && deep;
-      }
-      return any;
-    };
-    mend();
-    // Another measure of how well points are met moves the mesh out of where the search has ended.
-    constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
-    const std::size_t tries = deep ? kOtherPowers.size() : 1;
-    for (std::size_t vain = 0; vain < tries && !passes.stopped();) {
-      const int power = kOtherPowers[vain++];
-      tell("flips", passes.flip(power));
-      tell("relocations", passes.relocate(power));
-      tell("relocations", passes.relocate(4));
-      if (mend() && deep) vain = 0;
-    }
-  }
-  result.interrupted = passes.stopped();
+  result.interrupted = !run_passes(state, std::move(options), settings);
   result.mesh = state.mesh().compact();
   return result;
 }
