@@ -4,18 +4,12 @@
 #include <utility>
 
 #include "host/geometry/bounds.h"
+#include "sw_model/base/morton.h"
 
 namespace emax {
 namespace {
 
 constexpr double kCells = 1 << 21;  // along an axis
-
-// The bits of a cell's number, two places apart.
-std::uint64_t spread(std::uint64_t cell) {
-  std::uint64_t result = 0;
-  for (unsigned bit = 0; bit < 21; ++bit) result |= (cell >> bit & 1) << (3 * bit);
-  return result;
-}
 
 }  // namespace
 
@@ -29,7 +23,7 @@ std::vector<std::uint32_t> spatial_order(std::span<const Point> points) {
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = (p[axis] - box.lower[axis]) / width * (kCells - 1);
-      key |= spread(static_cast<std::uint64_t>(at)) << axis;
+      key |= spread_bits(static_cast<std::uint64_t>(at)) << axis;
     }
     keys.emplace_back(key, static_cast<std::uint32_t>(keys.size()));
   }

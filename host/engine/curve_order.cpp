@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sw_model/base/morton.h"
 #include "sw_model/base/parallel.h"
 #include "sw_model/model/triangle_frame.h"
 
@@ -15,11 +16,11 @@ namespace {
 constexpr std::uint32_t kCells = 1024;
 constexpr std::size_t kPiece = 4096;  // of what threads share
 
-// Every third bit of ten.
+// spread_bits() of ten bits, looked up.
 constexpr auto kSpread = [] {
   std::array<std::uint32_t, kCells> table{};
   for (std::uint32_t value = 0; value < kCells; ++value) {
-    for (std::uint32_t bit = 0; bit < 10; ++bit) table[value] |= (value >> bit & 1) << 3 * bit;
+    table[value] = static_cast<std::uint32_t>(spread_bits(value));
   }
   return table;
 }();

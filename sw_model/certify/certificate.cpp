@@ -10,6 +10,7 @@
 
 #include "sw_model/base/error.h"
 #include "sw_model/base/flush_mode.h"
+#include "sw_model/base/morton.h"
 #include "sw_model/base/parallel.h"
 
 namespace emax {
@@ -36,14 +37,6 @@ void require_finite(std::span<const Point> cloud) {
   }
 }
 
-// 10 bits, two zeros between each and the next.
-std::uint32_t spread(std::uint32_t bits) {
-  bits = (bits | bits << 16) & 0x030000ff;
-  bits = (bits | bits << 8) & 0x0300f00f;
-  bits = (bits | bits << 4) & 0x030c30c3;
-  return (bits | bits << 2) & 0x09249249;
-}
-
 // The kept points along a Morton curve. Any order gives the same certificate.
 std::vector<std::uint32_t> along_a_curve(std::span<const Point> cloud,
                                          const std::vector<bool>& is_excluded) {
@@ -59,12 +52,12 @@ std::vector<std::uint32_t> along_a_curve(std::span<const Point> cloud,
   keys.reserve(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (is_excluded[i]) continue;
-    std::uint32_t code = 0;
+    std::uint64_t code = 0;
     for (Eigen::Index k = 0; k < 3; ++k) {
       const double cell = std::clamp((cloud[i][k] - low[k]) * scale, 0.0, kCells);
-      code = code << 1 | spread(static_cast<std::uint32_t>(cell));
+      code = code << 1 | spread_bits(static_cast<std::uint64_t>(cell));
     }
-    keys.push_back(std::uint64_t{code} << 32 | i);
+    keys.push_back(code << 32 | i);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order;
