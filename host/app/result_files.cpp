@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <utility>
-#include <vector>
 
-#include "host/app/reference_text.h"
-#include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/parallel.h"
@@ -25,114 +21,96 @@ namespace {
 
 }  // namespace
 
-const OutputFile& ResultFiles::reference_file() {
-  if (reference_sha256_.empty()) {
-    reference_ = {reference_path(options_.output),
-                  mesh_bytes(settings_.bound.reference, MeshFormat::kPly)};
-    reference_sha256_ = sha256(reference_.bytes);
-  }
-  return reference_;
+ResultFiles::ResultFiles(const OptimizeOptions& options, const OptimizeSettings& settings,
+                         const Scan& scan, const std::string& cloud_sha256,
+                         const ErrorConstraint& constraint)
+    : options_(options),
+      settings_(settings),
+      scan_(scan),
+      cloud_sha256_(cloud_sha256),
+      constraint_(constraint) {
+  if (!settings.epsilon_back) return;
+  reference_.emplace(reference_path(options.output), settings.bound.reference, scan.cloud.points);
 }
 
 ReferenceBound ResultFiles::bound_of_reference(const BestMesh& best) {
-  const double allowed = *settings_.epsilon_back;
+  const MeshView reference = settings_.bound.reference.view();
+  ReferenceBound bound;
+  bound.epsilon_back = *settings_.epsilon_back;
   const SurfaceDistance back =
-      decided_distance(best.mesh.view(), ExactMesh(settings_.bound.reference.view()), allowed);
-  if (!back.within(allowed)) {
+      decided_distance(best.mesh.view(), ExactMesh(reference), bound.epsilon_back);
+  if (!back.within(bound.epsilon_back)) {
     contradict("the decimator's bound on the distance of the mesh to the reference", back.upper);
   }
-  ReferenceBound bound;
+  bound.mesh_to_reference = back.upper;
   const double epsilon = constraint_.epsilon();
-  const SurfaceDistance whole =
-      decided_distance(settings_.bound.reference.view(), ExactMesh(best.mesh.view()), epsilon);
+  const SurfaceDistance whole = decided_distance(reference, ExactMesh(best.mesh.view()), epsilon);
   if (!whole.within(epsilon)) {
     contradict("the decimator's bound on the distance of the reference to the mesh", whole.upper);
   }
   bound.reference_to_mesh = whole.upper;
-  bound.topology = topology_of(settings_.bound.reference.view());
-  bound.file = reference_file().path.filename().string();
-  bound.sha256 = reference_sha256_;
-  bound.triangles = settings_.bound.reference.triangles.size();
-  bound.epsilon_back = allowed;
-  bound.mesh_to_reference = back.upper;
-  if (!points_to_reference_ || points_to_reference_->excluded != best.error.excluded) {
-    points_to_reference_ = certify(scan_.cloud.points, settings_.bound.reference.view(),
-                                   best.error.excluded, processor_threads());
-  }
-  bound.points_to_reference = points_to_reference_->e_max_upper;
+  reference_->describe(bound, best.error.excluded);
   return bound;
 }
 
-ProvenMesh ResultFiles::prove(const BestMesh& best) {
+ProvenMesh ResultFiles::judge(const BestMesh& mesh) const {
   ProvenMesh proven;
-  proven.validity = check_mesh(best.mesh.view());
-  proven.topology = topology_of(best.mesh.view());
+  proven.validity = check_mesh(mesh.mesh.view());
+  proven.topology = topology_of(mesh.mesh.view());
   proven.points =
-      certify(scan_.cloud.points, best.mesh.view(), best.error.excluded, processor_threads());
+      certify(scan_.cloud.points, mesh.mesh.view(), mesh.error.excluded, processor_threads());
+  proven.kernel = in_file_indices(mesh.error.kept, scan_.cloud);
+  return proven;
+}
+
+ProvenMesh ResultFiles::prove(const BestMesh& best) {
+  ProvenMesh proven = judge(best);
   if (!proven.points.within(constraint_.epsilon())) {
     contradict("the kernel's e_max", proven.points.e_max_upper);
   }
-  if (settings_.epsilon_back) proven.reference = bound_of_reference(best);
+  if (reference_) proven.reference = bound_of_reference(best);
   return proven;
+}
+
+CertifiedResult ResultFiles::result(const BestMesh& best, const ProvenMesh& proven,
+                                    std::uint64_t evaluations) const {
+  return {.cloud = {scan_, cloud_sha256_, options_.common.skip_invalid},
+          .epsilon = constraint_.epsilon(),
+          .mesh = best.mesh,
+          .proven = proven,
+          .chain = best.chain,
+          .seed = settings_.seed,
+          .evaluations = evaluations};
 }
 
 ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {
   const std::tuple mesh(best.index, best.triangles, best.error.kept.squared_bits);
   if (!proven_ || proven_mesh_ != mesh) proven_ = prove(best);
   proven_mesh_ = mesh;
-  const ProvenMesh& proven = *proven_;
-  std::string bytes = mesh_bytes(best.mesh, mesh_format(settings_.output));
-  Certificate certificate;
-  certificate.mesh_file = std::filesystem::path(options_.output).filename().string();
-  certificate.mesh_sha256 = sha256(bytes);
-  certificate.cloud_file = scan_.path.filename().string();
-  certificate.cloud_sha256 = cloud_sha256_;
-  certificate.skip_invalid = options_.common.skip_invalid;
-  certificate.epsilon = constraint_.epsilon();
-  certificate.error = in_file_indices(proven.points, scan_.cloud);
-  certificate.kernel = in_file_indices(best.error.kept, scan_.cloud);
-  certificate.vertices = best.mesh.vertices.size();
-  certificate.triangles = best.mesh.triangles.size();
-  certificate.validity = proven.validity;
-  certificate.topology = proven.topology;
-  certificate.transform = constraint_.cloud().normalization();
-  certificate.chain = best.chain;
-  certificate.seed = settings_.seed;
-  certificate.evaluations = evaluations;
-  std::vector<OutputFile> files;
-  if (settings_.epsilon_back) {
-    certificate.reference = proven.reference;
-    if (!reference_.bytes.empty()) files.push_back(reference_);
-  }
-  files.push_back({options_.output, std::move(bytes)});
-  files.push_back({certificate_path(options_.output), to_json_text(certificate)});
-  write_together(files);
-  reference_.bytes.clear();  // which stay as they are
-  return proven;
+  write_result(options_.output, result(best, *proven_, evaluations),
+               reference_ ? &*reference_ : nullptr);
+  return *proven_;
 }
 
 void ResultFiles::write_reference() {
-  const OutputFile& file = reference_file();
-  write_atomically(file.path, file.bytes);
-  reference_.bytes.clear();
+  if (const OutputFile* file = reference_->unwritten()) write_atomically(file->path, file->bytes);
+  reference_->was_written();
 }
 
-bool ResultFiles::hold_fewer_than(std::size_t triangles) {
+bool ResultFiles::hold_fewer_than(std::size_t triangles) const {
   const std::filesystem::path path = certificate_path(options_.output);
   if (!std::filesystem::exists(path) || !std::filesystem::exists(options_.output)) return false;
   try {
     const Certificate there = read_certificate(path);
-    if (settings_.epsilon_back) reference_file();
     return there.triangles < triangles && there.cloud_sha256 == cloud_sha256_ &&
            there.skip_invalid == options_.common.skip_invalid &&
            there.epsilon == constraint_.epsilon() &&
            there.error.excluded.size() <= constraint_.excludable() &&
-           there.reference.has_value() == settings_.epsilon_back.has_value() &&
-           (!there.reference || (there.reference->sha256 == reference_sha256_ &&
+           there.reference.has_value() == reference_.has_value() &&
+           (!there.reference || (there.reference->sha256 == reference_->sha256() &&
                                  there.reference->epsilon_back == settings_.epsilon_back)) &&
            sha256_of_file(options_.output) == there.mesh_sha256 &&
-           (!there.reference ||
-            sha256_of_file(reference_path(options_.output)) == there.reference->sha256);
+           (!there.reference || sha256_of_file(reference_->path()) == there.reference->sha256);
   } catch (const Error&) {  // what is there is no result
     return false;
   }

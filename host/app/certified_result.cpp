@@ -1,0 +1,68 @@
+#include "host/app/certified_result.h"
+
+#include <utility>
+#include <vector>
+
+#include "host/files/mesh_file.h"
+#include "host/files/sha256.h"
+
+namespace emax {
+namespace {
+
+Certificate certificate_of(const CertifiedResult& result, const std::filesystem::path& mesh,
+                           std::string mesh_sha256) {
+  const Scan& scan = result.cloud.scan;
+  Certificate certificate;
+  certificate.mesh_file = mesh.filename().string();
+  certificate.mesh_sha256 = std::move(mesh_sha256);
+  certificate.cloud_file = scan.path.filename().string();
+  certificate.cloud_sha256 = result.cloud.sha256;
+  certificate.skip_invalid = result.cloud.skip_invalid;
+  certificate.vertices_of_mesh = result.cloud.vertices_of_mesh;
+  certificate.epsilon = result.epsilon;
+  certificate.error = in_file_indices(result.proven.points, scan.cloud);
+  certificate.kernel = result.proven.kernel;
+  certificate.vertices = result.mesh.vertices.size();
+  certificate.triangles = result.mesh.triangles.size();
+  certificate.validity = result.proven.validity;
+  certificate.topology = result.proven.topology;
+  certificate.reference = result.proven.reference;
+  certificate.transform = normalization_of(scan.cloud.points);
+  certificate.chain = result.chain;
+  certificate.seed = result.seed;
+  certificate.evaluations = result.evaluations;
+  return certificate;
+}
+
+}  // namespace
+
+void write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
+                  ReferenceFile* reference) {
+  std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh));
+  const Certificate certificate = certificate_of(result, mesh, sha256(bytes));
+  std::vector<OutputFile> files;
+  if (reference != nullptr && reference->unwritten() != nullptr) {
+    files.push_back(*reference->unwritten());
+  }
+  files.push_back({mesh, std::move(bytes)});
+  files.push_back({certificate_path(mesh), to_json_text(certificate)});
+  write_together(files);
+  if (reference != nullptr) reference->was_written();
+}
+
+ResultReport report_of(const CertifiedResult& result) {
+  const Scan& scan = result.cloud.scan;
+  ResultReport report;
+  report.validity = result.proven.validity;
+  report.topology = result.proven.topology;
+  report.triangles = result.mesh.triangles.size();
+  report.epsilon = result.epsilon;
+  report.certified = in_file_indices(result.proven.points, scan.cloud);
+  report.kernel = result.proven.kernel;
+  report.points = scan.cloud.points.size();
+  report.transform = normalization_of(scan.cloud.points);
+  report.reference = result.proven.reference;
+  return report;
+}
+
+}  // namespace emax

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/app/reference_file.h"
+#include "host/app/scan.h"
+#include "host/report/certificate_file.h"
+#include "host/report/result_json.h"
+
+namespace emax {
+
+// What is proven of one mesh.
+struct ProvenMesh {
+  MeshValidity validity;
+  MeshTopology topology;
+  CertifiedError points;                    // indices are the cloud's
+  EmaxResult kernel = {};                   // over the kept points; the index is the file's
+  std::optional<ReferenceBound> reference;  // of a two-sided bound
+};
+
+// The scan that results are certified against, and how it was read.
+struct ResultCloud {
+  const Scan& scan;
+  const std::string& sha256;      // of its file
+  bool skip_invalid = false;      // see Certificate
+  bool vertices_of_mesh = false;  // likewise
+};
+
+// A mesh that a command found, with all that its certificate and the JSON say of it.
+struct CertifiedResult {
+  ResultCloud cloud;
+  double epsilon;  // in the cloud's unit
+  const TriangleMesh& mesh;
+  const ProvenMesh& proven;
+  ChainSettings chain = {};  // how it was found
+  std::uint64_t seed = 0, evaluations = 0;
+};
+
+// Writes mesh and certificate and, unless it is there, the reference: all of them or none.
+// `reference`: nullptr of a one-sided bound. Throws Error when they cannot be written.
+void write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
+                  ReferenceFile* reference);
+
+// What --json says of a result, whatever found it.
+ResultReport report_of(const CertifiedResult& result);
+
+}  // namespace emax

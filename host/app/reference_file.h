@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/files/atomic_file.h"
+#include "host/geometry/triangle_mesh.h"
+#include "host/report/certificate_file.h"
+#include "sw_model/certify/certificate.h"
+
+namespace emax {
+
+// The reference surface of a two-sided bound and the file that holds it. Checksum and topology are
+// taken once, however many results refer to it, and the file is written once.
+class ReferenceFile {
+ public:
+  // A file that is to be written. `mesh` and `points`, the cloud's, outlive this.
+  ReferenceFile(std::filesystem::path path, const TriangleMesh& mesh,
+                std::span<const Point> points);
+  // A file that is there, with the checksum of its bytes.
+  ReferenceFile(std::filesystem::path path, const TriangleMesh& mesh, std::span<const Point> points,
+                std::string sha256);
+
+  const std::filesystem::path& path() const { return file_.path; }
+  const std::string& sha256() const { return sha256_; }
+  const MeshTopology& topology() const { return topology_; }
+
+  // Fills in what a bound says of the reference itself; epsilon_back and the distances between mesh
+  // and reference stay as they are. `excluded`: points that the bound leaves out. O(n log n) for n
+  // points unless `excluded` is as it was the last time.
+  void describe(ReferenceBound& bound, const std::vector<std::uint32_t>& excluded);
+
+  // What is still to be written; nullptr when the file is there.
+  const OutputFile* unwritten() const { return file_.bytes.empty() ? nullptr : &file_; }
+  void was_written() { file_.bytes = {}; }
+
+ private:
+  OutputFile file_;  // its bytes until they are written
+  const TriangleMesh& mesh_;
+  std::span<const Point> points_;
+  std::string sha256_;
+  MeshTopology topology_;
+  std::optional<CertifiedError> points_to_reference_;  // as it was asked for last
+};
+
+}  // namespace emax

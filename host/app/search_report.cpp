@@ -1,0 +1,153 @@
+#include "host/app/search_report.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "host/app/device_report.h"
+#include "host/app/reference_text.h"
+
+namespace emax {
+namespace {
+
+std::string_view ended_by(const OptimizeState& state) {
+  if (state.interrupted) return "interrupt";
+  if (!state.device_failure.empty()) return "device";
+  if (state.out_of_time) return "time";
+  if (state.target_reached) return "target";
+  return state.stagnated ? "stagnation" : "budget";
+}
+
+double percent_of_width(const CertifiedResult& result) {
+  return 100 * result.proven.points.e_max_upper / result.cloud.scan.width;
+}
+
+void print_feasible(const SearchOutcome& o) {
+  const std::string& output = o.options.output;
+  const ProvenMesh& proven = o.result.proven;
+  const double epsilon = o.result.epsilon;
+  fmt::print("result         {}: {} triangles{}; {}\n", output,
+             grouped(o.shown.mesh.triangles.size()),
+             o.is_reference ? ", the reference surface as it is" : "", describe(proven.validity));
+  fmt::print("topology       {}\n",
+             describe(proven.topology,
+                      proven.reference ? std::optional(proven.reference->topology) : std::nullopt));
+  fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",
+             proven.points.e_max_upper, epsilon, percent_of_width(o.result));
+  if (proven.reference) {
+    print(*proven.reference, epsilon, o.result.cloud.scan.width, reference_path(output));
+  }
+  fmt::print("certificate    {}\n", certificate_path(output).string());
+}
+
+// With the remedy for the bound that is broken.
+void print_infeasible(const SearchOutcome& o) {
+  const CertifiedError& points = o.result.proven.points;
+  const double epsilon = o.result.epsilon;
+  const bool two_sided = o.settings.epsilon_back.has_value();
+  const std::string triangles = grouped(o.shown.mesh.triangles.size());
+  fmt::print("result         infeasible: no mesh within {:.9g} was found, none is written{}\n",
+             epsilon,
+             two_sided ? fmt::format("; the reference surface is in {}",
+                                     reference_path(o.options.output).string())
+                       : "");
+  if (!points.within(epsilon)) {
+    fmt::print(
+        "e_max          {:.9g} is the least found ({:.4g}% of the width), with {} "
+        "triangles; raise --max-error, raise --budget or exclude outliers\n",
+        points.e_max_upper, percent_of_width(o.result), triangles);
+  } else if (two_sided) {
+    fmt::print(
+        "reference      {:.4g} times the bound is the least distance found between mesh and "
+        "reference, with {} triangles; raise --max-error, raise --budget or take --bound "
+        "one-sided\n",
+        1 + o.shown.violation, triangles);
+  } else {
+    fmt::print(
+        "e_max          {:.9g} certified, but the tolerance is below what the kernel can tell "
+        "apart; raise --max-error\n",
+        points.e_max_upper);
+  }
+}
+
+void print_evaluations(const OptimizeState& state, double seconds) {
+  const std::string stopped =
+      state.stopped > 0 ? fmt::format(", {} more cut short with the mesh at hand", state.stopped)
+                        : "";
+  fmt::print("evaluations    {} in {:.0f} s{}{}{}\n", state.evaluations, seconds, stopped,
+             describe_failures(state),
+             state.interrupted      ? "; interrupted"
+             : state.out_of_time    ? "; out of time"
+             : state.target_reached ? "; target reached"
+             : state.stagnated      ? "; no better mesh for long"
+                                    : "");
+}
+
+void print_polish(const OptimizeState& state, std::size_t triangles) {
+  if (!state.polished) return;
+  fmt::print("polished       {}\n",
+             triangles < *state.polished
+                 ? grouped(*state.polished) + " triangles before the best mesh was decimated deep" +
+                       (state.polish_stopped ? ", as far as the time allowed" : "")
+                 : "the best mesh decimated deep has no fewer triangles");
+}
+
+// Of the time that the workers had.
+void print_shares(const OptimizeState& state, double all) {
+  if (!(state.stages.sum() > 0) || !(all > 0)) return;
+  const auto percent = [all](double part) { return 100 * part / all; };
+  fmt::print(
+      "time           reconstruction {:.0f}%, holes and far points {:.0f}%, decimation {:.0f}%, "
+      "distance to the reference {:.1f}%; e_max {:.2f}%\n",
+      percent(state.stages.reconstruct), percent(state.stages.prepare),
+      percent(state.stages.decimate), percent(state.stages.check), percent(state.measuring));
+}
+
+}  // namespace
+
+std::string describe_failures(const OptimizeState& state) {
+  std::string text;
+  for (const auto& [reason, count] : state.failures) {
+    text += fmt::format(", {} failed ({})", count, reason);
+  }
+  if (!state.last_failure.empty()) text += fmt::format("; last: {}", state.last_failure);
+  return text;
+}
+
+void print(const SearchOutcome& o) {
+  o.feasible ? print_feasible(o) : print_infeasible(o);
+  const ProvenMesh& proven = o.result.proven;
+  print_excluded(proven.points, o.excludable);
+  fmt::print("worst point    {}\n", proven.kernel.worst_point);
+  if (!o.is_reference) {
+    fmt::print("reconstruction {} triangles, {} points left unmeshed\n",
+               grouped(o.shown.reconstruction_triangles), grouped(o.shown.unmeshed_points));
+  }
+  fmt::print("kernel         e_max^2 bits 0x{:08x}\n", proven.kernel.squared_bits);
+  print_evaluations(o.state, o.seconds);
+  print_polish(o.state, o.shown.triangles);
+  print_shares(o.state, o.seconds * o.settings.jobs);
+  fmt::print("device {:<7} {}\n", o.options.common.device, describe_counters(o.counters));
+  if (o.board) print_prediction(*o.board, *o.counters, *o.cpu_seconds);
+}
+
+ResultReport report_of(const SearchOutcome& o) {
+  ResultReport report = report_of(o.result);
+  report.feasible = o.feasible;
+  report.evaluations = o.state.evaluations;
+  report.failures = o.state.failures;
+  report.ended_by = ended_by(o.state);
+  report.seed = o.settings.seed;
+  if (!o.is_reference) {
+    report.reconstruction_triangles = o.shown.reconstruction_triangles;
+    report.unmeshed_points = o.shown.unmeshed_points;
+  }
+  report.device = o.options.common.device;
+  report.counters = o.counters;
+  report.board = o.board;
+  report.cpu_seconds = o.cpu_seconds;
+  report.two_sided = o.settings.epsilon_back.has_value();
+  return report;
+}
+
+}  // namespace emax

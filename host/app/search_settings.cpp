@@ -1,0 +1,75 @@
+#include "host/app/search_settings.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "host/app/interrupt.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+std::uint64_t budget_of(const OptimizeOptions& options, std::uint64_t configured,
+                        std::size_t points) {
+  if (options.budget) return *options.budget;
+  const SearchEffort effort = options.effort == "quick"  ? SearchEffort::kQuick
+                              : options.effort == "deep" ? SearchEffort::kDeep
+                                                         : SearchEffort::kNormal;
+  return search_budget(effort, points, options.decimator != "bounded",
+                       options.config.empty() ? std::nullopt : std::optional(configured));
+}
+
+EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t points) {
+  EvaluationLimits limits = standard_limits(points);
+  if (options.evaluation_seconds) {
+    limits.time = std::chrono::ceil<std::chrono::milliseconds>(
+        std::chrono::duration<double>(*options.evaluation_seconds));
+  }
+  if (options.evaluation_memory) limits.memory = *options.evaluation_memory;
+  return limits;
+}
+
+}  // namespace
+
+bool is_two_sided(const OptimizeOptions& options) {
+  const bool bounded = options.decimator == "bounded";
+  const bool two_sided = options.bound.empty() ? bounded : options.bound == "two-sided";
+  if (two_sided && !bounded) {
+    throw Error("--bound two-sided needs --decimator bounded; the paper's chain bounds the points");
+  }
+  return two_sided;
+}
+
+OptimizeSettings search_settings(const OptimizeOptions& options) {
+  OptimizeSettings settings;
+  settings.method = method_for(options.method, options.decimator);
+  settings.decimator = options.decimator;
+  const auto parameters = chain_parameters(settings.method, options.decimator);
+  settings.config =
+      options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
+  settings.seed = options.seed;
+  const unsigned jobs =
+      options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  // No more candidates than that are ever out.
+  settings.jobs =
+      static_cast<unsigned>(std::min<std::size_t>(jobs, settings.config.search.look_ahead));
+  settings.target_triangles = options.target_triangles;
+  settings.stagnation = options.stagnation;
+  settings.polish = options.polish;
+  settings.output = options.output;
+  settings.interrupted = was_interrupted;
+  settings.closed = options.closed;
+  return settings;
+}
+
+void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, std::size_t points) {
+  std::size_t& budget = settings.config.search.budget;
+  budget = budget_of(options, budget, points);
+  settings.limits = evaluation_limits(options, points);
+  if (options.jobs == 0) {
+    settings.jobs = std::min(settings.jobs, jobs_in_memory(*settings.limits));
+  }
+}
+
+}  // namespace emax

@@ -1,0 +1,33 @@
+#include "host/app/tolerated_meshes.h"
+
+#include <algorithm>
+
+#include "sw_model/base/error.h"
+
+namespace emax {
+
+std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
+                                            const std::filesystem::path& output) {
+  std::vector<ToleratedMesh> meshes;
+  for (std::size_t start = 0; start <= tolerances.size();) {
+    const std::size_t end = std::min(tolerances.find(',', start), tolerances.size());
+    const std::string text = tolerances.substr(start, end - start);
+    meshes.push_back({text, parse_tolerance(text), output});
+    start = end + 1;
+  }
+  if (meshes.size() == 1) return meshes;
+  for (const ToleratedMesh& mesh : meshes) {
+    if (std::ranges::count(meshes, mesh.text, &ToleratedMesh::text) > 1) {
+      throw Error("--max-error: " + mesh.text + " is given twice");
+    }
+  }
+  for (ToleratedMesh& mesh : meshes) {
+    std::string label = mesh.text;
+    if (mesh.tolerance.percent) label.replace(label.size() - 1, 1, "pct");
+    mesh.output.replace_filename(output.stem().string() + "-" + label +
+                                 output.extension().string());
+  }
+  return meshes;
+}
+
+}  // namespace emax

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/files/tolerance.h"
+
+namespace emax {
+
+// One tolerance of `decimate` and the mesh that is written for it.
+struct ToleratedMesh {
+  std::string text;  // as given
+  Tolerance tolerance;
+  std::filesystem::path output;
+};
+
+// The tolerances of --max-error, between commas. Where there are several, each has the output's
+// name with the tolerance behind its stem (part-0.1pct.ply). Throws Error.
+std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
+                                            const std::filesystem::path& output);
+
+}  // namespace emax
