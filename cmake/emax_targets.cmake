@@ -23,6 +23,14 @@ function(emax_flags target)
   endif()
 endfunction()
 
+# emax_compile_quickly(<target>...): for code whose speed nobody notices. In Release it takes two
+# thirds of the time that -O3 takes to compile.
+function(emax_compile_quickly)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
+
 # emax_export_room(<target> <scope> <room>): lets users of <target> include "<room>/...", and the
 # room's public headers, those in its folder emax/, as <emax/...>, as they are installed.
 function(emax_export_room target scope room)
@@ -87,6 +95,7 @@ function(emax_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   emax_flags(${name})
+  emax_compile_quickly(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
   set(filter)
   if(ARG_FAULTS)

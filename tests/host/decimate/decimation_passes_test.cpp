@@ -1,0 +1,145 @@
+#include "host/decimate/decimation_passes.h"
+
+#include <gtest/gtest.h>
+
+#include "host/geometry/mesh_validity.h"
+#include "tests/host/support/surfaces.h"
+
+namespace emax::test {
+namespace {
+
+// A state and passes over it, of a mesh whose own vertices are the cloud unless one is given.
+struct Bench {
+  Bench(const TriangleMesh& mesh, double limit, std::vector<Point> points = {})
+      : cloud(points.empty() ? mesh.vertices : std::move(points)),
+        state(mesh, cloud, nullptr, limit * limit, {}),
+        passes(state, {}, [this](double done) {
+          told.push_back(done);
+          return stop;
+        }) {}
+
+  double energy() const {
+    double sum = 0;
+    for (std::uint32_t p = 0; p < cloud.size(); ++p) {
+      const double share = state.assigned().squared_distance(p) / state.squared_limit();
+      sum += share * share;
+    }
+    return sum;
+  }
+  void expect_all_within() const {
+    for (std::uint32_t p = 0; p < cloud.size(); ++p) {
+      ASSERT_LE(state.assigned().squared_distance(p), state.squared_limit()) << p;
+    }
+    EXPECT_TRUE(check_mesh(state.mesh().compact().view()).valid());
+  }
+
+  std::vector<Point> cloud;
+  std::vector<double> told;
+  bool stop = false;
+  DecimationState state;
+  DecimationPasses passes;
+};
+
+// Four corners, two of them raised, and the diagonal between the others.
+TriangleMesh saddle() {
+  return {{{0, 0, 0}, {1, 0, 0.2}, {1, 1, 0}, {0, 1, 0.2}}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+// Each collapse takes a vertex, and two triangles of a closed mesh.
+TEST(DecimationPasses, CollapsesLeaveACubeItsCorners) {
+  Bench bench(cube(4), 1e-3);
+  const std::size_t vertices = bench.cloud.size();
+  EXPECT_EQ(bench.passes.collapse(), vertices - 8);
+  EXPECT_EQ(bench.state.mesh().triangles(), 12u);
+  bench.expect_all_within();
+  EXPECT_EQ(bench.passes.collapse(), 0u);
+}
+
+TEST(DecimationPasses, SweepsCollapseFarBelowTheLimit) {
+  Bench bench(bumpy(30, 50), 0.02);
+  const std::size_t before = bench.state.mesh().triangles();
+  const std::size_t swept = bench.passes.sweep();
+  EXPECT_GT(swept, 100u);
+  EXPECT_EQ(bench.state.mesh().triangles(), before - 2 * swept);
+  bench.expect_all_within();
+}
+
+// The point lies on the other diagonal.
+TEST(DecimationPasses, AFlipTurnsTheEdgeThatMissesThePoints) {
+  TriangleMesh mesh = saddle();
+  std::vector<Point> cloud = mesh.vertices;
+  cloud.emplace_back(0.5, 0.5, 0.2);
+  Bench bench(mesh, 0.3, cloud);
+  EXPECT_GT(bench.energy(), 0.01);
+  EXPECT_EQ(bench.passes.flip(4), 1u);
+  EXPECT_LT(bench.energy(), 1e-12);
+  EXPECT_EQ(bench.passes.flip(4), 0u);
+}
+
+TEST(DecimationPasses, NoEdgeIsTurnedForNothing) {
+  Bench bench(saddle(), 0.3);
+  EXPECT_EQ(bench.passes.flip(4), 0u);
+}
+
+// The apex of a pyramid stands too low for the points of its sides.
+TEST(DecimationPasses, ARelocationMovesAVertexToItsPoints) {
+  const auto pyramid = [](double height) {
+    return TriangleMesh{{{0, 0, height}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+  };
+  std::vector<Point> cloud;
+  const TriangleMesh scanned = pyramid(0.5);
+  for (const Triangle& t : scanned.triangles) {
+    const auto at = [&](std::size_t i) { return scanned.vertices[t[i]]; };
+    cloud.push_back((at(0) + at(1) + at(2)) / 3);
+    cloud.push_back(0.5 * (at(0) + at(1)));
+  }
+  cloud.insert(cloud.end(), scanned.vertices.begin() + 1, scanned.vertices.end());
+  Bench bench(pyramid(0.4), 0.2, cloud);
+  const double before = bench.energy();
+  EXPECT_GT(bench.passes.relocate(4), 0u);
+  EXPECT_LT(bench.energy(), 0.01 * before);
+  EXPECT_NEAR(bench.state.mesh().position(0).z(), 0.5, 0.02);
+  bench.expect_all_within();
+}
+
+// A cube's corner cannot go within so little, and what was tried is taken back.
+TEST(DecimationPasses, ATrialThatCannotBeMendedLeavesTheMeshAsItWas) {
+  Bench bench(cube(1), 1e-3);
+  const TriangleMesh before = bench.state.mesh().compact();
+  EXPECT_EQ(bench.passes.collapse_and_mend(), 0u);
+  EXPECT_TRUE(same_bytes(bench.state.mesh().compact(), before));
+  bench.expect_all_within();
+}
+
+TEST(DecimationPasses, MendingCollapsesWhatCollapsesAloneCannot) {
+  Bench bench(bumpy(30, 50), 0.02);
+  bench.passes.sweep();
+  bench.passes.collapse();
+  const std::size_t before = bench.state.mesh().triangles();
+  bench.state.reassign();
+  const std::size_t mended = bench.passes.collapse_and_mend();
+  EXPECT_GT(mended, 0u);
+  EXPECT_EQ(bench.state.mesh().triangles(), before - 2 * mended);
+  bench.expect_all_within();
+}
+
+TEST(DecimationPasses, TellHowFarTheyAreAndEndWhenToldTo) {
+  Bench whole(bumpy(30, 50), 0.02);
+  whole.passes.collapse();
+  ASSERT_GT(whole.told.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(whole.told.begin(), whole.told.end()));
+  EXPECT_GE(whole.told.front(), 0);
+  EXPECT_LE(whole.told.back(), 1);
+  EXPECT_FALSE(whole.passes.stopped());
+
+  Bench ended(bumpy(30, 50), 0.02);
+  ended.stop = true;
+  EXPECT_EQ(ended.passes.collapse(), 0u);
+  EXPECT_TRUE(ended.passes.stopped());
+  EXPECT_EQ(ended.told.size(), 1u);
+  ended.expect_all_within();
+}
+
+}  // namespace
+}  // namespace emax::test
