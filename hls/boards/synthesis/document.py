@@ -4,15 +4,21 @@ INTRODUCTION = """# Synthesis
 
 Written by `./dev synth`; never edit. Tools: {tools}.
 
-Measured: for ECP5 everything below is mapped by Yosys, placed and routed by nextpnr, and the clock is
-nextpnr's static timing over the worst corner of speed grade 6. Each design sits in a shell of serial
-shift registers, so that pins do not limit it; the shell's cells are subtracted. For 7-series and
-UltraScale+ Yosys maps and counts; nothing is placed, so there is no clock.
+Measured: for ECP5 Yosys maps every design below, and nextpnr places and routes it. The clock is nextpnr's
+static timing over the worst corner of speed grade 6. Each design sits in a shell of serial shift
+registers, so that pins do not limit it; the shell's cells are subtracted. For 7-series and UltraScale+
+Yosys maps and counts; nothing is placed, so there is no clock.
 
 Not measured: a bitstream on a board, power, temperature, and what the vendors' own tools would give.
 
-LUT: what nextpnr counts as LUT4, carry chains and LUT RAM included; cells: the TRELLIS_COMB cells that
-these occupy with what only passes through (7-series and UltraScale+: LUTs, SRLs and LUT RAM in LUTs). FF: flip-flops. DSP: MULT18X18D (DSP48E1, DSP48E2). RAM: block RAMs.
+| column | ECP5 | 7-series and UltraScale+ |
+|--------|------|--------------------------|
+| LUT    | what nextpnr counts as LUT4, carry chains and LUT RAM included | LUTs, SRLs and LUT RAM in LUTs |
+| cells  | the TRELLIS_COMB cells that these occupy, those that only pass a signal on included | – |
+| FF     | flip-flops | flip-flops |
+| DSP    | MULT18X18D | DSP48E1, DSP48E2 |
+| RAM    | block RAMs | block RAMs |
+
 `./dev synth` fails when a figure is worse than `hls/boards/synthesis_baseline.json` by more than its
 tolerance: {tolerances}.
 """
@@ -24,10 +30,10 @@ SECTIONS = {
                 "emax_element with 16 record slots. Seeds are tried in order until one meets the target."),
     "operators": ("Operators on ECP5-85F, speed 6", "Binary32, at the latencies of the generated datapath; one seed."),
     "forms": ("Forms of the distance on ECP5-85F, speed 6",
-              "The same lowering, the same operators: datapath and record memory alone, one seed."),
+              "Datapath and record memory of each form alone, with the same lowering and the same operators; one seed."),
     "xilinx": ("7-series and UltraScale+, counted by Yosys",
-               "Product, inputs: DSP blocks in which Yosys placed a register behind the multiplier (MREG or PREG),"
-               " and at both inputs (AREG and BREG); the others' registers are outside the block."),
+               "\"product\" counts the DSP blocks in which Yosys placed a register behind the multiplier (MREG or PREG),"
+               " \"inputs\" those with registers at both inputs (AREG and BREG). The other registers are outside the block."),
 }
 
 
@@ -90,8 +96,8 @@ def tables(results):
 
 DRIVEN = """## What was driven
 
-A netlist is what Yosys made of the sources, the one that was placed or counted. Before this page was
-written these were simulated and driven with the stimuli of the sources' co-simulation:
+A netlist is what Yosys made of the sources; it is the one that was placed or counted. Before this page was
+written these netlists were simulated with the stimuli of the sources' co-simulation:
 
 {table}
 
