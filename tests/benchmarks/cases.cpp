@@ -112,9 +112,9 @@ std::vector<SequenceCase> sequence_cases(const CaseFolders& folders, bool quick)
   std::vector<SequenceCase> cases;
   const auto add = [&](const std::string& name, std::vector<Point> cloud, double least) {
     SequenceCase made{name,
-                      fmt::format("the points of the {} against {} meshes from one greedy "
-                                  "projection, as neighbouring values of Schroeder's reduction "
-                                  "decimate it",
+                      fmt::format("The points of the {} against {} meshes: one greedy "
+                                  "projection, decimated with neighbouring values of Schroeder's "
+                                  "reduction",
                                   name, kMeshes),
                       std::move(cloud),
                       {}};

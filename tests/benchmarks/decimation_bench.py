@@ -246,8 +246,8 @@ def third(store):
             middle, least, greatest = (100 * (1 - 1 / (1 + share)) for share in result["share"])
             told.append(f"{scan} at {percent:g} % {middle:.0f} % ({least:.0f}–{greatest:.0f}) of "
                         f"{number(result['seconds'][0])} s")
-    return ("Of a two-sided call, keeping and certifying every point of the reference within ε takes (median of five "
-            "calls with and without it in turn, least–greatest): " + "; ".join(told) + ".\n") if told else ""
+    return ("The share of a two-sided call that keeping and certifying every point of the reference within ε takes "
+            "(median of five calls with and without it in turn, least–greatest): " + "; ".join(told) + ".\n") if told else ""
 
 
 def growth(store):
@@ -273,12 +273,12 @@ def machine():
 
 
 EXPLAINED = """\
-Written by `./dev bench --decimate`. The fewest triangles such that every point of the cloud is within ε of the mesh
-(one-sided, e_max). emax is called once, and its certificate is in its time. Every peer is bisected over its own
-parameter, a number of triangles or its own bound, to the fewest triangles whose e_max, by our engine, is within the
-same ε; several sets of options are tried, and the best is told. CGAL's AABB-tree confirms e_max of every result. All
-start from the same mesh: manifold and free of self-intersections, with points farther than ε/2 joined to it, as emax
-starts; what that takes is in no time here.
+Written by `./dev bench --decimate`. The table has the fewest triangles such that every point of the cloud is within ε
+of the mesh (one-sided, e_max). emax is called once, and its time includes its certificate. For every peer a bisection
+over the peer's own parameter, a number of triangles or a bound, finds the fewest triangles whose e_max, by our engine,
+is within the same ε. Several sets of options are tried, and the table has the best. CGAL's AABB-tree confirms e_max of
+every result. All tools start from the mesh that emax starts from: manifold and free of self-intersections, with points
+farther than ε/2 joined to it. No time here includes the making of that mesh.
 """
 
 
@@ -287,10 +287,11 @@ COLUMNS = """\
 
 Written by `./dev bench --decimate`; [benchmarks.md](benchmarks.md#decimation) says how it is measured.
 
-Back: the greatest distance from any point of the result to that start, which two-sided emax holds to ε too and the
-others do not bound. From sharp edges: the greatest distance from an edge of the start that turns by more than 40° to
-one of the result that turns by more than 25°. "s" is the call that gave the result, "all calls" the whole bisection
-with these options. Time of the processor, one thread.
+- "back": the greatest distance from any point of the result to the mesh it started from. Two-sided emax keeps it within
+  ε too; the other tools do not bound it.
+- "from sharp edges": the greatest distance from an edge of the start that turns by more than 40° to an edge of the
+  result that turns by more than 25°.
+- "s": the call that gave the result. "s, all calls": the whole bisection with these options. Processor time, one thread.
 """
 
 
@@ -299,8 +300,9 @@ def details(store):
     for scan, bounds in BOUNDS.items():
         parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + PEERS))]
     if succeeded(envelope := store.get(*ENVELOPE_CASES[0], ENVELOPE)):
-        parts.append(f"CGAL's polyhedral envelope, {number(envelope['seconds'])} s a call there, is measured on "
-                     f"{ENVELOPE_CASES[0][0]} alone.\n")
+        scan, percent = ENVELOPE_CASES[0]
+        parts.append(f"CGAL's polyhedral envelope takes {number(envelope['seconds'])} s a call on {scan} at {percent:g} % and "
+                     "is measured there alone.\n")
     return "\n".join(parts)
 
 
@@ -313,13 +315,13 @@ def section(store, plots):
              EXPLAINED,
              f"{machine()}; " + ", ".join(f"{name} {version}" for name, version in sorted(versions.items())) +
              f"; {seconds / 60:.0f} minutes of the tools' own time in all.\n",
-             "Triangles, and in brackets against the best peer's, which is one-sided in every row:\n", summary(store), missing(store)]
+             "Triangles; in brackets the difference from the best peer, whose result is one-sided in every row:\n", summary(store), missing(store)]
     parts += [f"![{plot['title']}](plots/{plot['name']}.svg)" for plot in plots]
     if plots:
         parts.append("")
     if told := growth(store):
-        parts.append(f"Time by points: one call on a torus with little noise, ε {POINTS_PERCENT} % of the width; the "
-                     f"peers go to 2000 triangles, OpenMesh to its own bound of ε. {told}")
+        parts.append(f"Time by points: one call on a torus with little noise, ε = {POINTS_PERCENT} % of the width. The "
+                     f"peers decimate to 2000 triangles, OpenMesh to its own bound of ε. {told}")
     if told := third(store):
         parts.append(told)
     parts.append(f"Every tool in every case: [{DETAILS}]({DETAILS}).\n")

@@ -76,8 +76,8 @@ void add_batch_group(Groups& groups, const Sequence& s) {
   Group& group =
       groups.emplace_back("The same meshes as a batch, " + s.given.name, "ms a mesh", 1e3);
   group.describe(
-      "Prepared and queried, a mesh a thread. By the clock on the wall, so that other work on the "
-      "machine shows.");
+      "Each mesh is prepared and queried by one thread. Wall-clock time, in which other work on "
+      "the machine shows.");
   for (const std::size_t threads : {1u, 2u}) {
     EngineOptions options;
     options.threads = threads;
@@ -94,9 +94,9 @@ void add_sequence_groups(Groups& groups, const CaseFolders& folders, bool quick)
   for (SequenceCase& made : sequence_cases(folders, quick)) {
     Sequence& s = sequences.emplace_back(std::move(made));
     Group& group = groups.emplace_back("A sequence of meshes, " + s.given.name, "ms a mesh", 1e3);
-    group.describe(fmt::format("{}, {} to {} triangles. Warm, the first follows the last.",
-                               s.given.text, s.given.meshes.front().triangles.size(),
-                               s.given.meshes.back().triangles.size()));
+    group.describe(fmt::format(
+        "{}, {} to {} triangles. In the warm row the first mesh follows the last.", s.given.text,
+        s.given.meshes.front().triangles.size(), s.given.meshes.back().triangles.size()));
     const auto amount = static_cast<double>(s.meshes.size());
     group.add("e_max, query, cold", amount, repeat([&s] {
                 std::uint32_t bits = 0;
@@ -138,7 +138,7 @@ void add_thread_groups(Groups& groups, const CaseFolders& folders) {
   static Engine one(cloud), two(cloud, {2});
   const auto add = [&](const std::string& title, auto ask) {
     Group& group = groups.emplace_back("Threads, dragon-99k: " + title, "ms", 1e3);
-    group.describe("By the clock on the wall, so that other work on the machine shows.");
+    group.describe("Wall-clock time, in which other work on the machine shows.");
     for (Engine* engine : {&one, &two}) {
       group.add(engine == &one ? "one thread" : "two threads", 1, repeat([engine, ask] {
                   engine->forget();

@@ -92,9 +92,9 @@ def main(python):
     pymeshlab = subprocess.run([python, "-m", "pip", "show", "pymeshlab"], check=True, capture_output=True, text=True)
     sections.put("error", "\n".join([
         "## `emax error` beside other tools\n",
-        "Written by `./dev bench --error`: the greatest distance of a cloud's points from a mesh, a whole command from "
-        "start to end with the files read, wall time; `emax error` also certifies it, checks the mesh and prints mean, "
-        f"quantiles, histogram and worst points. Median of {ROUNDS} rounds in turns, the ratio to `emax error` with the "
-        f"least and the greatest. CloudCompare {version('cloudcompare')}, whose command line does not tell the maximum; "
+        "Written by `./dev bench --error`: the greatest distance of a cloud's points from a mesh. Wall time of the whole "
+        "command, reading the files included. `emax error` also certifies the distance, checks the mesh and prints mean, "
+        f"quantiles, histogram and worst points. The tools take turns for {ROUNDS} rounds; the time is the median, the ratio "
+        f"to `emax error` the median with the least and the greatest. CloudCompare {version('cloudcompare')}, whose command line does not tell the maximum; "
         f"pymeshlab {re.search(r'Version: (.*)', pymeshlab.stdout)[1]}.\n",
         "| case | tool | maximum | s | of `emax error` |", "|---|---|---:|---:|---:|", *lines, ""]))

@@ -148,12 +148,13 @@ void add_pair_groups(Groups& groups) {
   add_group(groups, at_random, "random order");
   groups.back().describe(fmt::format(
       "{} points by {} triangles of a bumpy sphere, {} of them slivers. The matrix-free ways start "
-      "from the corners, the others from what is made of a triangle beforehand. One call a pair, "
-      "so that the choices between edges become branches, except with a SIMD target: there the "
-      "kernel's source is vectorised over points, without branches.",
+      "from the corners, the others from a record that is made of each triangle beforehand. Each "
+      "pair is one call, so that the choices between edges become branches. With a SIMD target the "
+      "kernel's source is vectorised over points instead, without branches.",
       kPoints, kTriangles, kSlivers));
   add_group(groups, neighbours, "order of neighbourhood");
-  groups.back().describe("The same pairs; points that follow each other mostly branch alike.");
+  groups.back().describe(
+      "The same pairs as above. Points that follow each other mostly take the same branches.");
 }
 
 }  // namespace emax::benchmarks

@@ -67,12 +67,14 @@ std::string fastest_peer(const Group& group) {
 constexpr std::string_view kSummary = R"(
 ## e_max against the peers
 
-A mesh that was never seen before: build and query, the cloud prepared beforehand. "Exact": how many
-times as long as our e_max the fastest exact peer takes, that is CGAL, Embree, Open3D or FCPW in its
-best mode; each gives every point's distance. "Early stop": the same for Embree when it stops early
-on its way to the maximum, as we do. "Every point": how many times as long as our own exact distance
-of every point the fastest exact peer takes. Medians of the rounds' ratios, in brackets the least and
-the greatest. The mean is the geometric one over the scans.
+Build and query for a mesh that was never seen before; the cloud is prepared beforehand. "ms" is our
+e_max. The other columns are ratios of times: medians over the rounds, in brackets the least and the
+greatest. The mean is the geometric mean over the scans.
+
+- "Exact": the fastest exact peer over our e_max. The peers are CGAL, Embree, Open3D and FCPW, each in
+  its best mode; each gives every point's distance.
+- "Early stop": Embree, when it stops early on its way to the maximum as we do, over our e_max.
+- "Every point": the fastest exact peer over our own exact distance of every point.
 
 | case | points | triangles | e_max of width | ms | fastest exact peer | exact | early stop | every point |
 |---|---:|---:|---:|---:|---|---:|---:|---:|
@@ -104,10 +106,10 @@ void write_summary(std::ostream& out, std::span<const SearchGroup> searches) {
       exact_here.add(search.group->speedups(cold_way(target.name)));
       stopped_here.add(search.group->ratios(kEarlyStop, cold_way(target.name)));
     }
-    out << fmt::format("\nThe means with {} only: exact {}, early stop {}.\n", target.name,
+    out << fmt::format("\nThe means with {} alone: exact {}, early stop {}.\n", target.name,
                        exact_here.mean(), stopped_here.mean());
   }
-  out << "\nBytes that the engine keeps, a point of the cloud and a triangle of the mesh:";
+  out << "\nBytes that the engine keeps for a point of the cloud and for a triangle of the mesh:";
   for (const SearchGroup& search : searches) {
     out << fmt::format(" {} {:.1f} and {:.0f};", search.name, search.bytes_per_point,
                        search.bytes_per_triangle);
@@ -130,11 +132,11 @@ void write_claim(std::ostream& out, const Group& at_random, const Group& in_a_ro
   const std::string best(simd_targets().front().name());
   out << fmt::format(
       "\n## The paper's claim\n\n"
-      "The paper (section 4) has \"computation times 94% lower than a matrix-free approach\"; "
-      "measured here against Ericson's form in float, points in random order (in brackets: "
-      "neighbours in a row), the time of a pair changes by {} with the paper's literal (u, v) "
-      "form and {} with the visible-edge form when called pair by pair, and by {} with the "
-      "visible-edge form vectorised over points ({}).\n",
+      "The paper (section 4) has \"computation times 94% lower than a matrix-free approach\". Here "
+      "the matrix-free approach is Ericson's form in float, with points in random order (in "
+      "brackets: neighbours in a row). Called pair by pair, the time of a pair changes by {} with "
+      "the paper's literal (u, v) form and by {} with the visible-edge form. It changes by {} with "
+      "the visible-edge form vectorised over points ({}).\n",
       change(at_random, in_a_row, kLiteral), change(at_random, in_a_row, kVisibleEdge),
       change(at_random, in_a_row, simd_way(best)), best);
 }
@@ -156,7 +158,7 @@ std::string report(const Results& results) {
       "is the median of the rounds' own ratios.\n",
       results.rounds);
   if (!results.searches.empty()) write_summary(out, results.searches);
-  if (!results.curves.empty()) out << "\n## Scaling\n\nOf the tables below.\n\n";
+  if (!results.curves.empty()) out << "\n## Scaling\n\nPlots of the tables below.\n\n";
   for (const Curve& curve : results.curves) {
     out << fmt::format("![{} by {}](plots/{}.svg)\n", curve.unit, curve.axis, curve.name);
   }

@@ -253,23 +253,23 @@ def published(store):
 
 
 EXPLAINED = f"""\
-Written by `./dev bench --search`. Every evaluation is charged. On functions: g01 to g11 and a staircase shaped like the \
-real job, {SEEDS} runs each, beside pagmo's gaco and cstrs_self_adaptive and NLopt's ISRES and COBYLA; tied: within \
-1e-4·max(1, |f*|) of the best peer's median. [{DETAILS}]({DETAILS}) has every \
-median, each strategy left out, and the published setting.
+Written by `./dev bench --search`. Every evaluation counts. The functions are g01 to g11 and a staircase shaped \
+like the real job, with {SEEDS} runs each, beside pagmo's gaco and cstrs_self_adaptive and NLopt's ISRES and \
+COBYLA. "Tied" is within 1e-4·max(1, |f*|) of the best peer's median. [{DETAILS}]({DETAILS}) has every median, \
+each strategy left out, and the published setting.
 """
 
 SCANS_EXPLAINED = f"""\
-Written by `./dev bench --search`: the paper's chain (greedy projection, holes filled, Schroeder's decimation, bounded \
-on the points), {SCAN_BUDGET} evaluations one after the other, {SCAN_SEEDS} runs unless said; median of the least triangles \
-within the bound, in brackets the least and the greatest. The name says scan and ε in percent of the width; of the \
-building 0.5 % of the points may be excluded. All begin with the standard values. [{DETAILS}]({DETAILS}) has each \
-strategy left out.
+Written by `./dev bench --search`: the paper's chain (greedy projection, holes filled, Schroeder's decimation, \
+bounded on the points). Each search has {SCAN_BUDGET} evaluations, one after the other, in {SCAN_SEEDS} runs \
+unless said. The table has the median of the least triangles within the bound, in brackets the least and the \
+greatest. A name gives the scan and ε in percent of the width; of the building 0.5 % of the points may be \
+excluded. All searches begin with the standard values. [{DETAILS}]({DETAILS}) has each strategy left out.
 """
 
 SCAN_ABLATIONS_EXPLAINED = f"""\
-Triangles after {SCAN_BUDGET} evaluations, run by run. The finish and the first phase have nothing to do there: no
-local search begins where a gene is monotone, and the standard values are feasible.
+Triangles after {SCAN_BUDGET} evaluations, run by run. The finish and the first phase have no effect there: no local
+search begins where a gene is monotone, and the standard values are feasible.
 """
 
 HEAD = f"""\
@@ -277,11 +277,13 @@ HEAD = f"""\
 
 Written by `./dev bench --search`; [benchmarks.md](benchmarks.md#search) has the summary.
 
-Median (best feasible − optimum) of {SEEDS} runs; in brackets the runs that ended feasible, where not all did; none: no
-feasible point in the median run; –: not measured. Functions as in `tests/host/genocop/benchmark_problems.h` and
-`staircase.h`, the same library for all; equalities hold within 1e-4, and a peer's inequalities within 1e-8. pagmo and
-NLopt get single constraint values, as emax does, the linear ones among them, and the staircase's start point. COBYLA
-restarts from random points. Every optimizer knows every earlier result, but for the row that looks ahead.
+A cell is the median of best feasible − optimum over {SEEDS} runs, in brackets the number of runs that ended feasible, where
+not all did. "none": no feasible point in the median run. "–": not measured.
+
+The functions are those of `tests/host/genocop/benchmark_problems.h` and `staircase.h`, in one library for all
+optimizers. Equalities hold within 1e-4, a peer's inequalities within 1e-8. pagmo and NLopt get the value of each
+constraint, linear ones included, as emax does, and the staircase's start point. COBYLA restarts from random points.
+Every optimizer knows every earlier result, except in the row that looks ahead.
 """
 
 
@@ -306,7 +308,7 @@ def functions_details(store):
 
 
 def ablations_details(store):
-    parts = ["## Each strategy left out\n", "The last rows show what replaces one part by the published one.\n"]
+    parts = ["## Each strategy left out\n", "The last rows replace one part by its published form.\n"]
     for budget in ABLATION_BUDGETS:
         parts += [f"{budget} evaluations:\n", table(store, ["emax"] + ABLATIONS, budget)]
     return "\n".join(parts)
@@ -314,7 +316,7 @@ def ablations_details(store):
 
 def published_details(store):
     return "\n".join(["## The published Genocop III\n",
-                      f"`Settings::original()`, {ORIGINAL_BUDGET} evaluations, a first feasible point found by the first phase.\n",
+                      f"`Settings::original()`, {ORIGINAL_BUDGET} evaluations; the first phase finds the first feasible point.\n",
                       published(store)])
 
 

@@ -95,7 +95,7 @@ std::string compare(Prepared& p) {
   require("Embree", std::sqrt(p.embree.greatest_squared_distance(Mode::kHints)), tolerance);
   require("Embree with early stop", std::sqrt(p.embree.greatest_with_early_stop()), tolerance);
   if (std::abs(ours - exact) <= kAgreement) return {};
-  return fmt::format(" Embree's e_max, with Ericson's form in float, is {:+.2g} of e_max off.",
+  return fmt::format(" Embree's e_max, with Ericson's form in float, differs by {:+.2g} of e_max.",
                      exact / ours - 1);
 }
 
