@@ -2,18 +2,21 @@
 
 namespace emax {
 
-// What tests break on purpose, to show that a check sees it.
+// Faults that tests switch on, to show that a check sees them.
 enum class Fault {
   kNone,
-  kSearchWithoutMargin,  // of e_max in blocks: lower bounds are taken as exact
-  kSearchDropsTies,      // and groups that could hold a lower index are dropped
-  kCutsWithoutMargin,    // of the distance between surfaces: the rounding of cuts is forgotten
-  kNearestOfEachCorner,  // and a bound is taken from each corner's own nearest triangle
-  kStopsEarly,           // and the search ends after the first cut
-  kSkipsPoints,          // of the decimator: points may be beyond the limit
-  kSkipsBackBound,       // the mesh may leave the reference
-  kSkipsReference,       // the reference may leave the mesh
-  kSkipsIntersections,   // triangles may meet
+  // In the search for e_max in blocks.
+  kSearchWithoutMargin,  // lower bounds are taken as exact
+  kSearchDropsTies,      // groups that could hold a lower index are dropped
+  // In the distance between surfaces.
+  kCutsWithoutMargin,    // the rounding of cuts is not added
+  kNearestOfEachCorner,  // a bound is taken from each corner's own nearest triangle
+  kStopsEarly,           // the search ends after the first cut
+  // In the decimator.
+  kSkipsPoints,         // points may be beyond the limit
+  kSkipsBackBound,      // the mesh may leave the reference
+  kSkipsReference,      // the reference may leave the mesh
+  kSkipsIntersections,  // triangles may meet
 };
 
 #ifdef EMAX_DELIBERATE_FAULTS
@@ -22,11 +25,11 @@ enum class Fault {
 #define EMAX_FAULT(name) false
 #endif
 
-// Read by code that is compiled with EMAX_DELIBERATE_FAULTS, which tests alone link; for everything
-// else EMAX_FAULT is false.
+// Only code that is compiled with EMAX_DELIBERATE_FAULTS reads this, and only tests link that code.
+// Everywhere else EMAX_FAULT is false.
 inline Fault deliberate_fault = Fault::kNone;
 
-// The fault is there while this lives.
+// The fault is switched on while this object lives.
 class DeliberateFault {
  public:
   explicit DeliberateFault(Fault fault) { deliberate_fault = fault; }

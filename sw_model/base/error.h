@@ -4,13 +4,13 @@
 
 namespace emax {
 
-// The device is at fault and not the work: whatever is asked of it next fails too.
+// The device is at fault, not the work: every later request to it fails too.
 class DeviceFailure : public Error {
  public:
   using Error::Error;
 };
 
-// Thrown out of work whose caller asked it to end.
+// Thrown by work whose caller asked it to end.
 struct Interrupted {};
 
 }  // namespace emax

@@ -10,7 +10,7 @@
 
 namespace emax {
 
-// Whether this thread's floating point flushes subnormals (results or operands). The flag reaches
+// Whether this thread's floating point flushes subnormals (results or operands). The flag acts on
 // doubles too, so frames, oracle and certificate require it off and only kernel calls turn it on.
 inline bool flush_mode_is_on() {
 #if defined(__SSE2__)
@@ -24,7 +24,7 @@ inline bool flush_mode_is_on() {
 #endif
 }
 
-// Flushes subnormal operands and results of this thread while it lives.
+// While this object lives, subnormal operands and results of this thread are flushed.
 class ScopedFlushMode {
  public:
 #if defined(__SSE2__)
@@ -51,7 +51,7 @@ class ScopedFlushMode {
   ScopedFlushMode& operator=(const ScopedFlushMode&) = delete;
 };
 
-// Throws std::logic_error where flushing is on and the named work must not be flushed.
+// Throws std::logic_error while flushing is on. `work` names what must not be flushed.
 void require_no_flush(const char* work);
 
 }  // namespace emax

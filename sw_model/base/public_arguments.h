@@ -9,9 +9,10 @@
 
 namespace emax {
 
-// The arguments of public functions as the libraries take them, judged: Error names the argument.
+// Checks the arguments of public functions and copies them to the types of the libraries. Error
+// names the argument.
 
-// Throws Error where numbers are missing or not finite, or where there is no point.
+// Throws Error for missing numbers, numbers that are not finite, and no points.
 std::vector<Point> checked_points(Coordinates coordinates, std::string_view name);
 
 struct OwnedSurface {
@@ -19,7 +20,7 @@ struct OwnedSurface {
   std::vector<Triangle> triangles;
   MeshView view() const { return {vertices, triangles}; }
 };
-// Throws Error likewise, for no triangle, and for an index out of range.
+// Throws Error as above, for no triangles, and for an index out of range.
 OwnedSurface checked_surface(SurfaceSpan surface, std::string_view name);
 
 Surface as_public(MeshView mesh);

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> along_a_curve(std::span<const Point> cloud,
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  constexpr double kCells = 1023;  // on each side, and one for the end
+  constexpr double kCells = 1023;  // on each axis; the greatest coordinate has a cell of its own
   const double width = (high - low).maxCoeff();
   const double scale = width > 0 ? kCells / width : 0;
   std::vector<std::uint64_t> keys;
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> along_a_curve(std::span<const Point> cloud,
   return order;
 }
 
-// The greatest distance and, of those that have it, the lowest index.
+// The greatest distance so far, and the lowest index of a point that has it.
 struct Worst {
   double upper = -1;
   std::size_t point = std::numeric_limits<std::size_t>::max();
@@ -120,7 +120,7 @@ CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
   if (result.points == 0) throw Error("no point is left to certify: give a cloud, exclude less");
 
   result.worst_point = worst_of(cloud, along_a_curve(cloud, is_excluded), mesh, threads).point;
-  // Once more and on its own, as the lower end depends on what a search looked at.
+  // Computed once more without a seed: the lower end depends on the triangles that a search met.
   const DistanceBounds distance = mesh.distance(cloud[result.worst_point]);
   result.e_max_upper = distance.upper;
   result.e_max_lower = distance.lower;

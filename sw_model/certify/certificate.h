@@ -16,10 +16,10 @@ struct CertifiedError {
   double e_max_upper = 0;
   double e_max_lower = 0;       // e_max is at least this; the two differ by rounding alone
   std::size_t worst_point = 0;  // lowest index of a kept point that attains e_max_upper
-  std::size_t points = 0;       // kept
+  std::size_t points = 0;       // number of kept points
 
   std::vector<std::uint32_t> excluded;     // as given
-  std::vector<double> excluded_distances;  // outward, in that order
+  std::vector<double> excluded_distances;  // rounded outward, in the order of `excluded`
   double e_max_upper_all = 0;              // over the kept and the excluded
 
   bool within(double epsilon) const { return e_max_upper <= epsilon; }

@@ -29,9 +29,10 @@ Point combine(const std::array<Point, 3>& from_p, const Weights& w) {
   return w[0] * from_p[0] + w[1] * from_p[1] + w[2] * from_p[2];
 }
 
-// Where the foot of the perpendicular falls inside the triangle. V0V1 is the longest edge. The apex
-// weight comes from what is left across that edge, and the position along it afterwards, so that a
-// sliver moves the foot by a rounding of its length and not by length / height times that.
+// Whether the foot of the perpendicular falls inside the triangle; then its weights. V0V1 is the
+// longest edge. The weight of the apex is computed from the part of P across that edge, and the
+// position along the edge afterwards. In a sliver the foot then errs by a rounding of the length
+// alone, and not by length / height times that.
 bool foot_inside(const Point& to_p, const Point& edge, const Point& to_apex, Weights& weights) {
   const double edge_squared = edge.squaredNorm();
   if (!(edge_squared > 0)) return false;
@@ -124,8 +125,8 @@ DistanceBounds bounds(const Point& p, const std::array<Point, 3>& corners) {
   return {std::max(lower, 0.0), std::nextafter(upper, kInfinity)};
 }
 
-// Whether the triangle is proven to be farther than `upper`, for a fifth of what `bounds` costs: no
-// where that is not plain. The direction is guessed; for any direction the bound below holds.
+// True only where the triangle is proven to be farther than `upper`; costs a fifth of `bounds`. The
+// direction is guessed: the bound holds for any direction, and a bad guess only gives false.
 bool is_farther(const Point& p, const std::array<Point, 3>& corners, double upper) {
   const Point direction = -ericson_offset(p, corners[0], corners[1], corners[2]);
   double support = kInfinity, size = 0;
@@ -228,7 +229,7 @@ DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) co
 
 bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) const {
   const std::array<Point, 3>& corners = corners_[place_of_.at(triangle)];
-  // docs/numerics.md, "The oracle's rounding": then no rounding leads to an upper end beyond it.
+  // docs/numerics.md, "The oracle's rounding": such a corner keeps the upper end within the limit.
   if (limit > 0x1p-400 && limit < 0x1p400) {
     double nearest = kInfinity, farthest = 0;
     for (const Point& corner : corners) {

@@ -9,8 +9,8 @@
 
 namespace emax {
 
-// An interval that holds the exact distance between its arguments, both ends proven. Its width is a
-// few units in the last place of |P - V| plus the triangle's size, wherever the coordinates lie.
+// A proven interval that holds an exact distance. Its width is a few units in the last place of
+// |P - V| plus the triangle's size, wherever the coordinates lie.
 struct DistanceBounds {
   double lower, upper;
 };
@@ -56,15 +56,15 @@ class ExactMesh {
   // Bounds of the distance to one triangle of the mesh.
   DistanceBounds distance_to(const Point& p, std::uint32_t triangle) const;
 
-  // distance_to(p, triangle).upper <= limit, mostly for less: a corner of the triangle that is
-  // plainly within the limit shows it, too.
+  // distance_to(p, triangle).upper <= limit, mostly without computing that distance: a corner that
+  // is well within the limit is enough.
   bool is_within(const Point& p, std::uint32_t triangle, double limit) const;
 
  private:
   struct Node {
     Point low, high;
-    std::uint32_t begin, end;  // of the leaf's triangles, or
-    std::uint32_t right;       // the right child; the left one follows its parent. 0 in a leaf.
+    std::uint32_t begin, end;  // in a leaf: its triangles
+    std::uint32_t right;       // the right child, 0 in a leaf; the left child follows its parent
   };
 
   struct Centre {
@@ -74,8 +74,8 @@ class ExactMesh {
   std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Centre>& centres);
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;     // triangle of each place in the leaves
-  std::vector<std::uint32_t> place_of_;  // and its inverse
+  std::vector<std::uint32_t> order_;     // the triangle at each place in the leaves
+  std::vector<std::uint32_t> place_of_;  // the place of each triangle
   std::vector<std::array<Point, 3>> corners_;
 };
 

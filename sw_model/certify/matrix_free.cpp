@@ -8,14 +8,14 @@ namespace {
 template <class Scalar>
 using Vector = Eigen::Matrix<Scalar, 3, 1>;
 
-// numerator / denominator kept to [0, 1], where 0 < denominator; the division only where needed.
+// numerator / denominator clamped to [0, 1], for denominator > 0; divides only inside that range.
 template <class Scalar>
 Scalar clamped_ratio(Scalar numerator, Scalar denominator) {
   if (numerator <= 0) return 0;
   return numerator >= denominator ? Scalar(1) : numerator / denominator;
 }
 
-// In both functions that take it: a call between them would be measured.
+// Inlined into both callers: the benchmarks would measure a call.
 template <class Scalar>
 [[gnu::always_inline]] inline Vector<Scalar> offset(const Vector<Scalar>& p,
                                                     const Vector<Scalar>& a,

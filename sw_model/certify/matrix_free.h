@@ -5,9 +5,9 @@
 namespace emax {
 
 // Squared distance from a point to a triangle straight from the corners, without a frame made
-// beforehand: what the paper's transformation (section 4) is measured against. Checks and
-// benchmarks use them; what decides takes at most a guess from them that it then proves. For float
-// and double; O(1).
+// beforehand. The benchmarks compare the paper's transformation (section 4) with these functions,
+// and tests compare distances with them. The certificate takes guesses from them, which it then
+// proves. For float and double; O(1).
 
 // Ericson, "Real-Time Collision Detection" (2005), 5.1.5, ClosestPtPointTriangle, as the vector
 // from the nearest point of the triangle to p. For a degenerate triangle the result can be NaN.

@@ -20,7 +20,8 @@ constexpr std::size_t kQueriesPerPoll = 1024;
 // longest edge, so pieces shrink however they are cut.
 constexpr double kLeastPart = 1.0 / 16;
 constexpr unsigned kHalvingPeriod = 4;
-constexpr double kPlain = 1 + 1e-6;  // times a plain distance, where that one is right
+// A proven distance is at most this times the plain one, unless the plain one is wrong.
+constexpr double kPlain = 1 + 1e-6;
 
 struct Corner {
   Point point;
@@ -30,14 +31,14 @@ struct Corner {
 
 struct Piece {
   std::array<Corner, 3> corners;
-  double bound;             // no point of the mesh's triangle that this stands for is farther
-  std::uint32_t candidate;  // the triangle of the reference which shows that
+  double bound;             // of the distances of all points of the mesh that this piece stands for
+  std::uint32_t candidate;  // the triangle of the reference that proves the bound
   std::uint32_t triangle;   // of the mesh
-  std::uint16_t depth;      // cuts
+  std::uint16_t depth;      // cuts that led to this piece
   std::uint16_t worst;      // the corner farthest from the candidate
 };
 
-// What the heap moves of a piece.
+// The part of a piece that the heap moves.
 struct Rank {
   double bound;
   std::uint32_t triangle;
@@ -68,8 +69,8 @@ class Search {
 
   SurfaceDistance run() {
     begin();
-    // In a decision every piece beyond the limit is cut in the end; one triangle after the other,
-    // the farthest first, keeps to the same part of the reference.
+    // A decision cuts every piece beyond the limit in any case. Taking the triangles of the mesh
+    // one after the other, the farthest first, keeps to the same part of the reference.
     if (decides()) std::sort(open_.begin(), open_.end());
     while (!open_.empty() && (decides() || open_.front().bound > enough()) && !refuted()) {
       if (!decides()) std::pop_heap(open_.begin(), open_.end());
@@ -102,7 +103,7 @@ class Search {
       Piece piece = piece_of({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]},
                              corners[triangle[0]].nearest, t, 0);
       if (piece.bound > enough()) {
-        // A large triangle's corners say little of its middle.
+        // The corners of a large triangle tell little about its middle.
         const Point centre =
             (piece.corners[0].point + piece.corners[1].point + piece.corners[2].point) / 3;
         try_candidate(corner_at(centre, t, 1).nearest, piece);
@@ -140,8 +141,8 @@ class Search {
                                        : reference_.distance_to(corner.point, candidate);
   }
 
-  // A piece with the best of a few candidates: those of its corners and of the piece it was cut
-  // from.
+  // A piece with the best of a few candidates: the triangles nearest to its corners, and the
+  // candidate of the piece that it was cut from.
   Piece piece_of(const std::array<Corner, 3>& corners, std::uint32_t inherited,
                  std::uint32_t triangle, unsigned depth) const {
     Piece piece = {corners, kInfinity, 0, triangle, static_cast<std::uint16_t>(depth), 0};
@@ -159,7 +160,7 @@ class Search {
       }
     }
     try_candidate(likely, piece);
-    // The plain distance to a sliver may be anything.
+    // The plain distance to a sliver may be wrong; then every candidate is proven.
     if (least == kInfinity || piece.bound > least * kPlain + 16 * margin(depth + 1)) {
       for (const std::uint32_t candidate : candidates) try_candidate(candidate, piece);
     }
@@ -180,7 +181,8 @@ class Search {
            scale_;
   }
 
-  // Not proven, for a tenth of the cost. Something beyond `least` where it is that.
+  // The plain distance of the farthest corner, for a tenth of the cost of a proven one; infinity
+  // where it is not below `least`.
   double farthest_corner(const std::array<Corner, 3>& corners, std::uint32_t candidate,
                          double least) const {
     double farthest = 0;
@@ -248,7 +250,8 @@ class Search {
     cut_from_corner(piece, static_cast<std::size_t>(longest - squared.begin()), 0.5);
   }
 
-  // Where the candidate and the triangle nearest to the worst corner are equally far, by secants.
+  // Cuts where the candidate and the triangle nearest to the worst corner are equally far, by
+  // secants.
   bool cut_between_candidates(const Piece& piece) {
     const std::uint32_t other = piece.corners[piece.worst].nearest;
     std::array<double, 3> excess;
@@ -256,7 +259,7 @@ class Search {
     for (std::size_t k = 0; k < 3; ++k) {
       const double difference = likely_distance(piece.corners[k], piece.candidate) -
                                 likely_distance(piece.corners[k], other);
-      // A corner on the border of the two is there but for roundings.
+      // Such a small difference is rounding: the corner is equally far from both.
       excess[k] = std::abs(difference) > 4 * rounding_ ? difference : 0;
       above += excess[k] > 0 ? 1 : 0;
       below += excess[k] < 0 ? 1 : 0;
@@ -316,7 +319,7 @@ class Search {
   double settled_ = -1;  // the greatest bound of the pieces that need no cut
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> free_;  // places in pieces_
-  std::vector<Rank> open_;           // the others: a heap, in a decision a stack
+  std::vector<Rank> open_;           // pieces to cut: a heap, in a decision a stack
 };
 
 }  // namespace

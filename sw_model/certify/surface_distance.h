@@ -11,13 +11,13 @@
 
 namespace emax {
 
-// The other direction: the greatest distance from any point of a mesh, the inside of its triangles
-// included, to a reference, as an interval of which both ends are proven. In the coordinates and
-// the unit of the input, rounded outward, and independent of the kernel (docs/numerics.md).
+// The greatest distance from any point of a mesh, the inside of its triangles included, to a
+// reference, as an interval of which both ends are proven. In the coordinates and the unit of the
+// input, rounded outward, and independent of the kernel (docs/numerics.md).
 struct SurfaceDistance {
   double lower = 0, upper = 0;
-  Point witness = Point::Zero();  // at least `lower` from the reference, and on
-  std::uint32_t triangle = 0;     // this triangle of the mesh, but for the rounding of coordinates
+  Point witness = Point::Zero();  // a point of the mesh at least `lower` from the reference
+  std::uint32_t triangle = 0;     // of the mesh; the witness lies on it up to rounding
   std::size_t cuts = 0;
 
   bool within(double epsilon) const { return upper <= epsilon; }
@@ -28,11 +28,11 @@ struct SurfaceDistanceOptions {
   // only 2^-30 of the mesh's extent or roundings are left between the two.
   double relative = 0.01;
   double absolute = 0;
-  // A decision: the search also ends when `upper` is at most this (every point of the mesh is), or
-  // `lower` above it (the witness is not), and goes depth first, which takes half the time of a
-  // decision that holds. Negative: none.
+  // At least 0: the search is a decision. It also ends when `upper` is at most this limit (every
+  // point of the mesh is within it), or `lower` is above it (the witness is not). It goes depth
+  // first, which halves the time where the limit holds. Negative: no decision.
   double limit = -1;
-  // Called now and then; what it throws ends the search.
+  // Called now and then; an exception ends the search and comes out.
   std::function<void()> poll = nullptr;
 };
 
@@ -52,7 +52,8 @@ struct SurfaceDistanceOptions {
 SurfaceDistance surface_distance(MeshView mesh, const ExactMesh& reference,
                                  const SurfaceDistanceOptions& options = {});
 
-// Whether it is within the limit, and no more: where it is, `upper` may lie anywhere up to it.
+// Decides whether the distance is within the limit. Where it is, `upper` may lie anywhere up to the
+// limit.
 SurfaceDistance decided_distance(MeshView mesh, const ExactMesh& reference, double limit);
 
 // A cloud as a reference: every point is a triangle of no size.

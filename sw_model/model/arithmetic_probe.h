@@ -30,8 +30,9 @@ namespace {
   return hidden_a * hidden_b;
 }
 
-// Says in plain words what is wrong with binary32 arithmetic as compiled and as set in this thread,
-// or nothing: rounding mode, flushing outside and inside the guard, contraction.
+// What is wrong with binary32 arithmetic as compiled and as set in this thread, in plain words;
+// nothing where all is right. Looks at the rounding mode, at flushing outside and inside the guard,
+// and at contraction.
 [[maybe_unused]] std::optional<std::string> probe_arithmetic() {
   if (std::fegetround() != FE_TONEAREST) return "the rounding mode is not to nearest";
   volatile float one = 1.0f, half_step = 0x1p-24f;

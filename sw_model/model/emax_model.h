@@ -19,7 +19,7 @@ struct EmaxResult {
   bool operator==(const EmaxResult&) const = default;
 };
 
-// The golden model: every pair, on the flushing scalar, nothing clever. O(points * triangles).
+// The golden model: every pair on the flushing scalar, without any culling. O(points * triangles).
 // Throws std::invalid_argument for no points or no triangles.
 std::vector<std::uint32_t> nearest_squared_bits(std::span<const Vector3<float>> points,
                                                 std::span<const TriangleRecord<float>> records);
@@ -27,7 +27,7 @@ EmaxResult worst_of(std::span<const std::uint32_t> squared_bits);
 EmaxResult emax_model(std::span<const Vector3<float>> points,
                       std::span<const TriangleRecord<float>> records);
 
-// The square root that a result is read with, in normalised units.
+// The distance of a squared distance, in normalised units.
 inline double distance_of(std::uint32_t squared_bits) {
   return std::sqrt(static_cast<double>(bits_float(squared_bits)));
 }

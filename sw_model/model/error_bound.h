@@ -28,9 +28,10 @@ inline double kernel_distance_margin(double lower_bound, double diameter, double
   return kKappa * (lower_bound + diameter + max_vertex) + kDistanceFloor;
 }
 
-// The greatest kernel e_max^2, as bits, which proves e_max <= epsilon for the cloud as it was
-// before it was rounded to binary32; nothing where even 0 does not prove it. `max_reach` is at
-// least epsilon + 2 * longest edge + greatest |vertex|. Normalised units, both positive and finite.
+// The greatest kernel e_max^2, as bits, that proves e_max <= epsilon for the cloud before it was
+// rounded to binary32; nothing where even 0 does not prove it. `max_reach` is at least
+// epsilon + 2 * longest edge + greatest |vertex|. Both arguments are in normalised units, positive
+// and finite.
 inline std::optional<std::uint32_t> largest_feasible_bits(double epsilon, double max_reach) {
   const double allowed = epsilon - (kKappa * max_reach + kDistanceFloor);
   if (!(allowed >= 0)) return std::nullopt;

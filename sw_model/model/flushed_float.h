@@ -10,8 +10,8 @@ namespace emax {
 // the processor. Subnormal inputs count as signed zero; a result is flushed to signed zero when it
 // is tiny after rounding at unbounded exponent; a NaN result is 0x7fc00000 (docs/numerics.md).
 //
-// Each operation is computed in binary64, where sum and product of two binary32 values lose nothing
-// that a second rounding could see (53 >= 2 * 24 + 2 digits), and rounded once to binary32.
+// Each operation is computed in binary64 and rounded once more to binary32. The two roundings give
+// the same bits as one, because binary64 has 53 >= 2 * 24 + 2 digits.
 class FlushedFloat {
  public:
   FlushedFloat() = default;

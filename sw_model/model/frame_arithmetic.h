@@ -1,7 +1,7 @@
-// The arithmetic of a triangle's frame (triangle_frame.h), once for a double and for a vector of
-// them: the same operations in the same order on every lane, so records are the same bits whoever
-// makes them. A lane type declares select, either, negated, any, square_root and the operators
-// beside itself, as kernel scalars do (hls/kernel/scalar.h).
+// The arithmetic of a triangle's frame (triangle_frame.h), written once for a double and for a
+// vector of doubles. Every lane has the same operations in the same order, so records have the same
+// bits whoever makes them. A lane type declares select, either, negated, any, square_root and the
+// operators beside itself, as kernel scalars do (hls/kernel/scalar.h).
 #ifndef EMAX_SW_MODEL_FRAME_ARITHMETIC_H
 #define EMAX_SW_MODEL_FRAME_ARITHMETIC_H
 
@@ -17,8 +17,8 @@ inline bool any(bool condition) { return condition; }
 
 // A triangle whose height over its longest edge is below this part of it is a segment.
 constexpr double kSliverRatio = 1e-6;
-// Shorter than this, normalised, an edge has no direction: squares of lengths and of heights would
-// underflow. A point, for the kernel.
+// A longest edge shorter than this, normalised, has no direction, because squares of lengths and of
+// heights would underflow. The triangle is then a point for the kernel.
 constexpr double kSmallestLength = 0x1p-400;
 
 template <class Real>

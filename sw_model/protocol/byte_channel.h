@@ -15,20 +15,20 @@ struct ChannelLost : Error {
   using Error::Error;
 };
 
-// Bytes to and from a board, which may be damaged, lost, repeated or delayed on the way.
+// A channel of bytes to and from a board. It may damage, lose, repeat or delay them.
 class ByteChannel {
  public:
   virtual ~ByteChannel() = default;
 
   virtual std::string name() const = 0;
-  // Takes what it can at once and gives the count, which may be 0. Throws ChannelLost.
+  // Sends what it can at once and returns the count, which may be 0. Throws ChannelLost.
   virtual std::size_t write(std::span<const std::uint8_t> bytes) = 0;
-  // Gives what is there, at most bytes.size(); waits for the first byte, and gives 0 after waiting
-  // in vain. Throws ChannelLost.
+  // Reads what has come, at most bytes.size(), and returns the count. Waits up to `wait` for the
+  // first byte and returns 0 when none comes. Throws ChannelLost.
   virtual std::size_t read(std::span<std::uint8_t> bytes, std::chrono::microseconds wait) = 0;
-  // The time that limits count; a simulated board has its own.
+  // The clock of all time limits; a simulated board has its own.
   virtual std::chrono::steady_clock::duration now() = 0;
-  // After ChannelLost; false where the other end is not back yet, after waiting a little for it.
+  // For use after ChannelLost. Waits a little; false where the other end is not back yet.
   virtual bool reopen() = 0;
 };
 

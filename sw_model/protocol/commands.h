@@ -15,25 +15,25 @@ void append_load_points(std::vector<Word>& words, std::span<const Vector3<float>
 void append_records(std::vector<Word>& words, std::span<const TriangleRecord<float>> records);
 void append_reduce(std::vector<Word>& words, bool list_points);
 
-// Words that follow a command's header.
+// The number of words that follow a command's header.
 std::size_t payload_words(Word header);
-// Whether it is answered; such a command has no payload.
+// Whether the command is answered; a command that is answered has no payload.
 bool is_answered(Word header);
 
-// Finds the commands in a stream of words that arrives in any cuts.
+// Finds the commands in a stream of words that arrives in parts of any length.
 class CommandCursor {
  public:
   struct Part {
     std::span<const Word> words;  // of one command, its header included
     Word header;
-    bool begins, ends;  // whether the command does here
+    bool begins, ends;  // whether the command begins or ends in this part
   };
-  // Takes the next part off `words`, which are not empty.
+  // Removes the next part from `words`, which is not empty.
   Part take(std::span<const Word>& words);
 
  private:
   Word header_ = 0;
-  std::size_t missing_ = 0;  // words of that command
+  std::size_t missing_ = 0;  // words of the present command that are still to come
 };
 
 struct ReduceAnswer {
@@ -50,7 +50,7 @@ ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points
 // leaves them as they are. No other answer is under way. Throws Error where it answers out of step.
 void ask_cycles(Device& device, DeviceCounters& counters);
 
-// Asks who is there. Throws Error for another kernel version or record layout.
+// Asks the device for its identity. Throws Error for another kernel version or record layout.
 void require_compatible(Device& device);
 
 }  // namespace emax

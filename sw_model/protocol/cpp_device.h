@@ -11,13 +11,14 @@
 namespace emax {
 
 // The `sim` device: the C++ top of the kernel on the flushing scalar, with the cycle model of a
-// core of so many elements.
+// core of the given number of elements.
 class CppDevice : public Device {
  public:
   explicit CppDevice(std::uint32_t elements = 1) : cycles_(elements) {}
 
   std::string name() const override { return "sim"; }
-  // Takes any cut of the word stream; a command is served once all of its words are there.
+  // Takes the stream of words in parts of any length; serves a command once all its words are
+  // there.
   void send(std::span<const Word> words) override;
   void receive(std::span<Word> words) override;
   DeviceCounters counters() const override;

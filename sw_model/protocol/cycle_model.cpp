@@ -9,9 +9,9 @@
 namespace emax {
 namespace {
 
-// The core's own figures, in cycles; tests compare the sum of all with the Verilated core.
+// Cycles of the core's parts. Tests compare the totals that follow with the Verilated core.
 constexpr std::uint64_t kLeastRows = 5;                           // of a pass
-constexpr std::uint64_t kSlotAfterPass = kDistanceLastRead + 14;  // a slot is free again
+constexpr std::uint64_t kSlotAfterPass = kDistanceLastRead + 14;  // until its slot is free again
 constexpr std::uint64_t kRecordHandover = 2;
 constexpr std::uint64_t kPassAfterRecord = 2;
 constexpr std::uint64_t kPassAfterReduce = 3;
@@ -43,7 +43,8 @@ const BoardModel& board_model(std::string_view name) {
 }
 
 void CycleModel::load_points(std::uint64_t points) {
-  if (record_waits_) pass(next_word_);  // a block given up: a beat, which this counts as a pass
+  // A block is given up: the core takes one beat for the record, the model counts a whole pass.
+  if (record_waits_) pass(next_word_);
   record_waits_ = false;
   const bool fits = points <= kMaxBlockPoints;
   points_ = fits ? points : 0;
@@ -82,7 +83,7 @@ void CycleModel::reduce(bool list_points) {
   if (met) {
     const std::uint64_t begin = std::max(pass_end_, next_word_ + kPassAfterReduce);
     pass(begin);
-    // Listing gives a word a cycle; the elements wait where their output has no room.
+    // Listing takes a cycle a word; the elements wait while their output has no room.
     const std::uint64_t first = std::max(begin + kAnswerAfterPair, answer_end_);
     const std::uint64_t room = elements_ * kOutputRoom;
     if (listed > room) pass_end_ = std::max(pass_end_, first + listed - room);

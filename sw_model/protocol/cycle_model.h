@@ -9,8 +9,8 @@
 
 namespace emax {
 
-// Of the distance's pipeline (hls/rtl/generated): cycles from a pair to its distance, and until it
-// has read its record for the last time.
+// Of the distance's pipeline (hls/rtl/generated): cycles from a pair's acceptance to its distance,
+// and to the last read of its record.
 inline constexpr std::uint64_t kDistanceLatency = 142;
 inline constexpr std::uint64_t kDistanceLastRead = 98;
 
@@ -28,9 +28,10 @@ std::span<const BoardModel> board_models();
 // Throws Error naming the known boards.
 const BoardModel& board_model(std::string_view name);
 
-// Counts the cycles that commands take on the core (hls/rtl/core), command words offered and answer
-// words taken without pause: a word a cycle, a row of pairs a cycle, a record's pass once the next
-// record is there, and no more records than the elements' rings hold. Constant time per record.
+// Counts the cycles that commands take on the core (hls/rtl/core), where command words are offered
+// and answer words taken without pause. The core takes a word a cycle and a row of pairs a cycle. A
+// record's pass begins once the next record is there, and there are never more records than the
+// elements' rings hold. Constant time per record.
 class CycleModel {
  public:
   explicit CycleModel(std::uint32_t elements) : elements_(elements) {}
@@ -38,33 +39,32 @@ class CycleModel {
   void load_points(std::uint64_t points);
   void stream_records(std::uint64_t records);
   void reduce(bool list_points);
-  // A command that is answered with so many words behind the header.
+  // A command whose answer has this number of words after the header.
   void answer(std::uint64_t words);
 
   std::uint64_t cycles() const;                                // until the last answer has left
-  std::uint64_t busy() const { return busy_; }                 // elements take a beat
-  std::uint64_t stalled() const { return cycles() - busy(); }  // they wait
+  std::uint64_t busy() const { return busy_; }                 // the elements take a beat
+  std::uint64_t stalled() const { return cycles() - busy(); }  // the elements wait
 
  private:
   static constexpr std::size_t kSlots = 16;
 
-  // The oldest record that waits meets the points; its pass may begin at `from`.
+  // The pass of the oldest waiting record over the points; it may begin at `from`.
   void pass(std::uint64_t from);
 
   std::uint64_t elements_;
   std::uint64_t points_ = 0, rows_ = 0;  // of the block; rows of a pass
   std::uint64_t next_word_ = 0;          // when the decoder can take one
   std::uint64_t record_moved_ = 0;       // when the record assembled last made room for the next
-  std::uint64_t record_gone_ = 0;        // when it left for the rings
-  bool record_waits_ = false;            // of the block, for its successor
+  std::uint64_t record_gone_ = 0;        // when that record left for the rings
+  bool record_waits_ = false;            // the last record, for the next one or the block's end
   std::uint64_t pass_end_ = 0, answer_end_ = 0;
   std::uint64_t records_ = 0, passes_ = 0;
   std::array<std::uint64_t, kSlots> slot_free_ = {};
   std::uint64_t busy_ = 0;
 };
 
-// Seconds that work of so many cycles and words takes on a board, computing and transfer
-// overlapped: the longer of the two.
+// Seconds that work takes on a board whose computing and transfer overlap: the longer of the two.
 double predicted_seconds(const BoardModel& board, std::uint64_t cycles, std::uint64_t words_in,
                          std::uint64_t words_out);
 

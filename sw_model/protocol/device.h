@@ -9,17 +9,17 @@
 
 namespace emax {
 
-// What a device did. Null where it is not measured.
+// Counts of a device's work; empty where nothing is measured.
 struct DeviceCounters {
   std::uint64_t blocks = 0;
   std::uint64_t pairs = 0;
   std::uint64_t words_in = 0;   // to the device
   std::uint64_t words_out = 0;  // from the device
   std::optional<std::uint64_t> cycles, busy, stalled, idle, resends;
-  bool began_again = false;  // it lost its work once, and with it what it had counted
+  bool began_again = false;  // the device lost its work once, and its earlier counts with it
 };
 
-// A thing that takes command words and gives answer words (hls/kernel/command_words.h).
+// Takes command words and gives answer words (hls/kernel/command_words.h).
 class Device {
  public:
   virtual ~Device() = default;

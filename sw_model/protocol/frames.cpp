@@ -79,7 +79,7 @@ void FrameReader::abandon() {
   if (hunt() && rest().size() >= std::size(kSync)) drop();
 }
 
-// Moves to the next sync, or to a first byte of one that ends what is there; false without either.
+// Moves to the next sync bytes, or to a first sync byte at the end; false where there is neither.
 bool FrameReader::hunt() {
   const auto bytes = rest();
   const auto found = std::search(bytes.begin(), bytes.end(), std::begin(kSync), std::end(kSync));

@@ -20,7 +20,7 @@ constexpr std::size_t kFrameCrcBytes = 4;
 constexpr std::size_t kMaxFrameWords = 256;
 
 struct Frame {
-  FrameKind kind;  // of a frame that was read, any number
+  FrameKind kind;  // may be an unknown number in a frame that was read
   std::uint16_t session = 0;
   std::uint8_t sequence = 0, expected = 0;
   std::uint16_t credit = 0;
@@ -33,16 +33,16 @@ struct Frame {
 // Throws std::invalid_argument for a payload above kMaxFrameWords.
 std::vector<std::uint8_t> encode(const Frame& frame);
 
-// Hunts for frames in any stream of bytes, checks their length and CRC, and gives the whole ones. A
-// false start costs only itself: the hunt goes on from the byte after its sync.
+// Hunts for frames in any stream of bytes, checks length and CRC, and gives whole frames. After a
+// false start the hunt goes on from the byte after its sync bytes, so no frame is lost by it.
 class FrameReader {
  public:
   void add(std::span<const std::uint8_t> bytes);
   std::optional<Frame> next();
-  // Drops the frame that is being read, whose rest is not to come any more, and hunts on; next()
-  // may then give frames that it had swallowed.
+  // Drops the frame that is being read, because its rest will not come, and hunts on. next() may
+  // then give frames that were taken for part of it.
   void abandon();
-  // Starts with the sync of a frame that turned out not to be one.
+  // The number of false starts: sync bytes that began no frame.
   std::uint64_t dropped() const { return dropped_; }
 
  private:
@@ -50,7 +50,7 @@ class FrameReader {
   bool hunt();
   void drop();
 
-  std::vector<std::uint8_t> bytes_;  // from start_ on not yet taken
+  std::vector<std::uint8_t> bytes_;  // those from start_ on are not yet taken
   std::size_t start_ = 0;
   std::uint64_t dropped_ = 0;
 };

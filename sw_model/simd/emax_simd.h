@@ -18,9 +18,9 @@ struct PointArrays {
   void push_back(const Vector3<float>& p);
 };
 
-// nearest[i] = min(nearest[i], d^2 of points[i] and every record), as binary32 bits: the kernel's
-// own source, vectorised over points, with the processor's flushing turned on around it. The same
-// bits as the model for finite input. O(points * records); nearest.size() == points.size().
+// nearest[i] = min(nearest[i], d^2 of points[i] and every record), as binary32 bits. Runs the
+// kernel's own source, vectorised over points, with the processor's flushing turned on. Gives the
+// bits of the model for finite input. O(points * records); nearest.size() == points.size().
 class SimdTarget {
  public:
   using Update = void (*)(const PointArrays&, std::span<const TriangleRecord<float>>,

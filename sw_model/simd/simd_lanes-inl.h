@@ -10,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-// Outside first, so that what they include stays out of the namespace below.
+// Included here first, so that what these headers include stays out of the namespace below.
 #include "hls/kernel/point_triangle.h"
 #include "sw_model/model/frame_arithmetic.h"
 
@@ -95,7 +95,7 @@ HWY_INLINE LaneMask<D> negated(LaneMask<D> a) {
   return {hn::Not(a.mask)};
 }
 
-// The segment flag is one for all lanes: a constant once the kernel is inlined.
+// The segment flag is the same for all lanes and a constant once the kernel is inlined.
 template <class D>
 HWY_INLINE LaneMask<D> both(LaneMask<D> a, bool b) {
   return b ? a : LaneMask<D>{hn::MaskFromVec(hn::Zero(D()))};

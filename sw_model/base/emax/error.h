@@ -9,9 +9,10 @@
 namespace emax {
 inline namespace v1 {
 
-// The exception of every public function, for what a caller can mend: one line that names the
-// argument, or the file and its line or vertex, and the remedy. The program prints it and ends with
-// exit code 1. Beside it only std::bad_alloc is thrown, and what a callback of the caller throws.
+// The exception of every public function, for faults that a caller can correct. Its text is one
+// line that names the argument, or the file and its line or vertex, and the remedy. The program
+// prints it and ends with exit code 1. Public functions throw nothing else but std::bad_alloc and
+// what a callback of the caller throws.
 class EMAX_API Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}

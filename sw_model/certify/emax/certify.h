@@ -6,8 +6,9 @@
 //   const emax::CertifiedDistance back = emax::certify_distance(mesh, reference);
 //   const bool kept = points.upper <= 0.5 && back.upper <= 0.5;
 //
-// Links with emax::certify. Shares no code with the kernel and its engine (emax/measure.h). Threads
-// may call at once. Method: docs/numerics.md, "The certificate"; source: section 4.
+// Links with emax::certify. Shares no code with the kernel and its engine (emax/measure.h). Several
+// threads may call at once. Method: docs/numerics.md, "The oracle's rounding" and "From surface to
+// surface"; source: section 4.
 #pragma once
 
 #include <emax/error.h>
@@ -25,9 +26,9 @@ struct CertifiedPoints {
   std::size_t worst_point = 0;  // the lowest index of a point that attains `upper`
 };
 
-// The greatest distance from a point of the cloud to the mesh. The same to the bit for any number
-// of threads. Throws Error for arguments that are no cloud and no mesh, and beyond 1e150. About
-// O(points log triangles).
+// The greatest distance from a point of the cloud to the mesh, the same to the bit for any number
+// of threads. Throws Error for arguments that are no cloud or no mesh, and for coordinates beyond
+// 1e150. About O(points log triangles).
 EMAX_API CertifiedPoints certify_points(Coordinates cloud, SurfaceSpan mesh,
                                         std::size_t threads = 1);
 
@@ -38,14 +39,14 @@ struct CertifiedDistance {
   std::size_t triangle = 0;            // of `from`, on which the witness lies
 };
 
-// The greatest distance from any point of `from`, the inside of its triangles included, to `to`;
-// `upper` is at most lower * (1 + relative), or as near as roundings permit. Throws Error likewise.
-// A query of O(log triangles) for each vertex and for each cut that the search makes.
+// The greatest distance from any point of `from`, the inside of its triangles included, to `to`.
+// `upper` is at most lower * (1 + relative), or as near as roundings permit. Throws Error as
+// certify_points does. A query of O(log triangles) for each vertex and for each cut of the search.
 EMAX_API CertifiedDistance certify_distance(SurfaceSpan from, SurfaceSpan to,
                                             double relative = 0.01);
 
-// Whether that distance is at most `limit`; faster than knowing the distance. Throws Error likewise
-// and for a limit that is negative or not finite.
+// Whether that distance is at most `limit`; faster than computing the distance. Also throws Error
+// for a limit that is negative or not finite.
 EMAX_API bool certify_within(SurfaceSpan from, SurfaceSpan to, double limit);
 
 }  // namespace v1

@@ -4,9 +4,10 @@
 //
 //   if (const auto fault = emax::probe_arithmetic()) throw std::runtime_error(*fault);
 //
-// Links with emax::measure. For whoever instantiates the kernel (emax/kernel.h) in a source of his
-// own: the targets of emax bring -ffp-contract=off, and this finds out what was added after it
-// (-ffast-math, contraction, a library that sets flush-to-zero). docs/numerics.md has the contract.
+// Links with emax::measure. Use it where a source of your own instantiates the kernel
+// (emax/kernel.h): the targets of emax bring -ffp-contract=off, and this finds what was added after
+// it: -ffast-math, contraction, a library that sets flush-to-zero. docs/numerics.md has the
+// contract.
 #pragma once
 
 #ifdef __FAST_MATH__
