@@ -1,5 +1,5 @@
-// The ULX3S design (hls/boards/ulx3s/emax_ulx3s.sv) as the testbench sees it: its pins, one clock
-// cycle at a time, whichever Verilated variant stands behind.
+// The pins of the ULX3S design (hls/boards/ulx3s/emax_ulx3s.sv), one clock cycle at a time, for any
+// Verilated variant of it.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ class BoardSimulation {
   virtual void set_line(bool from_host) = 0;
   virtual void clock() = 0;
   virtual bool line() const = 0;           // to the host
-  virtual std::uint8_t lamps() const = 0;  // the highest is lit when the design is out of reset
+  virtual std::uint8_t lamps() const = 0;  // the LEDs; the highest is lit after the reset
 };
 
-// The board of the program's variant. Linked in by whoever makes a SimulatedBoard.
+// Makes the board of the program's variant. Each program links the library of one variant.
 std::unique_ptr<BoardSimulation> make_board();
 
 }  // namespace emax

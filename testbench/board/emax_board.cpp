@@ -34,8 +34,8 @@ volatile std::sig_atomic_t stopped = 0;
 
 [[noreturn]] void fail(const std::string& what) { throw Error(what + ": " + std::strerror(errno)); }
 
-// A lock on a pseudo-terminal tells that a board serves it: it ends with the process that holds it,
-// however that ends. Hosts lock terminals with flock, which is apart from these locks.
+// A lock on the pseudo-terminal shows that a board serves it: the lock ends with the process that
+// holds it, however the process ends. Hosts lock terminals with flock, which does not interfere.
 struct flock whole_terminal() {
   struct flock lock = {};
   lock.l_type = F_WRLCK;
@@ -50,7 +50,7 @@ class Terminal {
     if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
       fail("no pseudo-terminal can be opened");
     path_ = ptsname(master_);
-    // Held open, so that a host which closes it does not end it.
+    // Held open, so that the terminal stays when a host closes it.
     slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios settings;
     if (slave_ < 0 || tcgetattr(slave_, &settings) != 0) fail(path_ + " cannot be opened");
@@ -69,15 +69,15 @@ class Terminal {
 
   const std::string& path() const { return path_; }
 
-  // Sleeps until what `events` names is there or a signal comes; a second at most, as the signal
-  // may have come just before.
+  // Sleeps until one of `events` or a signal comes, but at most a second: a signal that came just
+  // before would otherwise be missed.
   void wait(short events) const {
     pollfd events_of_master = {master_, events, 0};
     poll(&events_of_master, 1, 1000);
   }
 
-  // A host that took the terminal for itself may have gone: as it is held open here, nothing else
-  // would give it to the next one.
+  // Ends a host's exclusive use of the terminal, as that host may be gone. The terminal is held
+  // open here, so the system does not end it.
   void release() const { ioctl(slave_, TIOCNXCL); }
 
   std::size_t read(std::span<std::uint8_t> bytes) const {
@@ -98,19 +98,19 @@ class Terminal {
   std::string path_;
 };
 
-// What a symbolic link says; empty where there is no link.
+// The target of a symbolic link; empty where there is no link.
 std::string target_of(const std::string& link) {
   std::array<char, 4096> text;
   const ssize_t length = readlink(link.c_str(), text.data(), text.size());
   return length < 0 ? "" : std::string(text.data(), static_cast<std::size_t>(length));
 }
 
-// Who serves the terminal, in words; empty where nobody does: it is gone, or its number belongs to
-// somebody else's terminal by now.
+// Which process serves the terminal, in words. Empty where none does: the terminal is gone, or its
+// number belongs to another program's terminal by now.
 std::string server_of(const std::string& terminal) {
   const int descriptor = open(terminal.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
-    // A host has the terminal for itself, or it belongs to another user.
+    // A host uses the terminal exclusively, or it belongs to another user.
     return errno == EBUSY || errno == EACCES || errno == EPERM ? "another process" : "";
   }
   struct flock lock = whole_terminal();
@@ -120,7 +120,7 @@ std::string server_of(const std::string& terminal) {
   return "the emax_board of process " + std::to_string(lock.l_pid);
 }
 
-// The link to the terminal, removed at the end. One that a killed board left behind is replaced.
+// The symbolic link to the terminal, removed at the end. Replaces a link that a killed board left.
 class SymbolicLink {
  public:
   SymbolicLink(const std::string& target, const std::string& path) : target_(target) {
@@ -147,8 +147,8 @@ class SymbolicLink {
                                   : "it is a link to " + before + ", which is no pseudo-terminal") +
                   "; name another path");
     }
-    // The killed board's terminal may have had the number of this one. It is not opened again: the
-    // close would end the lock on it.
+    // The link may name this board's own terminal, whose number the killed board had. It is not
+    // opened again then, because the close would end this board's lock.
     const std::string server = before == target_ ? "" : server_of(before);
     if (!server.empty()) {
       throw Error(path + " leads to " + before + ", which " + server +
@@ -160,7 +160,7 @@ class SymbolicLink {
   std::string target_, path_;
 };
 
-// Moves bytes between the two until a signal comes.
+// Moves bytes between terminal and board until a signal comes.
 void serve(const Terminal& terminal, SimulatedBoard& board) {
   std::array<std::uint8_t, 4096> buffer;
   std::vector<std::uint8_t> to_board, to_host;
@@ -177,7 +177,7 @@ void serve(const Terminal& terminal, SimulatedBoard& board) {
     }
     const std::size_t given = terminal.write(to_host);
     to_host.erase(to_host.begin(), to_host.begin() + static_cast<std::ptrdiff_t>(given));
-    // A host that does not read stops the board's time; a board without work lets it stand.
+    // The board's time stops while the host does not read, and while the board has no work.
     if (!to_host.empty()) {
       terminal.wait(POLLOUT);
     } else if (board.settled() && to_board.empty()) {

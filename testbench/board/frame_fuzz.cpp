@@ -1,10 +1,10 @@
-// Frames of every kind of wrongness into the whole Verilated board (UART, link, core). Whatever
-// came, the board must take a reset in time, answer a block rightly after it, and never answer a
-// question that was asked in order with a wrong word.
+// Sends wrong frames of every kind into the whole Verilated board (UART, link, core). After any of
+// them the board must take a reset in time and then answer a block correctly. It must never give a
+// wrong word to a request that was sent in order.
 //
 //   emax_frame_fuzz [--frames N] [--blocks N] [--seed N]
 //
-// --blocks: so many blocks are asked after every 200 frames (1).
+// --blocks: the number of blocks that are asked after every 200 frames (1).
 // Exit code 0 when nothing was wrong, 1 otherwise, 2 for wrong arguments.
 #include <array>
 #include <cstdio>
@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t kFramesARound = 200;
 
-// The least host: one frame at a time.
+// A minimal host: one frame at a time.
 class Host {
  public:
   void raw(std::span<const std::uint8_t> bytes) {
@@ -46,12 +46,12 @@ class Host {
       latest_.reset();
       raw(encode({.kind = FrameKind::kReset, .session = session}));
       if (listen_until(1ms, [&] { return latest_.has_value(); })) return;
-      // What the board read so far may want more bytes: silence ends that.
+      // The board may still read an unfinished frame; silence ends that frame.
     }
     throw Error("the board took no reset");
   }
 
-  // Sends a block's words and gives the answer. Throws Error when none comes.
+  // Sends the words of a block and returns its answer. Throws Error when no answer comes.
   std::vector<Word> ask(std::span<const Word> words, std::size_t answer) {
     while (!words.empty()) {
       const auto part = words.first(std::min<std::size_t>(words.size(), 100));
@@ -102,7 +102,7 @@ class Host {
   std::vector<Word> answers_;
 };
 
-// A word that means something to the core, more often than not.
+// A word that is a command header with a probability of two thirds.
 Word any_word(Random& random) {
   return random.one_in(3)
              ? random.word()
@@ -171,7 +171,7 @@ int run(std::uint64_t frames, std::uint64_t blocks, std::uint64_t seed) {
     for (std::uint32_t i = 0; i < kFramesARound && sent < frames; ++i, ++sent) {
       const auto bytes = any_frame(host, turn, random);
       host.raw(bytes);
-      // Most of them are taken, one after the other.
+      // Most of these frames are accepted, one after the other.
       if (!random.one_in(8)) ++turn;
     }
     for (std::uint64_t i = 0; i < blocks; ++i) {

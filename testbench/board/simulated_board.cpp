@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::uint64_t kClockMhz = 120;
 constexpr std::size_t kWaitingBytes = 4096;
-// With nothing on the line for this long, the board has worked off all that its memories hold: the
-// link has room for about 100 records, the core for some more, and each takes 1,024 cycles at most.
+// When the line was quiet for this long, the board has no work left: the link has room for about
+// 100 records, the core for a few more, and each record takes at most 1,024 cycles.
 constexpr std::uint64_t kSettledCycles = 1u << 18;
 
 }  // namespace
@@ -43,7 +43,7 @@ struct SimulatedBoard::Model {
     ++quiet;
   }
 
-  // The host's sender: start bit, 8 bits and a stop bit of the first byte that waits.
+  // The host's sender: start bit, 8 bits and a stop bit of the first waiting byte.
   void send() {
     if (sending == 0) {
       if (to_board.empty()) return;
@@ -56,7 +56,8 @@ struct SimulatedBoard::Model {
     if (--sending % clocks_per_bit == 0) bits_out >>= 1;
   }
 
-  // The host's receiver looks at the first clock of each bit: the clocks are the same.
+  // The host's receiver samples at the first clock of each bit, because host and board have one
+  // clock.
   void receive() {
     if (receiving == 0) {
       if (board->line()) return;

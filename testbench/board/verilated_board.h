@@ -1,4 +1,4 @@
-// A Verilated variant of emax_ulx3s behind BoardSimulation.
+// BoardSimulation for a Verilated variant of emax_ulx3s.
 #pragma once
 
 #include <verilated.h>
@@ -13,7 +13,8 @@ class VerilatedBoard : public BoardSimulation {
  public:
   VerilatedBoard() { model_.ftdi_txd = 1; }
   ~VerilatedBoard() override {
-    // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
+    // Verilator 5.006 removes a model's scopes from the thread's present context, even if the model
+    // is of another.
     Verilated::threadContextp(&context_);
     model_.final();
   }

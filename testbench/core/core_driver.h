@@ -8,20 +8,20 @@
 
 namespace emax {
 
-// How the core's two streams behave.
+// When the core's two streams are willing.
 struct CorePatterns {
   Pattern commands = Pattern::kAlways;
   Pattern answers = Pattern::kAlways;
   std::uint64_t seed = 1;
 };
 
-// Drives the words in and gives what the core answers until nothing is under way. `cycles`, when
-// given, grows by the cycles it took. Throws Error when the core hangs or an assertion of the
+// Drives the words in and returns the core's answers, until nothing is under way. Adds the cycles
+// that it took to `cycles`, if given. Throws Error when the core hangs or an assertion of the
 // design fails.
 std::vector<Word> run_core(CoreSimulation& core, std::span<const Word> words,
                            const CorePatterns& patterns = {}, std::uint64_t* cycles = nullptr);
 
-// What the C++ top answers to whole commands.
+// The answers of the C++ top to whole commands.
 std::vector<Word> answers_of_kernel(std::span<const Word> words);
 
 }  // namespace emax

@@ -1,5 +1,5 @@
-// The core (hls/rtl/core/emax_core.sv) as the testbench sees it: its two streams of words, one
-// clock cycle at a time, whichever Verilated variant stands behind.
+// The two streams of words of the core (hls/rtl/core/emax_core.sv), one clock cycle at a time, for
+// any Verilated variant of it.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +23,15 @@ class CoreSimulation {
 
   virtual std::uint32_t elements() const = 0;
   virtual CoreOutputs outputs() const = 0;
-  // Inputs of the present cycle; null is no word. What is set stays until it is set anew.
+  // Inputs of the present cycle; null is no word. An input stays until it is set anew.
   virtual void offer_command(const Word* word) = 0;
   virtual void set_answer_ready(bool ready) = 0;
   // The rising edge that ends the present cycle; with `reset`, aresetn is low at it.
   virtual void clock(bool reset = false) = 0;
-  // An assertion of the design failed since the start.
+  // Whether an assertion of the design has failed since the start.
   virtual bool assertion_failed() const = 0;
-  // Of a mutation build: the active mutant; 0 is the unchanged design. Throws std::logic_error
-  // elsewhere.
+  // Sets the active mutant; 0 is the unchanged design. Throws std::logic_error where the build has
+  // no mutants.
   virtual void set_mutant(std::uint32_t mutant) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Command words for a core, out of the shared stimuli.
+// Command words for a core, made of the shared stimuli.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Material {
 };
 std::vector<Material> materials(std::uint64_t seed);
 
-// So many of the values, drawn with repetition.
+// `count` of the values, drawn with repetition.
 template <class Value>
 std::vector<Value> any_of(const std::vector<Value>& values, std::size_t count, Random& random) {
   std::vector<Value> chosen;
@@ -32,12 +32,12 @@ std::vector<Value> any_of(const std::vector<Value>& values, std::size_t count, R
 // records before points, too many points, unknown opcodes.
 std::vector<Word> any_commands(const std::vector<Material>& all, std::size_t count, Random& random);
 
-// One block of so many points and records of the material.
+// One block of the given numbers of points and records of the material.
 std::vector<Word> dense_block(const Material& m, std::size_t points, std::size_t records,
                               bool list_points, Random& random);
 
-// Writes the number of elements into every answer to Identify: the C++ top is one element without a
-// clock, and a core names its own.
+// Writes the number of elements into every answer to Identify. The C++ top answers one element and
+// no clock; a core answers its own.
 void name_elements(std::vector<Word>& answers, std::uint32_t elements);
 
 }  // namespace emax::test

@@ -7,8 +7,8 @@
 namespace emax {
 namespace {
 
-// Cycles without a word taken or given. A ring full of records meeting full blocks takes 16 x
-// 1,024.
+// Cycles without a word taken or given until the device counts as hung. A full ring of records over
+// a full block takes 16 x 1,024.
 constexpr std::uint32_t kPatience = 1u << 18;
 
 }  // namespace

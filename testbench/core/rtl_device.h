@@ -9,8 +9,8 @@
 
 namespace emax {
 
-// The `rtl` device: the Verilated core, clocked while words go in and while an answer is awaited.
-// Its cycles are what the core counts (kCounters).
+// The `rtl` device: the Verilated core. It is clocked while words go in and while an answer is
+// awaited. Its cycles are those that the core counts (kCounters).
 class RtlDevice : public Device {
  public:
   explicit RtlDevice(std::unique_ptr<CoreSimulation> core);
@@ -27,10 +27,10 @@ class RtlDevice : public Device {
   std::deque<Word> answers_;
 };
 
-// The numbers of elements that are built.
+// The numbers of elements for which a core is built.
 std::span<const std::uint32_t> rtl_element_counts();
 
-// Throws Error naming them for any other.
+// Throws Error for any other number of elements, naming those that are built.
 std::unique_ptr<CoreSimulation> make_core(std::uint32_t elements);
 std::unique_ptr<Device> make_rtl_device(std::uint32_t elements = 1);
 

@@ -1,4 +1,4 @@
-// A Verilated variant of emax_core behind CoreSimulation.
+// CoreSimulation for a Verilated variant of emax_core.
 #pragma once
 
 #include <verilated.h>
@@ -28,7 +28,8 @@ class VerilatedCore : public CoreSimulation {
     clock(true);
   }
   ~VerilatedCore() override {
-    // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
+    // Verilator 5.006 removes a model's scopes from the thread's present context, even if the model
+    // is of another.
     Verilated::threadContextp(&context_);
     model_.final();
   }

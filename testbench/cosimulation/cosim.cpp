@@ -1,4 +1,4 @@
-// Co-simulation: every test of operators and element beside the model, and a table of them.
+// Co-simulation: runs every test of operators and element beside the model and prints a table.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,18 +18,19 @@ namespace {
 constexpr const char* kHelp = R"(usage: emax_cosim [OPTION...]
 
 Runs the Verilated operators beside the processor's arithmetic and the Verilated element beside the
-model. The last line is `cosim: N pairs, M mismatches`;
-exit code 0 when there are none, 1 on a mismatch, 2 when it could not run, 130 when interrupted.
+model. The last line is `cosim: N pairs, M mismatches`.
+Exit code: 0 without a mismatch, 1 on a mismatch, 2 when it could not run, 130 when interrupted.
 
   --full             10^8 pairs an operator, 10^7 pairs and 10^5 blocks of the element; the
                      default takes seconds
-  --seed N           of the whole run (default 1); each test's own is derived from it and its name
-  --filter TEXT      only tests whose name holds TEXT
-  --list             name the tests
+  --seed N           seed of the whole run (default 1); each test's own seed is derived from it and
+                     from the test's name
+  --filter TEXT      run only the tests whose names contain TEXT
+  --list             list the names of the tests
   --replay FOLDER    replay the folder that a failure left [--mutant N]
-  --window CYCLES    of the waveform before a mismatch (default 300)
-  --coverage FILE    what emax_coverage found of each test, for the table
-  --failures FOLDER  where failures are kept (default build/cosim-failures)
+  --window CYCLES    cycles of the waveform before a mismatch (default 300)
+  --coverage FILE    coverage of each test, written by emax_coverage, for the table
+  --failures FOLDER  folder for failures (default build/cosim-failures)
 )";
 
 std::atomic<bool> interrupted{false};

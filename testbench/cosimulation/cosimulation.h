@@ -1,4 +1,4 @@
-// Runs a test of the element and keeps its figures; what fails is made small.
+// Runs a test of the element, keeps its figures, and shrinks a failure.
 #pragma once
 
 #include <atomic>
@@ -13,20 +13,20 @@
 
 namespace emax {
 
-// Makes an element of the program's Verilated variant with so many slot bits.
+// Makes an element of the program's Verilated variant with the given number of slot bits.
 using ElementFactory = std::function<std::unique_ptr<ElementSimulation>(std::uint32_t slot_bits)>;
 
 struct CosimulationOptions {
   std::uint64_t seed = 1;
   bool full = false;
-  std::uint64_t part = 1;  // runs one of so many, at least two
+  std::uint64_t part = 1;  // runs one in `part` of the test's runs, at least two
   std::uint32_t mutant = 0;
-  std::function<void(double)> progress;     // share done; called now and then
+  std::function<void(double)> progress;     // called now and then with the share that is done
   const std::atomic<bool>* stop = nullptr;  // ends a test after the present run
 };
 
-// A run that differs: alone (after the one that it cut, if its reset is part of it) it does so
-// again.
+// A run that differs from the model. Repeated alone, or after the run that its reset cut, it
+// differs again.
 struct Failure {
   std::string test;
   std::uint64_t seed = 0;
@@ -39,10 +39,10 @@ struct TestReport {
   std::string name;
   std::uint64_t seed = 0;  // the test's own
   std::uint64_t pairs = 0, blocks = 0, minima = 0, cycles = 0;
-  double seconds = 0;                         // in all
+  double seconds = 0;                         // of the whole test
   double simulating_seconds = 0;              // in the Verilated element and its drivers
-  std::optional<double> initiation_interval;  // cycles a pair where nothing hindered; 1 is asserted
-  std::optional<Failure> failure;             // of an element
+  std::optional<double> initiation_interval;  // cycles a pair where nothing stalled; must be 1
+  std::optional<Failure> failure;             // of a test of the element
   std::uint64_t mismatches = 0;
   std::optional<double> coverage;  // share in percent of the design's points that the test reaches
   bool stopped = false;
@@ -51,13 +51,13 @@ struct TestReport {
 TestReport run_test(const ElementTest& test, const ElementFactory& make_element,
                     const CosimulationOptions& options);
 
-// Runs a sequence on a fresh element, as run_test does; the result of the last run (or of the first
-// that differs).
+// Runs a sequence on a fresh element, as run_test does. Returns the result of the last run, or of
+// the first that differs.
 RunResult run_sequence(const std::vector<ElementRun>& runs, ElementSimulation& element,
                        RunObserver* observer = nullptr);
 
-// Removes what the failure does not need: the run before, patterns, pairs, records. What is left
-// still differs on the element. Tries at most `tries` times.
+// Removes what the failure does not need: the run before, patterns, pairs, records. The rest still
+// differs on the element. Tries at most `tries` runs.
 Failure shrink(const Failure& failure, const ElementFactory& make_element,
                std::uint32_t tries = 600);
 

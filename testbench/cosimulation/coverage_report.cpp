@@ -9,7 +9,7 @@
 namespace emax {
 namespace {
 
-// What is not counted, each with its reason.
+// Points that are not counted, each with its reason.
 struct Exception {
   std::regex module, point;  // point: "kind signal"
   const char* reason;
@@ -54,7 +54,7 @@ const char* exception_of(const std::string& module, const std::string& point) {
   return nullptr;
 }
 
-// The value of `key` in a line's name, which holds \1key\2value again and again.
+// The value of `key` in a line's name, which is a sequence of \1key\2value.
 std::string field(const std::string& name, const std::string& key) {
   const std::string mark = "\1" + key + "\2";
   const std::size_t at = name.find(mark);
@@ -146,7 +146,7 @@ CoverageReport read_coverage(const std::vector<std::string>& files) {
   if (points.empty()) throw Error(files.front() + ": holds no coverage points");
   CoverageReport report;
   for (const auto& [key, point] : points) {
-    // What is excepted and was reached all the same counts.
+    // An excepted point that was reached counts.
     const char* reason = point.hits > 0 ? nullptr : exception_of(point.module, point.name);
     if (reason != nullptr) {
       ++report.excepted[reason];

@@ -1,4 +1,4 @@
-// What Verilator counted, by module: coverage.dat files summed over all instances of a module.
+// Verilator's coverage by module: coverage.dat files, summed over all instances of a module.
 #pragma once
 
 #include <array>
@@ -24,17 +24,17 @@ struct CoverageReport {
   std::map<std::string, std::uint64_t> excepted;  // points, by the exception's reason
 };
 
-// Throws Error where a file cannot be read or holds no points.
+// Throws Error for a file that cannot be read or holds no points.
 CoverageReport read_coverage(const std::vector<std::string>& files);
 
 // Share in percent; 100 where there is no point.
 double percent(const CoverageCount& count);
 
-// Of all kinds together.
+// Counts of all kinds of points together.
 double percent_of_all(const CoverageReport& report);
 
-// The share in percent of its design's points that each test reaches: lines of NAME tab SHARE. Both
-// throw Error where the file does not let them.
+// The share in percent of its design's points that each test reaches: lines of NAME, tab, SHARE.
+// Both functions throw Error where the file cannot be written or read.
 void write_test_coverage(const std::map<std::string, double>& shares, const std::string& file);
 std::map<std::string, double> read_test_coverage(const std::string& file);
 

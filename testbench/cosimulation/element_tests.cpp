@@ -25,7 +25,7 @@ struct Material {
 
 PointWords words_of(const Vector3<float>& p) { return {to_word(p.x), to_word(p.y), to_word(p.z)}; }
 
-// The cloud, and beside every triangle some points on it, next to it in its plane, and above it.
+// The cloud and, for every triangle, points on it, next to it in its plane, and above it.
 Material material_of(const test::Stimulus& s, Random& random) {
   std::vector<Point> cloud = s.cloud;
   for (std::size_t i = 0; i < std::min<std::size_t>(s.triangles.size(), 400); ++i) {
@@ -47,7 +47,7 @@ Material material_of(const test::Stimulus& s, Random& random) {
   return material;
 }
 
-// By the stimulus's name; made once, from a seed of its own.
+// The material of the stimulus with this name; made once, from a seed of its own.
 const Material& material(const std::string& name) {
   static const std::map<std::string, Material> all = [] {
     std::map<std::string, Material> made;
@@ -87,7 +87,7 @@ StreamPatterns any_patterns(Random& random) {
   return patterns;
 }
 
-// Every pair with a record of its own, its distance seen as it is.
+// Every pair has a record of its own and is final, so its distance is seen as it is.
 void append_raw_pair(ElementRun& run, const PointWords& point, const RecordWords& record,
                      Random& random, std::size_t count) {
   const bool ends = run.pairs.size() + 1 == count || random.one_in(40);
@@ -97,7 +97,7 @@ void append_raw_pair(ElementRun& run, const PointWords& point, const RecordWords
 
 using MakePair = std::function<void(Random&, PointWords&, RecordWords&)>;
 
-// Raw pairs; three of four runs without idles, so that the initiation interval is seen.
+// Raw pairs. Three of four runs have no idle cycles, so that the initiation interval is measured.
 ElementTest raw_pairs(const std::string& name, std::uint64_t full_runs, const MakePair& make) {
   constexpr std::size_t kPairs = 2000;
   const auto runs = [make](std::uint64_t number, Random& random) {
@@ -126,7 +126,7 @@ void random_bits(Random& random, PointWords& point, RecordWords& record) {
   for (Word& word : record) word = random.word();
 }
 
-// Random words of nearly one exponent: products and sums meet without over- and underflow.
+// Random words of nearly equal exponents, so that products and sums neither over- nor underflow.
 void near_one(Random& random, PointWords& point, RecordWords& record) {
   const auto near = [&random] {
     return (random.word() & 0x807fffffu) | ((120 + random.below(16)) << 23);
@@ -146,7 +146,7 @@ void special_values(Random& random, PointWords& point, RecordWords& record) {
   }
 }
 
-// Scaled by powers of two into under- and overflow of the squares.
+// Material scaled by powers of two, so that squares under- and overflow.
 void huge_and_tiny(Random& random, PointWords& point, RecordWords& record) {
   const Material& from = material("random soup");
   point = from.any_point(random);
@@ -196,7 +196,7 @@ ElementTest blocks(const std::string& name, std::uint32_t slot_bits, std::uint64
     return std::vector<ElementRun>{run};
   };
   ElementTest test{"blocks: " + name, slot_bits, quick, full, runs};
-  // Records of a few points each can outrun the ring of a device's element: it waits for slots.
+  // Passes over few points end before a device's element has a free slot for the next record.
   test.ii_is_one = slot_bits == kPairsSlotBits;
   return test;
 }
@@ -210,8 +210,8 @@ std::vector<ElementRun> tied_blocks(std::uint64_t number, Random& random) {
   return {run};
 }
 
-// Flags in any order that the rules allow: points begin anew without having ended, end twice, stay
-// behind in the memory over blocks.
+// Flags in any order that the rules allow: a point begins anew without having ended, ends twice, or
+// stays in the memory over several blocks.
 ElementRun any_flags(Random& random, std::size_t pairs) {
   const Material& from = any_material(random);
   ElementRun run;
@@ -239,8 +239,9 @@ std::vector<ElementRun> free_flags(std::uint64_t number, Random& random) {
   return {run};
 }
 
-// Each idle pattern of the points against each back-pressure of the minima, the other two streams
-// in turn: over 49 runs every pattern of every stream has met every one of its opposite.
+// Crosses each idle pattern of the points with each back-pressure of the minima, while the other
+// two streams take their patterns in turn. After 49 runs every pattern of an input has met every
+// pattern of an output.
 std::vector<ElementRun> crossed_patterns(std::uint64_t number, Random& random) {
   const auto pattern = [](std::uint64_t n) { return static_cast<Pattern>(n % kPatterns); };
   ElementRun run;
@@ -259,7 +260,7 @@ std::vector<ElementRun> crossed_patterns(std::uint64_t number, Random& random) {
   return {run};
 }
 
-// A reset at any cycle: while records load, in the datapath's first fill, in full flow, in a stall.
+// A reset at any cycle: while records load, while the datapath fills, in full flow, in a stall.
 std::vector<ElementRun> reset_in_midstream(std::uint64_t, Random& random) {
   ElementRun cut = any_flags(random, 300);
   cut.patterns = any_patterns(random);

@@ -22,7 +22,7 @@ std::string commented(const std::string& text) {
   return all;
 }
 
-// For the shell, as a default value between braces.
+// Escapes text for the shell, as a default value between braces.
 std::string quoted(const std::string& text) {
   std::string all;
   for (const char c : text) {
@@ -70,7 +70,7 @@ void write_failure(const fs::path& folder, const Failure& failure) {
   out.close();
   require(static_cast<bool>(out), input);
 
-  // From anywhere, with the build that wrote it.
+  // The script runs from any folder, with the program that wrote it.
   std::ofstream line(script);
   line << "#!/bin/sh\nprogram=${EMAX_COSIM_REPLAY:-" << quoted(replay_program().string())
        << "}\n[ -x \"$program\" ] || {\n"

@@ -33,7 +33,7 @@ int run_replay(const fs::path& folder, const std::vector<std::string>& arguments
 
 fs::path keep_failure(const Failure& failure, const ElementFactory& make_element,
                       const fs::path& parent, std::uint64_t window) {
-  std::printf("\nmismatch in %smaking it small ...\n", describe(failure).c_str());
+  std::printf("\nmismatch in %sshrinking it ...\n", describe(failure).c_str());
   std::fflush(stdout);
   const Failure small = shrink(failure, make_element);
   fs::path folder = parent / folder_name(small);
@@ -41,7 +41,7 @@ fs::path keep_failure(const Failure& failure, const ElementFactory& make_element
   const ElementRun& run = small.runs.back();
   std::printf("%zu pairs, %zu records left\n", run.pairs.size(), run.records.size());
   const int code = run_replay(folder, {"--write", "--window", std::to_string(window)});
-  if (code == 0) std::printf("the element with probes does not show it; input.txt stands\n");
+  if (code == 0) std::printf("the element with probes shows no mismatch; only input.txt is kept\n");
   const fs::path path = fs::absolute(folder);
   std::printf("kept in %s; replay: sh %s/replay.sh; waveform: gtkwave %s/waveform.gtkw\n",
               path.c_str(), path.c_str(), path.c_str());

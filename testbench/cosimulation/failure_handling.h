@@ -1,4 +1,4 @@
-// From a failure in a program of the testbench to its folder.
+// Writes the folder of a failure in a program of the testbench.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace emax {
 
-// Shrinks the failure, writes its folder below `parent`, and lets emax_cosim_replay, which stands
-// beside the running program, name the node and write the waveform of `window` cycles. Prints as it
-// goes. Returns the folder.
+// Shrinks the failure and writes its folder below `parent`. Runs emax_cosim_replay, which lies
+// beside the running program, to name the node and write the waveform of `window` cycles. Prints
+// its progress. Returns the folder.
 std::filesystem::path keep_failure(const Failure& failure, const ElementFactory& make_element,
                                    const std::filesystem::path& parent, std::uint64_t window);
 
-// Runs emax_cosim_replay on the folder with the given further arguments; its exit code, or 2 where
-// it cannot be run.
+// Runs emax_cosim_replay on the folder with the given further arguments. Returns its exit code, or
+// 2 where it cannot be run.
 int run_replay(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
 }  // namespace emax

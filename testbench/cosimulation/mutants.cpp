@@ -1,5 +1,6 @@
-// Every mutant of hls/rtl/mutation.sv must be caught by a test of the co-simulation; prints which
-// test caught it. Exit code 0 when all are caught and the unchanged design passes, 1 otherwise.
+// Switches on every mutant of hls/rtl/mutation.sv in turn and prints which test of the
+// co-simulation catches it. Exit code 0 when all are caught and the unchanged design passes, 1
+// otherwise.
 //
 //   emax_mutants [--list hls/rtl/mutation.sv] [--seed N] [--only TEXT]
 
@@ -20,8 +21,8 @@ namespace {
 
 constexpr std::uint64_t kOperatorPairs = 2'000'000;
 
-// The test that looks for a mutant which is not in the simulated element, or nothing: what maps
-// multipliers to a family's blocks, the core, and the link.
+// The test for a mutant that is not in the simulated element: of a family's multipliers, of the
+// core or of the link. Empty for a mutant of the element.
 std::string other_test(const Mutant& mutant) {
   if (mutant.module.starts_with("core/")) return "core_test";
   if (mutant.module.find('/') != std::string::npos) return "operators_test";
@@ -30,7 +31,7 @@ std::string other_test(const Mutant& mutant) {
 }
 
 struct Catch {
-  std::string test;  // empty: none
+  std::string test;  // that caught it; empty where none did
   std::uint64_t pairs = 0;
 };
 
@@ -46,7 +47,7 @@ Catch catch_with_operators(std::uint32_t mutant, std::uint64_t seed) {
   return result;
 }
 
-// The tests in turn until one sees the mutant.
+// Runs the tests in turn until one sees the mutant.
 Catch find_catch(const Mutant& mutant, std::uint64_t seed) {
   const auto number = static_cast<std::uint32_t>(mutant.number);
   Catch caught;

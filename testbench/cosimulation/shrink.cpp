@@ -6,9 +6,9 @@
 namespace emax {
 namespace {
 
-// The pairs whose flag is set, with the flags and records of the others handed on so that what is
-// left keeps the rules: a point's first and final pair in a block, the block's last, the record's
-// last.
+// The run with only the pairs that are kept. Flags and records of removed pairs pass to kept ones,
+// so that the run still keeps the rules: a point's first and final pair in a block, the last pair
+// of a block and of a record.
 ElementRun without(const ElementRun& run, const std::vector<bool>& kept) {
   const auto records = records_of_pairs(run);
   ElementRun smaller;
@@ -51,7 +51,7 @@ class Shrinker {
       : best_(failure), make_element_(make_element), tries_(tries) {}
 
   Failure run() {
-    if (!attempt(best_.runs)) return best_;  // not alone: kept as it is
+    if (!attempt(best_.runs)) return best_;  // does not differ alone: kept as it is
     if (best_.runs.size() > 1) attempt({best_.runs.back()});
     cut_after_the_mismatch();
     keep_the_pair_alone();
@@ -67,7 +67,7 @@ class Shrinker {
  private:
   ElementRun& last() { return best_.runs.back(); }
 
-  // Takes the runs over if they still differ.
+  // Takes the runs as the new best if they still differ.
   bool attempt(const std::vector<ElementRun>& runs) {
     if (tries_ == 0) return false;
     --tries_;
@@ -118,7 +118,7 @@ class Shrinker {
     }
   }
 
-  // Takes away ever smaller chunks (delta debugging).
+  // Removes ever smaller chunks (delta debugging).
   void remove_pairs() {
     for (std::size_t chunk = last().pairs.size() / 2; chunk > 0; chunk /= 2) {
       for (std::size_t begin = 0; begin < last().pairs.size() && tries_ > 0;) {

@@ -13,8 +13,8 @@ struct Suite {
   std::vector<OperatorTest> operators;
   ElementFactory make_element;
   CosimulationOptions options;
-  std::string filter;  // only tests whose name holds it
-  // After each test, before its row is printed.
+  std::string filter;  // only tests whose name contains it
+  // Called after each test, before its row is printed.
   std::function<void(TestReport&)> finish;
 };
 
@@ -23,10 +23,10 @@ struct SuiteResult {
   bool interrupted = false;
 };
 
-// Throws Error where no test's name holds the filter.
+// Throws Error where no test's name contains the filter.
 SuiteResult run_suite(const Suite& suite);
 
-// What run_suite runs with an empty filter.
+// The tests that run_suite runs with an empty filter.
 std::vector<std::string> test_names(const Suite& suite);
 
 }  // namespace emax

@@ -1,4 +1,4 @@
-// The summary of a co-simulation, a line a test.
+// The summary of a co-simulation, with a row for each test.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ class Table {
  public:
   void print_head() const;
   void print_row(const TestReport& report);
-  // All rows so far in one.
+  // The sum of all rows so far.
   void print_sum() const;
-  // On a terminal, at most a few times a second.
+  // Shows the progress on a terminal, at most a few times a second.
   void show_progress(const std::string& test, double share);
 
  private:

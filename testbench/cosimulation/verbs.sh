@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC2154  # part of ./dev, which has the names used here
 # The verb of ./dev that runs the Verilated hardware beside the model.
 
-# cosim_help: the text of emax_cosim's source, so that nothing is built for it.
+# cosim_help: prints the help text from the source of emax_cosim, so that nothing is built for it.
 cosim_help() {
   sed -n '/^constexpr const char\* kHelp = R"(/,/^)";/p' testbench/cosimulation/cosim.cpp |
     sed 's/^constexpr.*R"(//; /^)";/d; s/emax_cosim \[OPTION/.\/dev cosim [OPTION/'
@@ -15,13 +15,13 @@ cosim_build() {
   verb_build kernel "$@"
 }
 
-# cosim_replay ARGUMENT...: a failure's folder again, by the program that --replay of emax_cosim
-# starts; it takes the folder without the word --replay.
+# cosim_replay ARGUMENT...: replays a failure's folder with the program that emax_cosim --replay
+# starts. The program takes the folder without the word --replay.
 cosim_replay() {
   local arguments=() argument
   for argument in "$@"; do
     [ "$argument" = --replay ] && continue
-    # A path from the folder in which ./dev was called.
+    # A relative path starts at the folder in which ./dev was called.
     if [[ $argument != [-/]* ]] && [ ! -e "$argument" ] && [ -e "$OLDPWD/$argument" ]; then
       argument=$OLDPWD/$argument
     fi
@@ -34,7 +34,7 @@ cosim_replay() {
 cosim_run() {
   local folder=build/kernel/coverage status=0
   cosim_build 10 all emax_coverage
-  build/kernel/bin/emax_cosim "$@" --list >/dev/null || return # judges the arguments
+  build/kernel/bin/emax_cosim "$@" --list >/dev/null || return # refuses wrong arguments
   say "coverage of the tests, on a slower build of the same hardware"
   timed coverage build/kernel/bin/emax_coverage --folder "$folder" || status=$?
   say "faults put into the hardware, and the tests that catch them"

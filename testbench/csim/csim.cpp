@@ -3,8 +3,8 @@
 //
 //   emax_csim [--seed N] [--blocks N] [--words FILE] [--fault | --no-flush]
 //
-// --fault sends the top one point with a changed bit, --no-flush leaves subnormals to the
-// processor: both must be caught. --words writes all blocks for csim_replay, the fault included.
+// --fault sends the top one point with a changed bit. --no-flush does not flush subnormals. Both
+// must be caught. --words writes all blocks for csim_replay, the fault included.
 
 #include <cinttypes>
 #include <cstdio>

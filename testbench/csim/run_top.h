@@ -8,8 +8,8 @@
 
 namespace emax {
 
-// Command words through the synthesizable top on the processor's own binary32, until all are
-// served; the answer words. `flushing` is off only to show that a simulation without it is caught.
+// Runs the synthesizable top on the processor's own binary32 until all command words are served.
+// Returns the answer words. `flushing` is off only in tests that show that its absence is caught.
 inline std::vector<Word> run_top(const std::vector<Word>& words, bool flushing = true) {
   std::optional<ScopedFlushMode> flush;
   if (flushing) flush.emplace();

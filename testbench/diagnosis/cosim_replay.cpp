@@ -3,10 +3,10 @@
 //
 //   emax_cosim_replay FOLDER [--mutant N] [--window CYCLES] [--write]
 //
-// --mutant overrides the folder's (0: the unchanged design). --write leaves report.txt,
-// waveform.fst and waveform.gtkw in the folder; the waveform begins so many cycles before the
+// --mutant overrides the mutant of the folder (0: the unchanged design). --write writes report.txt,
+// waveform.fst and waveform.gtkw to the folder. The waveform begins --window cycles before the
 // mismatch (default 300) and holds the failing node.
-// Exit code 0 when all agrees, 1 on a mismatch, 2 when it cannot run.
+// Exit code 0 without a mismatch, 1 on a mismatch, 2 when it cannot run.
 #include <verilated_fst_c.h>
 #include <verilated_syms.h>
 
@@ -39,13 +39,13 @@ struct Window {
   std::uint64_t from = 1, to = 0;  // cycles of the run
 };
 
-// Beside the probes: a waveform of a window.
+// An element with probes that also writes a waveform of a window.
 class TracedElement : public ProbedElement {
  public:
   virtual void open_waveform(const std::string& path) = 0;
   virtual void record(bool on) = 0;
   virtual std::uint64_t time() const = 0;  // of the waveform
-  // Also before a failure is told: a trace that was not closed cannot be read.
+  // To be called before a failure is raised too: a trace that was not closed cannot be read.
   virtual void close_waveform() = 0;
 };
 
@@ -118,13 +118,13 @@ std::unique_ptr<TracedElement> make_traced(std::uint32_t slot_bits) {
 
 class WindowObserver : public RunObserver {
  public:
-  // `marked` is the cycle of which mark() tells the waveform's time.
+  // mark() gives the waveform's time of the cycle `marked`.
   WindowObserver(TracedElement& element, const Window& window, std::uint64_t marked)
       : element_(element), window_(window), marked_(marked) {}
   void pair_accepted(std::size_t, std::uint64_t) override {}
   void cycle_ended(std::uint64_t cycle) override {
     element_.record(cycle + 1 >= window_.from && cycle + 1 <= window_.to);
-    // Two half cycles have passed since the edge that began it.
+    // The cycle began two half cycles ago.
     if (cycle + 1 == marked_) mark_ = element_.time() - 2;
   }
   std::uint64_t mark() const { return mark_; }

@@ -16,7 +16,7 @@
 namespace emax {
 namespace {
 
-// The words of the graph's inputs for a pair.
+// The input words of the graph for a pair.
 std::vector<Word> inputs_of(const DataflowGraph& graph, const Pair& pair,
                             const RecordWords& record) {
   std::vector<Word> words;
@@ -69,7 +69,7 @@ std::optional<Word> NodeObserver::shown(std::size_t p, NodeId node) const {
   const std::uint64_t ready =
       accepted_[p] + static_cast<std::uint64_t>(design.schedule.ready[node]);
   if (of.operation == Operation::kInput) {
-    // A point's coordinates are no registers: they show at the edge that ends their cycle.
+    // A point's coordinates are not registered: they are read at the edge that ends their cycle.
     const bool is_sample = design.graph.inputs()[of.word].arrival == Arrival::kSample;
     const std::uint64_t cycle = is_sample ? ready + 1 : ready;
     if (cycle >= inputs_.size()) return std::nullopt;

@@ -1,5 +1,5 @@
-// Which node of the dataflow graph went wrong first: a run is replayed on an element whose probes
-// show every node, and each is compared with its value on the flushing scalar.
+// Finds the node of the dataflow graph that went wrong first. A run is replayed on an element whose
+// probes show every node, and each node is compared with its value on the flushing scalar.
 #pragma once
 
 #include <memory>
@@ -25,10 +25,10 @@ class ProbedElement : public virtual ElementSimulation {
 struct OperandValue {
   NodeId node;
   std::string name;    // in the generated module
-  std::string signal;  // which the operator reads: the same, or its delayed value
+  std::string signal;  // that the operator reads: the operand, or its delayed value
   ValueKind kind;
   Word model;
-  std::optional<Word> element;  // when it is ready; nothing for a constant
+  std::optional<Word> element;  // the element's value when it is ready; none for a constant
 
   bool differs() const { return element && *element != model; }
 };
@@ -40,8 +40,8 @@ struct NodeMismatch {
   std::string operation;  // add, select, ...
   std::string place;      // in the kernel's source, from the root of the project
   ValueKind kind;
-  std::uint64_t start;  // cycle of the run in which it reads its operands
-  std::uint64_t cycle;  // and in which the probe shows it
+  std::uint64_t start;  // cycle of the run in which the node reads its operands
+  std::uint64_t cycle;  // cycle of the run in which the probe shows its value
   Word model, element;
   std::vector<OperandValue> operands;
 };
@@ -54,13 +54,13 @@ class NodeObserver : public RunObserver {
   void pair_accepted(std::size_t pair, std::uint64_t cycle) override;
   void cycle_ended(std::uint64_t cycle) override;
 
-  // The first node in the order of the pipeline that differs, of the given pair; without one, of
-  // the first pair that has any. Nothing where all nodes agree.
+  // The first node that differs, in the order of the pipeline: of the given pair or, without one,
+  // of the first pair that has such a node. Nothing where all nodes agree.
   std::optional<NodeMismatch> first_divergence(const ElementRun& run,
                                                std::optional<std::size_t> pair) const;
 
  private:
-  // What the element showed of a node of pair `p` when it was ready, if the run went on so long.
+  // The element's value of a node of pair `p` when it was ready, if the run went on so long.
   std::optional<Word> shown(std::size_t p, NodeId node) const;
 
   const ProbedElement& element_;
@@ -69,11 +69,11 @@ class NodeObserver : public RunObserver {
   std::vector<std::vector<Word>> probes_, inputs_;
 };
 
-// Node, model and element, then each operand: name, bits and value.
+// Describes the node with its values in model and element, then each operand: name, bits, value.
 std::string describe(const NodeMismatch& mismatch);
 
-// The pair as it was sent, and what the reductions behind the datapath read for it, by the model:
-// its squared distance, the least so far of its point, the worst point so far of its block.
+// Describes the pair as it was sent and, by the model, what the reductions after the datapath read
+// for it: its squared distance, the least so far of its point, the worst point so far of its block.
 std::string describe_pair(const ElementRun& run, std::size_t pair);
 
 }  // namespace emax

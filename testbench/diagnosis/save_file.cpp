@@ -14,7 +14,8 @@ namespace {
 const std::string kElement = "TOP.emax_element.";
 const std::string kDatapath = kElement + "distance.datapath.";
 
-// The flags of a line in GTKWave's format: right-justified, hexadecimal or binary; a heading.
+// Flags of a line in GTKWave's format: right-justified hexadecimal, right-justified binary,
+// heading.
 constexpr const char* kHexadecimal = "@22\n";
 constexpr const char* kBinary = "@28\n";
 constexpr const char* kHeading = "@200\n";
@@ -79,8 +80,7 @@ std::string save_file(const std::vector<SignalGroup>& groups, const std::string&
                       std::uint64_t time) {
   const std::map<std::string, std::string> known = signals_of(waveform);
   const std::string at = std::to_string(time);
-  // GTKWave finds the waveform beside the save file where both were moved, as both places stand in
-  // it.
+  // The save file names both places, so that GTKWave finds the waveform after both were moved.
   const std::string save = std::filesystem::path(waveform).replace_extension(".gtkw").string();
   std::string text = "[*] Open with: gtkwave waveform.gtkw\n[dumpfile] \"" + waveform +
                      "\"\n[savefile] \"" + save + "\"\n[timestart] " +

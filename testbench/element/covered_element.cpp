@@ -15,13 +15,13 @@ class CoveredElement : public VerilatedElement<Vemax_element_covered, kPairsSlot
   }
 };
 
-// Counts are kept with an element, so all tests share one.
+// An element keeps its counts, so all tests share one element.
 CoveredElement& the_element() {
   static CoveredElement element;
   return element;
 }
 
-// The one element as its user's own.
+// Lends the shared element to a user that expects to own it.
 class SharedElement : public ElementSimulation {
  public:
   std::uint32_t slot_bits() const override { return the_element().slot_bits(); }

@@ -5,10 +5,10 @@
 namespace emax {
 namespace {
 
-// Without a handshake anywhere for so long, nothing comes any more: stalls of all four streams in a
+// Cycles without any handshake until the element counts as hung: stalls of all four streams in a
 // row and several times the depth of the pipeline.
 constexpr std::uint64_t kPatience = 4 * kLongestStall + 1000;
-// Cycles after the last expected word in which a word too many would be seen.
+// Cycles after the last expected word in which an additional word would be seen.
 constexpr std::uint64_t kAftermath = 12;
 
 std::string differing(const char* name, Word expected, Word actual) {
@@ -57,7 +57,7 @@ class Scoreboard {
     ++result_.worst;
   }
 
-  // A beat that was not taken must still stand there, unchanged.
+  // A beat that was not taken must still be there, unchanged.
   void check_held(const ElementOutputs& before, const ElementOutputs& now, bool nearest_taken,
                   bool worst_taken) {
     if (before.nearest_valid && !nearest_taken &&
@@ -153,7 +153,7 @@ RunResult drive(ElementSimulation& element, const ElementRun& run, const Expecte
       element.offer_pair(nullptr);
     }
     if (observer != nullptr) observer->cycle_ended(result.cycles);
-    // What comes after a broken contract means nothing, and may never end.
+    // Output after a broken contract means nothing, and may never end.
     if (element.assertion_failed()) {
       scoreboard.differ("assertion", 0, {}, "an assertion of the design failed");
     }

@@ -12,8 +12,8 @@ namespace emax {
 // The first difference from the model.
 struct Mismatch {
   std::string stream;               // m_axis_nearest, m_axis_worst, or the rule that was broken
-  std::uint64_t sample = 0;         // beat of that stream in the run
-  std::optional<std::size_t> pair;  // that caused it
+  std::uint64_t sample = 0;         // number of the stream's beat in the run
+  std::optional<std::size_t> pair;  // the pair that caused the beat
   std::uint64_t cycle = 0;          // of the run, counted from its reset
   std::string what;                 // both values as bits
 };
@@ -26,7 +26,7 @@ struct RunResult {
   std::optional<Mismatch> mismatch;
 };
 
-// Watches a run from beside it.
+// Is told of a run's events.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -35,8 +35,8 @@ class RunObserver {
 };
 
 // Resets the element and runs until every expected word has come, the run's cut is reached, or
-// something differs: a word, a tlast, a word too many, none for too long, an output that changes
-// while it waits, a failed assertion of the design.
+// something is wrong: a word or tlast that differs, an additional word, no word for too long, an
+// output that changes while it waits, a failed assertion of the design.
 RunResult drive(ElementSimulation& element, const ElementRun& run, const Expected& expected,
                 RunObserver* observer = nullptr);
 

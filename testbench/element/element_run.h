@@ -1,4 +1,4 @@
-// One run of the element: what goes in, how willing the four streams are, and what must come out.
+// One run of the element: its inputs, the patterns of its four streams, and the expected outputs.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +23,15 @@ struct StreamPatterns {
   }
 };
 
-// A run begins with a reset. Pairs meet the records in order, moving on with next_record.
+// A run begins with a reset. Pairs meet the records in order and move on at next_record.
 struct ElementRun {
   std::vector<RecordWords> records;
   std::vector<Pair> pairs;
   StreamPatterns patterns;
-  std::optional<std::uint64_t> cut;  // end after so many cycles: the next run's reset is mid-stream
+  std::optional<std::uint64_t> cut;  // cycles after which the next run's reset ends this run
 };
 
-// What the model says comes out of each output, in order, with the pair that caused it.
+// The words of each output by the model, in order, with the pair that caused each.
 struct ExpectedNearest {
   Word squared;
   bool last;
@@ -46,19 +46,20 @@ struct Expected {
   std::vector<ExpectedWorst> worst;
 };
 
-// The model: pair_squared_bits and the kernel's reductions, pair after pair. Throws
+// The expected outputs, by pair_squared_bits and the kernel's reductions. Throws
 // std::invalid_argument where the run breaks a rule of the element's streams.
 Expected expected_of(const ElementRun& run);
 
-// Do the pairs keep the rules? Each has its record, a point's pairs keep kReadModifyWrite apart,
-// the first of a point in a block says so, a block's last is final.
+// Whether the pairs keep the rules: each has its record, two pairs of a point are at least
+// kReadModifyWrite apart, the first pair of a point in a block has the flag `first`, and a block's
+// last pair is final.
 bool is_legal(const ElementRun& run);
 
 // The record that each pair meets.
 std::vector<std::size_t> records_of_pairs(const ElementRun& run);
 
-// Text: one line a record or pair, hex words, comments after #. Reading throws Error naming the
-// line.
+// A run as text: one line for each record or pair, hex words, comments after #. Reading throws
+// Error naming the line.
 void write_run(std::ostream& out, const ElementRun& run);
 ElementRun read_run(std::istream& in);
 

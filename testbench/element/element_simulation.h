@@ -1,5 +1,5 @@
-// The element (hls/rtl/emax_element.sv) as the testbench sees it: its four streams, one clock cycle
-// at a time, whichever Verilated variant stands behind.
+// The four streams of the element (hls/rtl/emax_element.sv), one clock cycle at a time, for any
+// Verilated variant of it.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace emax {
 
-// Two pairs of one point enter at least so many cycles apart, unless the later is the point's
+// The least number of cycles between two pairs of one point, unless the later pair is the point's
 // first.
 constexpr std::uint32_t kReadModifyWrite = 5;
 constexpr std::uint32_t kPointBits = 10;
@@ -45,7 +45,7 @@ class ElementSimulation {
 
   virtual std::uint32_t slot_bits() const = 0;
   virtual ElementOutputs outputs() const = 0;
-  // Inputs of the present cycle; null is no beat. What is set stays until it is set anew.
+  // Inputs of the present cycle; null is no beat. An input stays until it is set anew.
   virtual void offer_record(const RecordWords* record) = 0;
   virtual void offer_pair(const Pair* pair) = 0;
   virtual void set_ready(bool nearest, bool worst) = 0;
@@ -53,10 +53,10 @@ class ElementSimulation {
   virtual void settle() = 0;
   // The rising edge that ends the present cycle; with `reset`, aresetn is low at it.
   virtual void clock(bool reset = false) = 0;
-  // An assertion of the design failed since the start.
+  // Whether an assertion of the design has failed since the start.
   virtual bool assertion_failed() const = 0;
-  // Of a mutation build: the active mutant; 0 is the unchanged design. Throws std::logic_error
-  // elsewhere.
+  // Sets the active mutant; 0 is the unchanged design. Throws std::logic_error where the build has
+  // no mutants.
   virtual void set_mutant(std::uint32_t mutant) = 0;
 };
 

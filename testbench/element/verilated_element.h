@@ -1,4 +1,4 @@
-// A Verilated variant of emax_element behind ElementSimulation.
+// ElementSimulation for a Verilated variant of emax_element.
 #pragma once
 
 #include <verilated.h>
@@ -24,7 +24,8 @@ class VerilatedElement : public virtual ElementSimulation {
     model_.eval();
   }
   ~VerilatedElement() override {
-    // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
+    // Verilator 5.006 removes a model's scopes from the thread's present context, even if the model
+    // is of another.
     Verilated::threadContextp(&context_);
     model_.final();
   }

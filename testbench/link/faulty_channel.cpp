@@ -37,7 +37,7 @@ void FaultyChannel::add_garbage(std::size_t count) {
   counts_.garbage += count;
   for (Direction* direction : {&to_board_, &to_host_}) {
     for (std::size_t i = 0; i < count; ++i) {
-      // Often the start of a frame.
+      // Garbage often contains the start of a frame.
       direction->bytes.push_back(random_.one_in(4) ? kSync[i % 2]
                                                    : static_cast<std::uint8_t>(random_.word()));
     }

@@ -13,13 +13,13 @@
 
 namespace emax {
 
-// What happens to the bytes of one direction.
+// Probabilities of faults in one direction.
 struct ByteFaults {
-  double flip = 0;   // per byte: one of its bits
-  double drop = 0;   // per byte
-  double twice = 0;  // per byte
-  double burst = 0;  // per byte: from here on up to 64 bytes are garbage
-  double swap = 0;   // per frame: it comes after one to three of the next ones
+  double flip = 0;   // per byte: one of its bits changes
+  double drop = 0;   // per byte: it is lost
+  double twice = 0;  // per byte: it comes twice
+  double burst = 0;  // per byte: it and up to 63 that follow become garbage
+  double swap = 0;   // per frame: it comes after one to three of the next frames
 };
 
 struct FaultCounts {
@@ -28,8 +28,7 @@ struct FaultCounts {
   std::string text() const;
 };
 
-// Another channel, and everything that can happen on a way. Equal seeds and calls give equal
-// faults.
+// A channel with faults in front of another channel. Equal seeds and calls give equal faults.
 class FaultyChannel : public ByteChannel {
  public:
   using Duration = std::chrono::steady_clock::duration;
@@ -38,13 +37,13 @@ class FaultyChannel : public ByteChannel {
   FaultyChannel(ByteChannel& inner, std::uint64_t seed, const ByteFaults& to_board = {},
                 const ByteFaults& to_host = {});
 
-  // So many bytes of garbage now, in either direction.
+  // Inserts `count` bytes of garbage now, in both directions.
   void add_garbage(std::size_t count);
-  // Nothing passes for so long.
+  // Lets nothing pass for this time.
   void stall(Duration time);
-  // The channel is lost, and can be opened again after so long.
+  // The channel is lost and can be opened again after this time.
   void unplug(Duration time);
-  // Once so many bytes have gone to the board.
+  // Calls `action` once `count` bytes have gone to the board.
   void after_bytes(std::uint64_t count, std::function<void()> action);
   const FaultCounts& counts() const { return counts_; }
   std::uint64_t bytes_to_board() const { return bytes_to_board_; }

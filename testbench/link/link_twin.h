@@ -19,12 +19,12 @@ struct TwinSettings {
   std::uint32_t word_times = 1;  // byte times that the core spends on a word
   std::uint8_t version = kLinkVersion;
   bool ignores_crc = false;       // a fault that tests must catch
-  bool ignores_sequence = false;  // likewise
+  bool ignores_sequence = false;  // a fault that tests must catch
 };
 
-// The device's side of the link as docs/protocol.md has it, plain and slow, in front of any core.
-// One byte each way, and one step of the core, in a byte time; time passes in read() alone, while
-// it waits.
+// A plain and slow implementation of the device's side of the link (docs/protocol.md) in front of
+// any core. In a byte time one byte passes each way and the core makes one step. Time passes only
+// while read() waits.
 class LinkedBoardTwin : public ByteChannel {
  public:
   using MakeCore = std::function<std::unique_ptr<Device>()>;
@@ -63,11 +63,11 @@ class LinkedBoardTwin : public ByteChannel {
 
   std::optional<std::uint16_t> session_;
   std::uint8_t expected_ = 0, next_sequence_ = 0;
-  std::optional<Frame> under_way_;  // until the host has it
-  bool answer_due_ = false;         // to a frame; one answers all that came while another was sent
+  std::optional<Frame> under_way_;  // the data frame that the host has not acknowledged
+  bool answer_due_ = false;         // to one or more frames that came while another was sent
   bool status_due_ = false;
-  bool was_short_ = false;      // of room
-  std::optional<Frame> reply_;  // lost, or to a reset of another version
+  bool was_short_ = false;      // the credit has been below 256 since the last status
+  std::optional<Frame> reply_;  // a lost frame, or the answer to a reset of another version
 
   std::unique_ptr<Device> core_;
   std::deque<Word> commands_, answers_;

@@ -1,5 +1,5 @@
-// The board's netlist and its source in lockstep: the same pins in, and in every cycle the same
-// pins out from the end of the reset on.
+// Drives the board's netlist and its source in lockstep. With the same input pins, the output pins
+// must be the same in every cycle from the end of the reset on.
 #include <Vboard_source.h>
 #include <Vnetlist_board.h>
 
@@ -13,7 +13,7 @@ namespace emax {
 namespace {
 
 constexpr int kClocksPerBit = 40;            // of the design as it is built
-constexpr std::uint64_t kResetCycles = 256;  // in which the netlist must come out of its reset
+constexpr std::uint64_t kResetCycles = 256;  // within which the netlist must leave its reset
 
 class LockstepBoard : public BoardSimulation {
  public:

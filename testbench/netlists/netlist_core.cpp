@@ -1,9 +1,9 @@
-// The core's netlist of one element beside the C++ top: any commands, idle cycles and
-// back-pressure, dense blocks.
+// Drives the netlist of a core of one element beside the C++ top: commands in any order, with idle
+// cycles and back-pressure, and dense blocks.
 //
 //   netlist_core [ROUNDS]
 //
-// Exit code 0 where every answer is the top's, else 1.
+// Exit code 0 where every answer equals the top's, else 1.
 #include <Vnetlist_core.h>
 
 #include <cstdio>

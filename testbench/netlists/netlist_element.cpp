@@ -1,7 +1,7 @@
-// The element's netlist beside the model: the tests of the source's co-simulation that are for an
-// element of 16 record slots.
+// Drives the element's netlist beside the model, with the tests of the source's co-simulation that
+// are for an element of 16 record slots.
 //
-// Exit code 0 where every word is the model's, else 1.
+// Exit code 0 where every word equals the model's, else 1.
 #include <Vnetlist_element.h>
 
 #include <cstdio>

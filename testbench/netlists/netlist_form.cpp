@@ -1,8 +1,8 @@
-// The netlist of a form of the distance, with its record memory, beside its source: random records
-// and points, a pair every cycle. The source itself is held against the kernel by the tests of the
-// lowering.
+// Drives the netlist of a form of the distance, with its record memory, beside its source: random
+// records and points, a pair every cycle. The tests of the lowering compare the source itself with
+// the kernel.
 //
-// Exit code 0 where every distance is the source's, else 1.
+// Exit code 0 where every distance equals the source's, else 1.
 #include <Vnetlist_form.h>
 
 #include <bit>
@@ -17,7 +17,7 @@ constexpr std::uint64_t kPairs = 30'000;
 constexpr std::uint64_t kFilling = 400;  // cycles, more than any latency
 constexpr std::uint32_t kSlots = 16;
 
-// Mostly of about the kernel's range; now and then any word.
+// Mostly a number in the range of normalised coordinates, now and then any word.
 std::uint32_t any_word(Random& random) {
   if (random.one_in(64)) return random.word();
   if (random.one_in(16)) return 0;
@@ -36,7 +36,7 @@ int run() {
   };
   std::uint64_t pairs = 0, mismatches = 0;
   for (std::uint64_t round = 0; round < 10; ++round) {
-    // Records are written while nothing reads them.
+    // Records are written while no pair reads them.
     for (std::uint32_t slot = 0; slot < kSlots; ++slot) {
       model.write_enable = 1;
       model.write_slot = static_cast<CData>(slot);

@@ -1,11 +1,11 @@
-// Faults that Yosys put into the operators' netlist, one at a time (hls/boards/netlists.py): which
-// of them the co-simulation's stimuli do not see.
+// Switches on the faults that Yosys put into the operators' netlist, one at a time
+// (hls/boards/netlists.py), and finds those that the co-simulation's stimuli do not see.
 //
 //   netlist_mutants LIST EXPLAINED
 //
-// LIST is Yosys's list of the faults, a line each. A line of EXPLAINED is a regular expression, " #
-// " and the reason why the faults that it finds in a line of LIST cannot be seen. Exit code 0 where
-// every survivor is explained and every fault that is explained survives, else 1.
+// LIST is Yosys's list of the faults, a line for each. A line of EXPLAINED is a regular expression,
+// " # ", and the reason why faults whose lines in LIST match cannot be seen. Exit code 0 where
+// every fault that is not seen is explained, and every explained fault is not seen, else 1.
 #include <Vnetlist_mutated.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint64_t kPairs = 60'000;
 
 struct Fault {
-  unsigned number;  // at mutant_select
+  unsigned number;  // the value of mutant_select
   std::string text;
 };
 
@@ -76,7 +76,7 @@ int run(const char* list, const char* explanations) {
     try {
       seen = is_seen(fault.number);
     } catch (const Error&) {
-      seen = true;  // results of a batch are missing
+      seen = true;  // the netlist lost results of a batch
     }
     if (fault.number == 0) {
       if (seen) complain("the netlist without a fault differs", fault);

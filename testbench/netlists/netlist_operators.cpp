@@ -1,9 +1,9 @@
-// The operators' netlist beside the processor's own arithmetic, with the stimuli of the source's
-// co-simulation.
+// Drives the operators' netlist beside the processor's own arithmetic, with the stimuli of the
+// source's co-simulation.
 //
 //   netlist_operators [PAIRS]
 //
-// Prints the first mismatch of each operator. Exit code 0 where there is none, else 1.
+// Prints the first mismatch of each operator. Exit code 0 without a mismatch, else 1.
 #include <Vnetlist_operators.h>
 
 #include <cstdio>

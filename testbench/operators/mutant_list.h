@@ -13,8 +13,8 @@ struct Mutant {
   std::string fault;
 };
 
-// The mutants in the order of the file. Throws Error when the file cannot be read, holds none, or a
-// number stands twice.
+// The mutants in the order of the file. Throws Error when the file cannot be read or holds none, or
+// when two mutants have one number.
 std::vector<Mutant> read_mutants(const std::string& path);
 
 }  // namespace emax

@@ -8,8 +8,10 @@ namespace emax {
 
 std::unique_ptr<OperatorUnit> make_mutant_operators(int mutant) {
   auto unit = std::make_unique<VerilatedOperators<Voperators_mutant_rtl>>();
-  unit->model().eval();  // the first evaluation sets the initial value
-  unit->model().eval();  // its initial blocks make the design unchanged
+  // Two evaluations, so that initial values and initial blocks do not overwrite the mutant's
+  // number.
+  unit->model().eval();
+  unit->model().eval();
   unit->model().rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
   return unit;
 }

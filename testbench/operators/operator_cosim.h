@@ -19,10 +19,10 @@ struct OperatorResult {
   std::string first_mismatch;  // operands and both results as sign/exponent/fraction; empty if none
 };
 
-// What one run compares: all operators, indexed by Operator.
+// The comparison of one run: all operators, indexed by Operator.
 using OperatorRun = std::vector<OperatorResult>;
 
-// Called after each batch with the share done; false ends the run.
+// Called after each batch with the share that is done; false ends the run.
 using OperatorWatch = std::function<bool(double share)>;
 
 // Drives `unit` (binary32) with every corner pair, then `pairs` pairs over all aims, beside the
@@ -30,7 +30,7 @@ using OperatorWatch = std::function<bool(double share)>;
 OperatorRun run_operator_cosim(OperatorUnit& unit, std::uint64_t pairs, std::uint64_t seed,
                                bool stop_at_mismatch = false, const OperatorWatch& watch = {});
 
-// Drives `unit` with every pair of a format of 8 bits beside SmallFormat.
+// Drives `unit` beside SmallFormat with every pair of a format of 8 bits.
 OperatorRun run_small_cosim(OperatorUnit& unit, SmallFormat format);
 
 }  // namespace emax

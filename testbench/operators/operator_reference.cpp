@@ -51,7 +51,7 @@ std::uint32_t SmallFormat::rounded(double exact) const {
   const double smallest = std::ldexp(1.0, 1 - bias);
   if (magnitude < smallest * (1 - std::ldexp(1.0, -fraction - 2))) return sign;
 
-  int binade = 0;  // magnitude in [2^binade, 2^(binade + 1)); below the smallest there is no other
+  int binade = 0;  // magnitude is in [2^binade, 2^(binade + 1)); at least that of the smallest
   std::frexp(magnitude, &binade);
   binade = std::max(binade - 1, -bias);
   const double scaled = std::ldexp(magnitude, fraction - binade);
@@ -59,7 +59,7 @@ std::uint32_t SmallFormat::rounded(double exact) const {
   const double rest = scaled - whole;
   if (rest > 0.5 || (rest == 0.5 && std::fmod(whole, 2) != 0)) whole += 1;
   const auto units = static_cast<std::uint32_t>(whole);
-  // A carry out of the fraction runs on into the exponent, up to infinity.
+  // A carry out of the fraction increments the exponent, up to infinity.
   const std::uint32_t word =
       (static_cast<std::uint32_t>(binade + bias) << fraction) + (units - (1u << fraction));
   return sign | std::min(word, infinity);

@@ -7,13 +7,13 @@
 
 namespace emax {
 
-// What this processor's own binary32 arithmetic makes of the pairs with subnormals flushed, each
-// NaN as 0x7fc00000. Sets the flush mode while it runs.
+// The results of this processor's own binary32 arithmetic with subnormals flushed and each NaN as
+// 0x7fc00000. Sets the flush mode while it runs.
 void host_results(std::span<const OperandPair> pairs, std::span<OperatorResults> results);
 
-// A format of 1 + exponent + fraction bits, at most 8 in all, under the rules of docs/numerics.md,
-// computed exactly in double (which must not flush) and rounded here: no code or idea is shared
-// with the RTL, and the processor rounds nothing.
+// A format of 1 + exponent + fraction bits, at most 8 in all, under the rules of docs/numerics.md.
+// Results are computed exactly in double (which must not flush) and rounded here. No code or method
+// is shared with the RTL, and the processor rounds nothing.
 struct SmallFormat {
   int exponent, fraction;
 

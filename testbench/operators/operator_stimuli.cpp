@@ -47,7 +47,8 @@ int around(Random& random, int middle, int reach) {
   return middle - reach + static_cast<int>(random.below(2 * reach + 1));
 }
 
-// A pair whose exponents add up to about `sum`, half of them with a product about a power of two.
+// A pair whose exponents add up to about `sum`; half of the pairs have a product near a power of
+// two.
 OperandPair product_pair(Random& random, int sum) {
   OperandPair pair = any_pair(random);
   if (random.one_in(2)) pair.a = (pair.a & ~kFractionMask) | sparse_fraction(random);
@@ -62,14 +63,14 @@ OperandPair product_pair(Random& random, int sum) {
   return pair;
 }
 
-// Odd a's inverse modulo 2^64, by Newton's iteration: each step doubles the bits that are right.
+// The inverse of an odd `a` modulo 2^64, by Newton's iteration; each step doubles the correct bits.
 std::uint64_t inverse(std::uint64_t a) {
   std::uint64_t x = a;
   for (int i = 0; i < 5; ++i) x *= 2 - a * x;
   return x;
 }
 
-// A root modulo 2^bits of c, which is 1 modulo 8.
+// A square root of c modulo 2^bits; c is 1 modulo 8.
 std::uint64_t square_root(std::uint64_t c, int bits) {
   std::uint64_t root = 1;
   for (int bit = 3; bit < bits; ++bit) {
@@ -82,18 +83,19 @@ constexpr std::uint64_t kHidden = 1u << 23;  // of a mantissa
 
 bool is_mantissa(std::uint64_t m) { return m >= kHidden && m < 2 * kHidden; }
 
-// Mantissas whose product is half a unit in the last place and one bit far below it from an even
-// number: that bit alone decides the rounding.
+// Mantissas whose product differs from an even number by half a unit in the last place and one bit
+// far below: that bit alone decides the rounding.
 OperandPair lone_bit_product(Random& random, bool square) {
   while (true) {
-    const int shift = random.one_in(2) ? 1 : 0;  // the product's from 2 on
+    // 1 where the product of the mantissas is to be 2 or more.
+    const int shift = random.one_in(2) ? 1 : 0;
     const int half = 22 + shift,
               lone = static_cast<int>(random.below(static_cast<std::size_t>(half)));
     std::uint64_t a = kHidden | (random.bits() & kFractionMask) | 1, b = 0;
     if (!square) {
       b = (1ull << half | 1ull << lone) * inverse(a) & ((1ull << (half + 2)) - 1);
     } else if (lone % 2 == 0 && half - lone >= 3) {
-      // (2^m u)^2, u odd: only even places can be a square's lowest bit.
+      // The square is (2^m u)^2 with u odd, so its lowest bit is at an even place.
       const int m = lone / 2, bits = half + 2 - lone;
       const std::uint64_t u = square_root(1 | 1ull << (half - lone), bits);
       a = b = ((random.bits() << (bits - 1)) + u) << m & (2 * kHidden - 1);
@@ -135,7 +137,7 @@ OperandPair pair_of(Aim aim, Random& random) {
       pair = product_pair(random, 381);
       break;
     case Aim::kSquares: {
-      // The ends of the range have square roots near 2^-63 and 2^64.
+      // The square roots of the ends of the range are near 2^-63 and 2^64.
       static constexpr std::uint32_t kRoots[] = {0x1fffffffu, 0x20000000u, 0x5f7fffffu,
                                                  0x5f800000u};
       pair.a = (pair.a & kSignBit) |

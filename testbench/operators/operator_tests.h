@@ -17,12 +17,12 @@ struct OperatorTest {
   std::function<OperatorRun(OperatorUnit&, std::uint64_t seed, const OperatorWatch&)> run;
 };
 
-// So many random pairs beside all corner pairs.
+// `pairs` random pairs after all corner pairs.
 OperatorTest binary32_test(std::function<std::unique_ptr<OperatorUnit>()> make_unit,
                            std::uint64_t pairs);
 
-// That on the fastest build with 4 million pairs, with `full` 10^8, and every pair of two formats
-// of 8 bits. In the library emax_operators.
+// binary32_test on the fastest build with 4 million pairs, or 10^8 with `full`, and every pair of
+// two formats of 8 bits. In the library emax_operators.
 std::vector<OperatorTest> operator_tests(bool full);
 
 }  // namespace emax

@@ -20,7 +20,8 @@ class VerilatedOperators : public OperatorUnit {
  public:
   VerilatedOperators() : context_(std::make_unique<VerilatedContext>()), model_(context_.get()) {}
 
-  // Verilator 5.006 takes a model's scopes out of the thread's context, whichever that is.
+  // Verilator 5.006 removes a model's scopes from the thread's present context, even if the model
+  // is of another.
   ~VerilatedOperators() override { Verilated::threadContextp(context_.get()); }
 
   Model& model() { return model_; }

@@ -32,7 +32,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// A test's own seed: from its name and the seed of the whole run (FNV-1a).
+// The seed of one test, from its name and the seed of the whole run (FNV-1a).
 constexpr std::uint64_t named_seed(std::string_view name, std::uint64_t seed) {
   std::uint64_t hash = 0xcbf29ce484222325u ^ (seed * 0x9e3779b97f4a7c15u);
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

@@ -13,7 +13,7 @@ void add_triangle(Stimulus& s, const Point& a, const Point& b, const Point& c) {
   s.triangles.push_back({first, first + 1, first + 2});
 }
 
-// Triangles anywhere, points anywhere: nothing is near anything.
+// Triangles and points anywhere: no point is near the surface.
 Stimulus random_soup(Random& random, std::size_t triangles, std::size_t points) {
   Stimulus s{"random soup", {}, {}, {}};
   for (std::size_t i = 0; i < triangles; ++i) {
@@ -24,7 +24,8 @@ Stimulus random_soup(Random& random, std::size_t triangles, std::size_t points) 
   return s;
 }
 
-// Heights around the sliver ratio, needles and obtuse ones: the frame rules decide.
+// Triangles with heights around the sliver ratio, needles and obtuse triangles, where the rules of
+// the frame decide.
 Stimulus slivers(Random& random) {
   Stimulus s{"slivers", {}, {}, {}};
   for (int i = 0; i < 200; ++i) {
@@ -39,7 +40,7 @@ Stimulus slivers(Random& random) {
   return s;
 }
 
-// Points for triangles, segments for triangles, with points on and off them.
+// Triangles that are points or segments, with points on and off them.
 Stimulus degenerate(Random& random) {
   Stimulus s{"degenerate", {}, {}, {}};
   for (int i = 0; i < 60; ++i) {
@@ -52,7 +53,7 @@ Stimulus degenerate(Random& random) {
   return s;
 }
 
-// Every triangle and every point many times: ties everywhere, the lowest index must win.
+// Every triangle and every point several times: ties everywhere, where the lowest index must win.
 Stimulus duplicated(Random& random) {
   Stimulus s = random_soup(random, 10, 40);
   s.name = "duplicated";

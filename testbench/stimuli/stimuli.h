@@ -21,10 +21,10 @@ struct Stimulus {
   MeshView mesh() const { return {vertices, triangles}; }
 };
 
-// Random, degenerate, sliver, duplicated, far-from-origin and surface-like stimuli.
+// All stimuli: random, degenerate, sliver, duplicated, far from the origin, like a surface.
 std::vector<Stimulus> all_stimuli(std::uint64_t seed);
 
-// The one of them with that name. Throws std::out_of_range.
+// The stimulus with this name. Throws std::out_of_range.
 Stimulus named_stimulus(const std::string& name, std::uint64_t seed);
 
 // A bumpy sphere of rings x segments vertices, closed and consistently oriented.

@@ -1,5 +1,6 @@
-// When a stream is willing: idle cycles of a driver (it begins no new beat) and back-pressure of a
-// receiver (it is not ready). A driver that has shown a beat keeps showing it until it is taken.
+// Patterns of a stream. In a cycle in which the stream is not willing, a driver idles (begins no
+// new beat) and a receiver presses back (is not ready). A driver that shows a beat keeps showing it
+// until the beat is taken.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ enum class Pattern : std::uint8_t {
   kHalf,       // 1 of 2, at random
   kRarely,     // 1 of 8, at random
   kAlternate,  // every other cycle
-  kBursts,     // 1 to 32 cycles willing, 1 to 32 not
+  kBursts,     // 1 to 32 cycles willing, then 1 to 32 cycles not
   kStalls,     // mostly willing, now and then not for 150 to 400 cycles: longer than any pipeline
 };
 constexpr std::uint32_t kPatterns = 7;
@@ -41,7 +42,7 @@ class PatternSource {
  public:
   PatternSource(Pattern pattern, std::uint64_t seed) : pattern_(pattern), random_(seed) {}
 
-  // Is the stream willing in the next cycle?
+  // Whether the stream is willing in the next cycle.
   bool next() {
     switch (pattern_) {
       case Pattern::kAlways:

@@ -1,10 +1,10 @@
-// What the Verilated runtime prints goes through here: its sources are compiled with VL_PRINTF set
-// to this function (cmake/emax_verilate.cmake).
+// Everything that Verilator's runtime prints passes this function: its sources are compiled with
+// VL_PRINTF set to it (cmake/emax_verilate.cmake).
 //
-// A design that hangs or a search that tries hundreds of variants of a failure breaks one assertion
-// again and again. The first kShownErrors lines with %Error are printed; the others are counted,
-// and at its end the program tells on standard error how many there were. "Verilog $stop" is not
-// printed at all: it follows each of them and says nothing more.
+// A design that hangs, or the shrinking of a failure, breaks one assertion again and again. The
+// first kShownErrors lines with %Error are printed. The others are counted, and the program says at
+// its end, on standard error, how many there were. "Verilog $stop" is never printed: it follows
+// each of these lines and tells nothing more.
 #pragma once
 
 constexpr unsigned long kShownErrors = 3;
