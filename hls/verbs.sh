@@ -1,11 +1,11 @@
 # shellcheck shell=bash disable=SC2154  # part of ./dev, which has the names used here
 # The verbs of ./dev for hardware: synthesis, proofs, bitstreams.
 
-# synthesis_tools SCRIPT ARGUMENT...: tells the script's plan and installs Yosys and nextpnr; ends
-# here where only the plan or help was wanted.
+# synthesis_tools SCRIPT ARGUMENT...: prints the script's plan and installs Yosys and nextpnr. Exits
+# where only the plan or the help was wanted.
 synthesis_tools() {
   local argument
-  # Arguments are judged, and the plan is told, before anything takes time.
+  # Wrong arguments are refused, and the plan is printed, before anything takes time.
   "$python" -B "$1" --plan "${@:2}"
   for argument in "$@"; do
     case $argument in -h | --help | --plan) exit ;; esac
@@ -24,7 +24,7 @@ verb_synth() {
   exec build/python/bin/python -B hls/boards/synthesize.py "$@"
 }
 
-# proof_packages: what the proofs run in build/python.
+# proof_packages: installs what the proofs need into build/python.
 proof_packages() {
   verb_setup prove
   netlist_tools
@@ -33,7 +33,7 @@ proof_packages() {
 
 verb_prove() {
   local argument
-  # Arguments are judged, and the plan is told, before anything takes time.
+  # Wrong arguments are refused, and the plan is printed, before anything takes time.
   "$python" -B hls/proofs/prove.py --plan "$@"
   for argument in "$@"; do
     case $argument in -h | --help | --plan | --list) exit ;; esac

@@ -1,9 +1,9 @@
 """`./dev bitstream`: a board's bitstream with Yosys, nextpnr and ecppack.
 
 Tries seeds of the placement in order until the clock is met, and writes the bitstream to
-build/bitstream and its figures into docs/synthesis.md. A bitstream that misses its clock is not
-written, nor one of a design that did not do in simulation what its source does, as Yosys synthesized
-it and as nextpnr routed it.
+build/bitstream and its figures into docs/synthesis.md. It writes no bitstream that misses its clock,
+and none of a design that differed from its source in simulation, as Yosys synthesized it or as nextpnr
+routed it.
 """
 
 import argparse
@@ -19,13 +19,13 @@ FOLDER = Path("build/bitstream")
 DOCUMENT = Path("docs/synthesis.md")
 CONSTRAINTS = designs.ULX3S / "ulx3s.lpf"
 TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
-# Where two elements meet the clock with the pinned tools (docs/decisions/0007).
+# With this seed two elements meet the clock with the pinned tools (docs/decisions/0007).
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
 SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 3, 13, 17
 # Some placements are never routed: of two that were watched, arcs still overlapped after 44 minutes.
 SEED_LIMIT = 40
-# Into the netlist: frames, damaged ones among them, and blocks whose distances must be answered rightly.
+# Sent into the netlist: frames, damaged ones included, and blocks whose answers must be right.
 DRIVEN = ["--frames", 30, "--blocks", 6]
 
 
@@ -41,7 +41,7 @@ def build(runner, options, results):
             report, log, placed, design_routed = runner.step(
                 "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
                 ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{TARGET:g}",
-                 "--placer", "static",  # 364,000 of wire where the default takes 475,000 (docs/decisions/0007)
+                 "--placer", "static",  # a wire length of 364,000 instead of the default's 475,000 (docs/decisions/0007)
                  "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist),
                  "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json",
                  "--write", "{folder}/routed.json"],
@@ -74,8 +74,8 @@ def build(runner, options, results):
 
 
 def drive(runner, name, text):
-    """Drives a netlist of the board; what was compared. Raises Failure unless it is this text and does
-    what its source does."""
+    """Drives a netlist of the board and returns what was compared. Raises Failure unless the netlist is
+    this text and behaves as its source does."""
     runner.say(f"{name}: driving the whole netlist in lockstep with its source, about {LOCKSTEP_MINUTES} min")
     driven = comparison.drive(name, DRIVEN)
     comparison.holds(name, [text])

@@ -1,8 +1,9 @@
 """Reads the SystemVerilog with two front ends and proves that they make the same circuits of it.
 
-Yosys has two: its own, which synthesis uses, and slang. What either remarks on is a fault, but for
-remarks that are listed here with their reason. Each module below is elaborated by both, and every
-register and output of the one is proven equal to that of the other, by induction over the clock.
+Yosys has two front ends: its own, which synthesis uses, and slang. A remark of either is a fault,
+except for the remarks that are listed here with their reason. Both elaborate each module below, and
+every register and output of one circuit is proven equal to that of the other, by induction over the
+clock.
 
   front_ends.py [--misread]
 
@@ -21,11 +22,11 @@ from synthesis.tools import FOLDER, Failure, Runner, run_command
 
 RTL = designs.RTL
 ECP5_BLOCKS = Path("testbench/netlists/ecp5_blocks.sv")
-# What Yosys remarks on and why that is right.
+# Remarks of Yosys that are no fault, each with its reason.
 PERMITTED = [
     r"Warning: Replacing memory \S+ with list of registers\.",  # a chain of registers in an array
 ]
-# The parameters with which a module is proven, where its defaults will not do.
+# The parameters with which a module is proven, where its defaults do not suit the proof.
 PARAMETERS = {
     "fp_add": [{"LATENCY": 12}, {"LATENCY": 12, "SUBTRACT": 1}, {"LATENCY": 1}, {"LATENCY": 14}],
     "fp_less": [{"LATENCY": 3}, {"LATENCY": 1}],
@@ -44,8 +45,8 @@ PARAMETERS = {
     "link_command_ring": [{"ROOM_BITS": 3}],
     "running_minimum": [{"POINT_BITS": 3}],
 }
-# Modules that are parts put together, with memories too large to be registers: their parts are
-# proven, and what puts them together is seen in the netlists that are driven.
+# Modules that join others and have memories too large to become registers. Their parts are proven, and
+# the netlists that are driven show how they are joined.
 PARTS_PROVEN = ["emax_element", "emax_distance", "emax_distance_unit", "emax_core", "emax_link", "emax_board", "link_answers",
                 "link_sender", "emax_ulx3s"]
 PACKAGES = ["mutation"]  # no module
@@ -53,7 +54,7 @@ SOURCES = ["", "core", "link", "generated", "behavioural"]
 
 
 def script(top, parameters, files):
-    """One module through both front ends, and the proof."""
+    """The Yosys script that reads one module with both front ends and proves the circuits equal."""
     include = f"-I {RTL} -I {RTL}/generated"
     slang = " ".join(f"-G {name}={value}" for name, value in parameters.items())
     own = " ".join(f"-set {name} {value}" for name, value in parameters.items())
@@ -69,7 +70,7 @@ def script(top, parameters, files):
 
 
 def remarks(log):
-    """The lines of a log that are remarks and not permitted."""
+    """The lines of a log that are remarks and are not permitted."""
     found = []
     for line in log.splitlines():
         if re.search(r"[Ww]arning|remark", line) and not any(re.search(pattern, line) for pattern in PERMITTED):
@@ -111,7 +112,7 @@ def prove(runner, top, parameters, family, replaced={}):
 
 
 def read_all(runner, family, more):
-    """The whole board of a family through slang; through Yosys's own it goes with every netlist."""
+    """Reads the whole board of a family with slang. Yosys's own front end reads it for every netlist."""
     design = designs.ulx3s(2, 0)
     files = [path for path in design.sources(family) if path.parent != designs.ULX3S]
     files += [designs.ULX3S / "emax_ulx3s.sv", designs.ULX3S / "behavioural/ulx3s_clock.sv", *more]

@@ -1,12 +1,16 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
-NAME is KIND_FAMILY: operators, element, form_FORM, core, board1 or board2 (with so many elements); ecp5,
-xc7, xcup or words (as the front end reads the sources, before anything is mapped); or KIND_mutated, with
-faults put in and their list beside it; or KIND_misread, unmapped, of sources with an expression that
-Yosys reads as another one; or operators_routed, as nextpnr places and routes them for ECP5, and
-operators_misrouted, with one bit of a LUT of that turned. The operators of a family are four modules,
-fp_add_netlist and so on; a form is form_netlist, and its source stands beside it; the others have the
-source's name.
+NAME is KIND_FAMILY. KIND is operators, element, form_FORM, core, board1 or board2 (with 1 or 2 elements).
+FAMILY is one of these:
+  ecp5, xc7, xcup   mapped to the family
+  words             as the front end reads the sources, before anything is mapped
+  mutated           with faults put in; their list is FOLDER/NAME.txt
+  misread           unmapped, of sources with an expression that Yosys reads as another one
+  routed            operators alone: as nextpnr places and routes them for ECP5
+  misrouted         the same with one bit of a LUT turned
+
+The operators of a family are four modules, fp_add_netlist and so on. A form is form_netlist, with its
+source in the same file. The other modules have the source's name.
 """
 
 import fcntl
@@ -39,7 +43,7 @@ def netlist_of(runner, design, family):
 
 
 def text_of(runner, name):
-    """{suffix: text} of what is written for a name."""
+    """{suffix: text} of the files that are written for a name."""
     kind, family = name.rsplit("_", 1)
     if family == "mutated":
         design = {"operators": BENCH, "core": designs.core(1)}[kind]
@@ -69,7 +73,7 @@ def main():
     folder, names = Path(sys.argv[1]), sys.argv[2:]
     folder.mkdir(parents=True, exist_ok=True)
     FOLDER.mkdir(parents=True, exist_ok=True)
-    with open(FOLDER / "netlists.lock", "w") as lock:  # two builds may want the same ones
+    with open(FOLDER / "netlists.lock", "w") as lock:  # two builds may want the same netlists
         fcntl.flock(lock, fcntl.LOCK_EX)
         runner = Runner(2, out=io.StringIO(), name="netlists")
         runner.prepare()

@@ -1,7 +1,7 @@
-"""`./dev synth`: operators, the element and the forms of the distance through open tools.
+"""`./dev synth`: synthesizes operators, the element and the forms of the distance with open tools.
 
-Yosys and nextpnr for ECP5-85F (placed and routed), Yosys for 7-series and UltraScale+ (counted
-only). Writes docs/synthesis.md and compares with the checked-in baseline.
+Yosys and nextpnr place and route for ECP5-85F; for 7-series and UltraScale+ Yosys maps and counts alone.
+Writes docs/synthesis.md and compares with the checked-in baseline.
 """
 
 import argparse
@@ -18,7 +18,7 @@ DATAPATH = designs.GENERATED / "emax_distance.sv"
 BASELINE = Path("hls/boards/synthesis_baseline.json")
 DOCUMENT = Path("docs/synthesis.md")
 TARGET = 175.0  # MHz, of the element and the forms
-OPERATOR_TARGET = 200.0  # a crowded element costs an operator up to a seventh of its speed
+OPERATOR_TARGET = 200.0  # in a crowded element an operator loses up to a seventh of its speed
 # Minutes of one core for a section at one seed, from a run on a 2-core machine.
 EXPECTED = {"element": 9, "forms": 36, "operators": 5, "xilinx": 6}
 SEED_MINUTES = 6
@@ -26,7 +26,7 @@ NEXTPNR = []
 
 
 class Ecp5:
-    """A design in its register shell, placed and routed with several seeds."""
+    """Places and routes a design in its register shell with several seeds."""
 
     def __init__(self, runner, design, seeds, at_once):
         self.runner, self.design, self.seeds, self.at_once = runner, design, seeds, at_once
@@ -35,7 +35,7 @@ class Ecp5:
     def run(self):
         design, runner = self.design, self.runner
         netlist, cells, _ = netlists.ecp5(runner, design)
-        # Seeds in order, so that the result does not depend on how many run at once.
+        # Seeds are judged in order, so that the result does not depend on how many run at once.
         tried = []
         for first in range(1, self.seeds + 1, self.at_once):
             batch = range(first, min(first + self.at_once, self.seeds + 1))
@@ -96,8 +96,8 @@ def arguments():
 
 
 def measure(runner, options):
-    """{section: {subject: result}}: every subject in a thread of its own; the runner holds them to
-    its number of jobs, in the order of their start."""
+    """{section: {subject: result}}. Every subject has a thread of its own; the runner limits how many run
+    at once, in the order of their start."""
     results = {section: {} for section in options.only}
     work = Background(runner)
 
@@ -129,7 +129,7 @@ def measure(runner, options):
 
 
 def drive(runner, options):
-    """Drives the netlists of the sections beside the model (comparison.drive). {name: what was said}"""
+    """Drives the netlists of the sections beside the model (comparison.drive): {name: verdict}."""
     operators = designs.operators(DATAPATH, OPERATOR_TARGET)
     element = designs.element(options.target)
     wanted = {}  # the program of testbench/netlists: the netlists that were placed or counted
@@ -168,7 +168,7 @@ def flat(results):
 
 
 def plan(options):
-    """One line: the sections and the minutes they take where nothing is there from an earlier run."""
+    """One line with the sections and the minutes that they take without results of earlier runs."""
     each = {section: EXPECTED[section] for section in options.only}
     total = max(max(each.values()), -(-sum(each.values()) // options.jobs))
     text = ", ".join(f"{section} {time} min" for section, time in each.items())
@@ -204,7 +204,7 @@ def main():
                       " ./dev synth --update-baseline takes these figures as the baseline")
     faults = baseline.compare(measured, known[baseline.key(versions)], options.complete)
     if faults:
-        raise Failure("\n".join([*faults, "worse than the baseline: mend it, or take the new figures with"
+        raise Failure("\n".join([*faults, "worse than the baseline: correct it, or take the new figures with"
                                  " ./dev synth --update-baseline"]))
     runner.say("no figure is worse than its baseline")
     return 0

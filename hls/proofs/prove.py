@@ -1,7 +1,8 @@
 """`./dev prove`: proves what hls/proofs/table.py lists, and shows that each of its faults refutes its proof.
 
-Run in the root of the project. Each proof runs in a process of its own, which leaves in build/proofs/NAME what it was
-made of, and for each fault a counterexample in words (counterexample.txt) and as a waveform (counterexample.vcd).
+Run in the root of the project. Each proof runs in a process of its own. Its folder build/proofs/NAME gets the files that
+the proof was made of, and for each fault a counterexample in words (counterexample.txt) and as a waveform
+(counterexample.vcd).
 """
 
 import argparse
@@ -18,18 +19,18 @@ from synthesis.tools import Failure, minutes  # noqa: E402
 
 FOLDER = Path("build/proofs")
 DOCUMENT = Path("docs/proofs.md")
-SPARE = 120  # seconds that a worker has beside its solver's limit
+SPARE = 120  # seconds that a worker has beyond its solver's limit
 
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./dev prove", description="Proves the hardware with Yosys and Bitwuzla.")
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--quick", action="store_true", help="the proofs that take seconds, as the tests run them")
-    which.add_argument("--only", metavar="NAME", action="append", default=[], help="this proof; may be given again")
-    parser.add_argument("--list", action="store_true", help="what there is to prove, and nothing more")
-    parser.add_argument("--fault", action="store_true", help="the faults alone, with their counterexamples")
-    parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="proofs at a time")
-    parser.add_argument("--lower", metavar="PROGRAM", help="emax_lower, where it is not that of build/kernel")
+    which.add_argument("--quick", action="store_true", help="only the proofs that take seconds, as the tests run them")
+    which.add_argument("--only", metavar="NAME", action="append", default=[], help="only this proof; may be repeated")
+    parser.add_argument("--list", action="store_true", help="list the proofs and stop")
+    parser.add_argument("--fault", action="store_true", help="only the faults, with their counterexamples")
+    parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="number of proofs at a time")
+    parser.add_argument("--lower", metavar="PROGRAM", help="path of emax_lower, where it is not that of build/kernel")
     parser.add_argument("--plan", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--worker", metavar="NAME", help=argparse.SUPPRESS)
     chosen = parser.parse_args()
@@ -48,7 +49,7 @@ def proofs(chosen):
 
 
 def worker(name, faults_alone):
-    """One proof, for judge(): what came of it, as JSON."""
+    """Runs one proof and prints its result as JSON, for judge()."""
     from proving import prover
     from table import PROOFS
     (proof,) = [proof for proof in PROOFS if proof.name == name]
@@ -76,7 +77,7 @@ class Work:
         self.running[process] = (proof, time.monotonic())
 
     def finished(self):
-        """(proof, result) of a worker that has ended, sooner or later."""
+        """Waits for a worker to end; its (proof, result)."""
         last = time.monotonic()
         while True:
             for process, (proof, began) in list(self.running.items()):
@@ -98,7 +99,7 @@ class Work:
 
 
 def judge(status, folder):
-    """What a worker's result says. No result is a failed proof."""
+    """The result of a worker. A worker without a result is a failed proof."""
     try:
         result = json.loads((folder / "result.json").read_text())
     except ValueError:
@@ -110,7 +111,7 @@ def judge(status, folder):
 
 
 def verdict(proof, result, faults_alone=False):
-    """What is wrong with a result, as a list of sentences: none for a proof that counts."""
+    """The faults of a result, as a list of sentences; empty for a proof that counts."""
     if result.get("failure"):
         return [result["failure"]]
     wrong = []
@@ -152,7 +153,7 @@ def main():
 def run(chosen, todo):
     start = time.monotonic()
     work, results, failed = Work(chosen, start), {}, []
-    waiting = sorted(todo, key=lambda proof: proof.quick)  # those that take long first
+    waiting = sorted(todo, key=lambda proof: proof.quick)  # the long ones first
     try:
         while waiting or work.running:
             while waiting and len(work.running) < chosen.jobs:

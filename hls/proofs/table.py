@@ -12,11 +12,11 @@ MANTISSAS = ("mantissas/mantissa_multiply.sv", "mantissas/mantissa_square.sv")
 OPERATORS = tuple(f"operators/{name}.sv" for name in ("fp_add", "fp_multiply", "fp_square", "fp_less", "delay_line"))
 PRODUCT = (("mantissas", "product", ("a", "b")),)
 ROUNDED_UP = "rounded up to the least normal number"
-# A look at one word of a memory, whose address the harness chooses.
+# Shows the harness one word of a memory, at an address that the harness chooses.
 WATCHED_MEMORY = (("block_memory.sv", """  (* keep *) logic [ADDRESS_BITS-1:0] watched_address;
   (* keep *) logic [WIDTH-1:0] watched_word;
   assign watched_word = words[watched_address];"""),)
-# A look at the requests that wait in block_answer.
+# Shows the harness the requests that wait in block_answer.
 WATCHED_QUEUE = (("block_answer.sv", """  (* keep *) logic [QUEUE_BITS-1:0] watched_place;
   (* keep *) logic [REQUEST-1:0] watched_request;
   assign watched_request = queue[watched_place];
@@ -25,7 +25,7 @@ WATCHED_QUEUE = (("block_answer.sv", """  (* keep *) logic [QUEUE_BITS-1:0] watc
 
 # The latencies of the generated datapath.
 LATENCY = {design.top: design.parameters["LATENCY"] for design in designs.operators(DATAPATH, 0)}
-ROUNDING = 3  # of a product's latency, behind the mantissas' product
+ROUNDING = 3  # cycles of a product's latency after the product of the mantissas
 MULTIPLYING = LATENCY["fp_multiply"] - ROUNDING
 
 
@@ -170,7 +170,7 @@ STREAM_PROOFS = [
 
 
 def delay(kind, most, what, faults):
-    """The lines of the generated modules, and the shortest ones of each build."""
+    """The proof of the lines of this kind in the generated modules, and of the shortest lines."""
     text = "".join(path.read_text() for path in sorted(DATAPATH.parent.glob("*.sv")))
     used = {int(depth) for depth in re.findall(rf'\.DEPTH\((\d+)\), \.STYLE\("{kind}"\)', text)}
     return Proof(f"delay_line_{kind}", f"delay_line in {what} gives each word after as many edges as its depth says, whatever value its counter starts with",

@@ -1,7 +1,7 @@
-// The C++ top as a kernel of a card that runs without a host's start: a stand-in for the RTL core
-// with the same name and ports, one element. Run in C simulation only, never by the vendor's tools
-// or on a card. A reset is taken between commands and does nothing but that: a LoadPoints begins
-// afresh anyway, and a core that waits for the rest of a command waits for ever.
+// The C++ top as a kernel of a card that runs without being started by a host. It stands in for the
+// RTL core with the same name and ports and one element. Run in C simulation only, never by the
+// vendor's tools or on a card. A reset is taken between commands and changes nothing, because a
+// LoadPoints begins anew anyway. A core that waits for the rest of a command waits for ever.
 #include "hls/kernel/emax_kernel.h"
 
 extern "C" void emax_core_kernel(emax::Stream<emax::Word>& s_axis_command,

@@ -1,7 +1,7 @@
-// The RTL core as a kernel of an Alveo card: the names that the vendor's linker expects, and a
-// reset by a word on a stream of its own, for a host that finds the core in the midst of a command.
-// Verilog, as the IP packager takes no SystemVerilog top. Read by Verilator, never by the vendor's
-// tools or on a card. run.sh fills in NUM_PE.
+// The RTL core as a kernel of an Alveo card. It has the names that the vendor's linker expects, and a
+// word on a stream of its own resets the core, for a host that finds the core in the middle of a
+// command. It is Verilog, because the IP packager takes no SystemVerilog top. Read by Verilator, never
+// by the vendor's tools or on a card. run.sh fills in NUM_PE.
 module emax_core_kernel #(
     parameter NUM_PE = 1,
     parameter CLOCK_KHZ = 300000
@@ -18,8 +18,8 @@ module emax_core_kernel #(
     output wire        m_axis_answer_tvalid,
     input  wire        m_axis_answer_tready
 );
-  // The core is held in reset for 31 cycles; no word passes meanwhile. The words of its answers that
-  // stand in the stream behind it are the host's to drop.
+  // The core is held in reset for 31 cycles, in which no word passes. Answer words that are already in
+  // the stream after it have to be dropped by the host.
   reg [4:0] held = 5'd31;
   reg core_aresetn = 1'b0;
   wire command_ready;

@@ -1,9 +1,10 @@
-// Data movers of an Alveo card; run in C simulation only, never by the vendor's tools or on a card.
+// The data movers of an Alveo card. Run in C simulation only, never by the vendor's tools or on a
+// card.
 #include "hls/boards/alveo/movers.h"
 
 #include "hls/kernel/command_words.h"
 
-// Streams come last: the numbers of the other arguments, by which the host names them, then do not
+// Streams are the last arguments. The host names the others by their numbers, which then do not
 // depend on whether a tool counts streams.
 
 extern "C" void emax_to_core(const emax::Word* memory, emax::Word count, emax::Word reset,

@@ -26,7 +26,7 @@ ipx::update_checksums $core
 ipx::check_integrity -kernel $core
 ipx::save_core $core
 
-# It runs from the moment the card is programmed; no host starts it.
+# The kernel runs from the moment the card is programmed; no host starts it.
 package_xo -force -xo_path $output -kernel_name emax_core_kernel -ctrl_protocol ap_ctrl_none \
   -ip_directory $folder/core_ip
 close_project -delete

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# run.sh CARD: builds what an Alveo card is programmed with, by AMD's Vitis and Vivado, which must be
-# installed. Written from their documentation and never run with them; `run.sh --help` says more.
+# run.sh CARD: builds the xclbin of an Alveo card with AMD's Vitis and Vivado, which must be installed.
+# Written from their documentation and never run with them; `run.sh --help` says more.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../../.."
@@ -65,8 +65,8 @@ done
 [ ${#steps[@]} -gt 0 ] || steps=(sources core movers link)
 mkdir -p "$folder"
 
-# The sources of the core: a module that the family does not map has its behavioural description.
-# Packages stand first. Headers are put in where they are included, as the IP packager loses their
+# The sources of the core, packages first. A module without a version for the family has its behavioural
+# description. Headers are inserted where they are included, because the IP packager loses their
 # folders.
 sources() {
   local file name

@@ -1,4 +1,4 @@
-"""Figures of a run against those of the checked-in baseline.
+"""Compares the figures of a run with those of the checked-in baseline.
 
 Figures are {subject: {figure: number}}. A baseline belongs to the versions of the tools that gave
 it: {versions: figures}.
@@ -16,7 +16,7 @@ TOLERANCES = {
     "ff": (0.05, True),
     "dsp": (0, True),
     "ram": (0, True),
-    # One placement for each: the same logic, placed anew, gave 159 to 173 MHz.
+    # A figure is of one placement. The same logic, placed anew, gave 159 to 173 MHz.
     "fmax": (0.10, False),
 }
 
@@ -54,8 +54,8 @@ def read(path):
 
 
 def write(path, versions, measured, complete):
-    """The measured figures become the baseline of these versions, the only ones kept; what an
-    incomplete run did not measure stays as it was."""
+    """Makes the measured figures the baseline of these versions; figures of other versions are dropped.
+    What an incomplete run did not measure stays as it was."""
     figures = {} if complete else read(path).get(key(versions), {})
     figures.update(measured)
     path.write_text(json.dumps({key(versions): dict(sorted(figures.items()))}, indent=2) + "\n")

@@ -1,7 +1,8 @@
-"""Netlists beside the model: nothing is written of a netlist that was not driven.
+"""Drives netlists beside the model, so that nothing is written of a netlist that was not driven.
 
-A program of testbench/netlists drives the netlist that hls/boards/netlists.py writes for it; here it
-is built and run, and what it drove is held against the netlist that is placed or counted.
+A program of testbench/netlists drives the netlist that hls/boards/netlists.py writes for it. This module
+builds and runs the program, and compares the netlist that it drove with the one that is placed or
+counted.
 """
 
 import re
@@ -15,7 +16,7 @@ VERDICT = re.compile(r"^netlist: .*[1-9][0-9]* .* 0 mismatches$|^fuzz: .* [1-9][
 
 
 def drive(name, arguments=(), build=BUILD):
-    """Builds and runs netlist_<name>; its last line. Raises Failure where an answer was wrong."""
+    """Builds and runs netlist_<name> and returns its verdict. Raises Failure where an answer was wrong."""
     log = build / f"netlist_{name}.log"
     with open(log, "w") as out:
         for command in (["cmake", "--build", build, "--target", f"netlist_{name}"],
@@ -33,7 +34,7 @@ def drive(name, arguments=(), build=BUILD):
 
 
 def holds(name, netlists, build=BUILD):
-    """Raises Failure unless what was driven is these netlists, renamed; sources may stand beside them."""
+    """Raises Failure unless the driven file contains these netlists, renamed. It may contain sources too."""
     driven = build / f"netlists/{name}.v"
     text = driven.read_text()
     if not netlists or any(netlist not in text for netlist in netlists):

@@ -8,7 +8,7 @@ from .tools import Failure
 
 
 def board():
-    """The design that holds every module with an assertion."""
+    """A design that contains every module with an assertion."""
     more = [path for folder in ("core", "link") for path in sorted((designs.RTL / folder).glob("*.sv"))]
     return designs.Design("assertions", "emax_board", 0, more=more)
 
@@ -20,13 +20,13 @@ def script(design):
 
 
 def written(sources):
-    """{path: how many assertions its text has}."""
+    """{path: number of assertions in its text}."""
     counts = {str(path): len(re.findall(r"^[^/\n]*`ASSERT\(", path.read_text(), re.MULTILINE)) for path in sources}
     return {path: count for path, count in counts.items() if count}
 
 
 def read(netlist):
-    """{path: how many places of it have an assertion in Yosys's netlist}."""
+    """{path: number of its places that have an assertion in Yosys's netlist}."""
     places = set()
     for module in json.loads(netlist.read_text())["modules"].values():
         for cell in module["cells"].values():

@@ -1,4 +1,4 @@
-"""What is synthesized, and the Yosys scripts and the register shell around it."""
+"""The designs that are synthesized, their Yosys scripts, and the register shell around them."""
 
 import json
 import re
@@ -34,9 +34,9 @@ class Design:
         return [*self.sources(family), *sorted(RTL.glob("*.svh")), *sorted(GENERATED.glob("*.svh"))]
 
 
-# An expression that Yosys 0.70 takes for (~SHIFT_BITS)'(7), Verilator and the standard for
+# Yosys 0.70 reads this expression as (~SHIFT_BITS)'(7), Verilator and the standard as
 # ~(SHIFT_BITS'(7)). The adder had it, so every bitstream computed wrong sums while all simulations of
-# the source were right. Whoever compares netlists or front ends is tried on it.
+# the source were right. Every comparison of netlists or front ends is tried on it.
 MISREAD = (RTL / "fp_add.sv", "~(SHIFT_BITS'(7))", "~SHIFT_BITS'(7)")
 
 
@@ -107,7 +107,7 @@ def _instance(design, connections):
 
 
 def wrapper(design, ports_of_top):
-    """A top that sets the parameters and nothing more."""
+    """A top that only sets the parameters."""
     declared = ", ".join(f"{direction} [{width - 1}:0] {name}" for name, direction, width in ports_of_top)
     connections = [f".{name}({name})" for name, _, _ in ports_of_top]
     return f"""// Generated for {design.name}.
@@ -152,11 +152,11 @@ endmodule
 
 
 def _ecp5_mapping(top, options):
-    """Synthesis for ECP5 of what was read.
+    """Synthesis for ECP5 of the design that was read.
 
-    Before flip-flops are mapped, synchronous resets other than aresetn become logic: Yosys makes
-    them of multiplexers with a zero, and such a control signal is shared by the flip-flops of a
-    tile, reaches them late, and so spreads the datapath out.
+    Before flip-flops are mapped, synchronous resets other than aresetn become logic. Yosys infers them
+    from multiplexers with a zero. The flip-flops of a tile share such a control signal, which reaches
+    them late and spreads the datapath out.
     """
     synthesis = f"synth_ecp5 -top {top} {options}"
     return (f"{synthesis} -run :map_ffs; "
@@ -193,16 +193,16 @@ def words_script(design):
 
 
 def mutants_script(design, mutants, seed):
-    """A design mapped to single gates, and a list of as many faults that may be put into it: Yosys's
-    commands that do so. The module then has an input mutant_select, at which stands the number of the
-    fault that is active, from 1 on, or 0."""
+    """Maps a design to single gates and lists `mutants` faults, as Yosys's commands that put them in. The
+    module then has an input mutant_select for the number of the active fault, from 1 on, or 0 for
+    none."""
     return (f"{_read_with_parameters(design, 'behavioural')}synth -flatten -top {design.top}; "
             f"mutate -list {mutants} -seed {seed} -none -ctrl mutant_select {mutants.bit_length()} 0 "
             "-o {folder}/mutants.txt; write_rtlil {folder}/gates.il")
 
 
 def mutated_script(gates, mutants):
-    """The gates with those faults put in."""
+    """Puts the listed faults into the gates."""
     return f"read_rtlil {gates}; script {mutants}; opt_clean; write_verilog -noattr {{folder}}/netlist.v"
 
 
@@ -213,8 +213,9 @@ def xilinx_script(design, wrapper_path, family):
 
 
 def xilinx_figures(netlist):
-    """Cells of the only module that holds any, counted as the family's resources, and the DSP
-    blocks with a register behind the multiplier and with registers at both inputs."""
+    """Cells of the only module that has any, counted as the family's resources; and the numbers of LUTs
+    as SRL, of LUTs as RAM, and of DSP blocks with a register behind the multiplier and with registers at
+    both inputs."""
     top = _top(json.loads(netlist.read_text()))
     counts, registered, registered_inputs = {}, 0, 0
     for cell in top["cells"].values():
@@ -255,8 +256,8 @@ def _placed(report, log):
 
 
 def ecp5_figures(report, log, cells):
-    """Figures, and what the critical path is, from nextpnr's report and log and from Yosys's count of
-    the shell's cells, which are subtracted."""
+    """Figures and critical path, from nextpnr's report and log. Yosys's count of the shell's cells is
+    subtracted."""
     _, used, figures, path = _placed(report, log)
     (shell_cells,) = [m["num_cells_by_type"] for name, m in json.loads(cells.read_text())["modules"].items()
                       if name == "\\synthesis_shell"]
@@ -266,7 +267,7 @@ def ecp5_figures(report, log, cells):
 
 
 def board_figures(report, log):
-    """Figures of a whole device, its critical path, and of each kind of cell what is used and there."""
+    """Figures of a whole device, its critical path, and the used and available cells of each kind."""
     report, used, figures, path = _placed(report, log)
     kinds = {"TRELLIS_COMB": "cells", "TRELLIS_FF": "FF", "MULT18X18D": "DSP", "DP16KD": "RAM",
              "EHXPLLL": "PLL", "TRELLIS_IO": "pins"}
@@ -287,6 +288,6 @@ def _critical_path(report, clock):
 
 
 def readable(cell):
-    """The source's name in a cell's: of "design.a.b_TRELLIS_FF_Q_3_DI_LUT4_Z" design.a.b."""
+    """The source's name in a cell's name: design.a.b in "design.a.b_TRELLIS_FF_Q_3_DI_LUT4_Z"."""
     return re.sub(r"_(TRELLIS|LUT4|CCU2C|PFUMX|L6MUX|MULT18|DPR16|L7MUX|DP16)\w*(\$\w+)?.*$", "",
                   cell).removeprefix("design.")

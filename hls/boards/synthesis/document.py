@@ -38,7 +38,7 @@ SECTIONS = {
 
 
 def table(header, rows):
-    """Markdown, columns aligned so that it also reads well on a terminal."""
+    """A Markdown table with aligned columns, which also reads well on a terminal."""
     rows = [[str(cell) for cell in row] for row in rows]
     widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
     line = lambda cells: "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
@@ -106,8 +106,8 @@ These designs were not simulated as nextpnr routes them.
 
 
 def page(results, versions, tolerances, driven, board=""):
-    """The whole page; `driven` is what was said of each netlist that was driven, `board` is a
-    board_section or nothing."""
+    """The whole page. `driven` is the verdict on each netlist that was driven, `board` a board_section or
+    nothing."""
     limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
     parts = [INTRODUCTION.format(tools=", ".join(f"{tool} {version}" for tool, version in versions.items()),
                                  tolerances=limits)]
@@ -122,7 +122,7 @@ BOARD_TITLE = "## The bitstream for ULX3S"
 
 
 def board_section(result, versions):
-    """What ./dev bitstream made: a section of the page."""
+    """The section of the page on the result of ./dev bitstream."""
     figures = result["figures"]
     verdict = "met" if figures["fmax"] >= result["target"] else "missed"
     rows = [[name, f"{used:,}", f"{there:,}", f"{used / there:.0%}"]
@@ -149,6 +149,6 @@ def board_of(page):
 
 
 def with_board(page, section):
-    """The page with this as its board's section, which is its last."""
+    """The page with this as the board's section, which is the last one."""
     head = page.removesuffix(board_of(page)).rstrip("\n") + "\n"
     return f"{head}\n{section}" if section else head

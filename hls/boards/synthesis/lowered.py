@@ -13,8 +13,7 @@ FORMS = ["visible_edge", "three_edge", "barycentric"]
 
 
 def lowered(form, family):
-    """The sources of a form's unit, lowered for a family into the build folder, and emax_lower's
-    report on it."""
+    """Lowers a form's unit for a family into the build folder; its sources and emax_lower's report."""
     folder = FOLDER / "lowered" / family
     folder.mkdir(parents=True, exist_ok=True)
 

@@ -1,7 +1,7 @@
-"""Netlists of designs: what Yosys makes of the sources, for placement and for simulation.
+"""Netlists of designs, which Yosys makes of the sources, for placement and for simulation.
 
-Whoever places, counts or simulates a netlist takes it from here, so that what is simulated is what
-is placed and counted.
+Every placement, count and simulation takes its netlist from here, so that the netlist that is simulated is
+the one that is placed or counted.
 """
 
 import re
@@ -9,9 +9,8 @@ import re
 from . import designs
 from .tools import FOLDER
 
-# Tried in docs/decisions/0006-synthesis-options.md.
-# The ECP5 mapping names its DSP blocks itself; left alone, Yosys would give small products
-# blocks without registers.
+# The ECP5 mapping names its DSP blocks itself; without the option Yosys would give small products blocks
+# without registers (docs/decisions/0006-synthesis-options.md).
 ECP5_OPTIONS = "-nodsp"
 FAMILIES = {"xc7": "7-series", "xcup": "UltraScale+"}
 
@@ -21,7 +20,7 @@ def slug(name):
 
 
 def with_ports(runner, design, family, folder, make):
-    """The path of what `make` writes around the design, given its ports."""
+    """The path of the Verilog that `make` writes around the design, given its ports."""
     (ports,) = runner.step("yosys", f"{design.name}, ports", f"{folder}/ports",
                            ["-q", "-p", designs.ports_script(design, family)], design.inputs(family), ["ports.json"])
     path = FOLDER / folder / "top.v"
@@ -67,15 +66,15 @@ def routed(runner, design):
 
 
 def words(runner, design):
-    """The design as the front end reads it, for simulation."""
+    """The design as the front end reads it, before anything is mapped, for simulation."""
     (netlist,) = runner.step("yosys", f"{design.name}, read", f"words/{slug(design.name)}",
                              ["-p", designs.words_script(design)], design.inputs("behavioural"), ["netlist.v"])
     return netlist
 
 
 def mutated(runner, design, mutants, seed):
-    """The design with about as many faults put in (designs.mutants_script): for simulation, and their
-    list. Faults of a clock are left out: a register without a clock is a constant."""
+    """The design with about this number of faults put in (designs.mutants_script), for simulation, and the
+    list of faults. Faults of a clock are left out, because a register without a clock is a constant."""
     folder = f"mutated/{slug(design.name)}"
     listed, gates = runner.step("yosys", f"{design.name}, a list of faults", f"{folder}/list",
                                 ["-p", designs.mutants_script(design, mutants, seed)], design.inputs("behavioural"),
@@ -88,7 +87,7 @@ def mutated(runner, design, mutants, seed):
 
 
 def renamed(netlist, name):
-    """The text of a netlist of one module, which then has this name."""
+    """The text of a netlist of one module, renamed to this name."""
     text, count = re.subn(r"^module (\\\S+|\w+) ?\(", f"module {name}(", netlist.read_text(), flags=re.MULTILINE)
     if count != 1:
         raise ValueError(f"{netlist} holds {count} modules, not one")
@@ -96,6 +95,6 @@ def renamed(netlist, name):
 
 
 def write(path, text):
-    """Writes the text unless it stands there: what is built of it is then not built again."""
+    """Writes the text unless the file has it already, so that nothing is built again without need."""
     if not path.exists() or path.read_text() != text:
         path.write_text(text)

@@ -1,9 +1,9 @@
 """The design as nextpnr placed and routed it, as Verilog for simulation.
 
-nextpnr writes it as JSON: the cells as it packed them, with their places, and nets of one bit between
-them. The Verilog has the design's ports and an instance of each cell, of the models in
+nextpnr writes the design as JSON: the cells as it packed them, with their places, and nets of one bit
+between them. The Verilog has the design's ports and an instance of each cell, of the models in
 testbench/netlists. An input that no net reaches gets the value that nextpnr's bitstream gives it. The
-wires and switches that carry the nets are not in it.
+wires and switches that carry the nets are not in the JSON.
 """
 
 import json
@@ -11,7 +11,7 @@ import re
 
 from .tools import Failure
 
-# Inputs of blocks that their models do not have: no design of ours uses them.
+# Inputs of blocks that the models lack, because no design of ours uses them.
 ABSENT = [("MULT18X18D", "C"), ("MULT18X18D", "SRIA"), ("MULT18X18D", "SRIB"), ("DP16KD", "DIB")]
 BLOCKS = ["MULT18X18D", "DP16KD"]
 
@@ -23,12 +23,12 @@ def read(path):
 
 
 def tied(kind, parameters, port):
-    """What an input that no net reaches is: 0, 1, x where nothing may depend on it, or None where the
-    model has no such input."""
+    """The value of an input that no net reaches: 0, 1, x where nothing may depend on it, or None where
+    the model has no such input."""
     if (kind, port.rstrip("0123456789")) in ABSENT:
         return None
     if kind == "TRELLIS_COMB" and port in "ABCD":
-        # The bitstream repeats a LUT's places for 0 at such an input. A carry's inputs are held at 1.
+        # The bitstream repeats a LUT's entries for 0 at such an input. A carry's inputs are held at 1.
         return "1" if parameters.get("MODE") == "CCU2" else "0"
     if kind == "TRELLIS_FF" and port == "LSR":  # there is no reset
         return "0" if parameters.get("LSRMUX", "LSR") == "LSR" else "x"
@@ -47,8 +47,8 @@ def tied(kind, parameters, port):
 
 
 def value(text):
-    """A parameter of nextpnr's file as Verilog. Bits are a number; a word that looks like bits ends with
-    a space there."""
+    """A parameter of nextpnr's file as Verilog. Bits are a number. In that file a string that looks like
+    bits ends with a space."""
     if re.fullmatch("[01xz]+", text):
         return f"{len(text)}'b{text}"
     return f'"{text[:-1] if re.fullmatch("[01xz]* +", text) else text}"'
@@ -79,7 +79,7 @@ class Nets:
         return self._name(net)
 
     def wires(self):
-        """The nets beside the ports; raises Failure where one that is used has no driver."""
+        """Declarations of the nets that are not ports. Raises Failure where a net that is used has no driver."""
         outputs = set(self.pins) - self.inputs
         for net in sorted((self.used | outputs) - self.driven - self.inputs):
             raise Failure(f"the routed design has no driver of {self.known_as.get(net, net)}")
@@ -90,7 +90,7 @@ class Nets:
 
 
 def instance(number, name, cell, nets):
-    """A cell as an instance of its model, or "" where it only keeps a place."""
+    """A cell as an instance of its model, or "" for a cell that only reserves a place."""
     kind, parameters = cell["type"], dict(cell["parameters"])
     if parameters.get("MODE") == "RAMW_BLOCK" and not any(cell["connections"].values()):
         return ""
@@ -128,8 +128,8 @@ def verilog(module, name):
 
 
 def turn_a_bit(module):
-    """Turns one bit of a LUT: that for inputs that are all 0, where the inputs are fewest. Returns the
-    LUT's name."""
+    """Turns one bit of the LUT with the fewest inputs: the bit for inputs that are all 0. Returns the LUT's
+    name."""
     def inputs(cell):
         return sum(bool(cell["connections"].get(port)) for port in "ABCD")
 

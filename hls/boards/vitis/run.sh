@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# run.sh BOARD [STEP...]: emax_top through AMD's Vitis HLS, which must be installed and on the PATH.
-# BOARD is u50 (Alveo U50) or zynq7020; the steps are csim, synthesis, cosim and package, in this
-# order, and all of them unless named. Results are in build/vitis/BOARD.
+# run.sh BOARD [STEP...]: runs emax_top through AMD's Vitis HLS, which must be installed and on the PATH.
+# BOARD is u50 (Alveo U50) or zynq7020. The steps are csim, synthesis, cosim and package, in this order;
+# without a STEP all of them run. Results are in build/vitis/BOARD.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../.."
 

@@ -1,5 +1,5 @@
-# Vitis HLS before 2023.2: vitis_hls -f vitis_hls.tcl -tclargs ROOT PART CLOCK_MHZ WORDS STEP...
-# Its argv begins with its own options in some versions.
+# For Vitis HLS before 2023.2: vitis_hls -f vitis_hls.tcl -tclargs ROOT PART CLOCK_MHZ WORDS STEP...
+# In some versions argv begins with options of vitis_hls itself.
 set arguments [lrange $argv [expr {[lsearch $argv -tclargs] + 1}] end]
 lassign $arguments root part clock words
 set steps [lrange $arguments 4 end]

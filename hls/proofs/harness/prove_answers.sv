@@ -1,6 +1,6 @@
 // link_answers: a frame under way stays, with its number and length, until the host has acknowledged it
-// and `hold` is low; frames are numbered one after the other; each word that is taken is in one frame,
-// and no frame has more than 256.
+// and `hold` is low; frames are numbered one after the other; each word that is taken is in exactly one
+// frame, and no frame has more than 256 words.
 module prove_answers (
     input logic       clk,
     input logic       aresetn,
@@ -19,7 +19,7 @@ module prove_answers (
       .acknowledge, .host_expects, .hold, .announce, .under_way, .passed, .sequence_number, .length,
       .read_enable(1'b0), .read_index(8'd0), .output_enable(1'b0), .read_data);
 
-  // Words that have been taken and are in no frame yet, and what was in the cycle before.
+  // `waiting`: words that were taken and are in no frame yet. Names with _1: the value a cycle before.
   logic [8:0] waiting, length_1;
   logic [7:0] number_1, next_number;
   logic under_way_1, passed_1, hold_1, acknowledged_1, was_reset, accept, right;

@@ -1,9 +1,9 @@
-// axis_fifo and ring_memory: words in order, none lost or doubled, the handshake kept, and where words
-// are inside and the reader is ready one leaves within five cycles. Assumed: nothing is pushed into a
-// full memory.
+// axis_fifo and ring_memory: words leave in order, none lost or doubled, and the handshake is kept. While
+// words are inside and the reader is ready, one leaves within five cycles. Assumed: no word is pushed
+// into a full memory.
 module prove_axis_fifo #(
     parameter int DEPTH_BITS = 3,
-    parameter int WIDTH = 2  // nothing in the modules looks at a word
+    parameter int WIDTH = 2  // the modules do not depend on a word's value
 ) (
     input logic       clk,
     input logic       aresetn,
@@ -36,11 +36,11 @@ module prove_axis_fifo #(
   assign place = ahead - before_memory;
   assign \dut.ring.memory.watched_address = \dut.read_pointer [DEPTH_BITS-1:0] + place[DEPTH_BITS-1:0];
 
-  // Since when a word has been inside and none has come to the output.
+  // Cycles for which a word has been inside and none at the output.
   logic [2:0] waited;
   always_ff @(posedge clk) waited <= clear || m_axis_tvalid || inside == 0 ? '0 : waited + 1'b1;
 
-  // How far the word next to the output has come: it is known of, fetched, stored, moved.
+  // Steps of the word next to the output: waiting, fetched, stored.
   logic [2:0] steps_done;
   assign steps_done = \dut.ring.stored_valid ? 3'd3 : \dut.ring.fetched_valid ? 3'd2
       : \dut.ring.waiting ? 3'd1 : 3'd0;

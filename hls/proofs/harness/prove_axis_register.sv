@@ -1,4 +1,4 @@
-// axis_register: words in order, none lost or doubled, at most two inside, handshakes kept on both sides.
+// axis_register: words leave in order, none lost or doubled; at most two are inside; both handshakes are kept.
 module prove_axis_register (
     input logic       clk,
     input logic       aresetn,

@@ -1,9 +1,9 @@
 // block_answer: each request has its answer of docs/protocol.md, in order, none lost. A list has the
-// elements' distances in the points' order; the end of a result is the greatest of the elements' worst
-// distances and, of those that are equal, the lowest index.
+// elements' distances in the order of the points. A result ends with the greatest of the elements' worst
+// distances and, among equal ones, the lowest index.
 //
-// Assumed of the neighbours: a request comes only in the cycle after it was invited, and a result's
-// block has 1 to 1,024 points; what an element offers stays until it is taken.
+// Assumed of the neighbours: a request comes only in the cycle after request_ready, a result's block has
+// 1 to 1,024 points, and an element's word stays until it is taken.
 module prove_block_answer #(
     parameter int NUM_PE = 2,
     parameter int CLOCK_KHZ = 25000
@@ -49,7 +49,7 @@ module prove_block_answer #(
   (* hierconn *) wire [191:0] \dut.fixed ;
   (* hierconn *) wire [31:0] \dut.squared_distance , \dut.index , \dut.next_distance , \dut.next_index ;
 
-  // Answers are told apart by the length in their headers; a request leaves with its answer's last word.
+  // The length in a header tells where an answer ends; a request leaves with its answer's last word.
   logic [23:0] to_come;  // words of the present answer, 0 before its header
   assign sent = word_valid && word_ready;
   assign ends = sent && to_come == 24'd1;
@@ -59,7 +59,7 @@ module prove_block_answer #(
       .leaving({\dut.kind , \dut.list , \dut.empty , \dut.count }), .inside, .watching, .ahead, .kept);
   assign \dut.watched_place = \dut.read_place + ahead[1:0];
 
-  // By the rule, for the request whose turn it is.
+  // The answer by the protocol, for the request whose turn it is.
   logic [31:0] header, best_distance, best_index, taken_distance, taken_index, turn_word;
   logic [191:0] fixed_words;
   logic [NUM_PE-1:0] points_in, turn, discarded, worst_taken, worst_takes;
@@ -153,7 +153,7 @@ module prove_block_answer #(
       greatest_distance: assert (!(word_valid && result && to_come == 24'd2) || word == best_distance);
       lowest_index: assert (!(word_valid && result && to_come == 24'd1) || word == best_index);
       room_for_requests: assert (!(request_valid && inside == 4'd4));
-      // What the registers hold.
+      // The values of the module's registers.
       queue_holds_them: assert (inside == {1'b0, \dut.queued } && inside <= 4'd4);
       places: assert (\dut.write_place == \dut.read_place + inside[1:0]);
       watched_is_there: assert (!watching || \dut.watched_request == kept);

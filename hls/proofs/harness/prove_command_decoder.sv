@@ -1,7 +1,7 @@
-// command_decoder: what it does is what docs/protocol.md says of the words that it took, for any words.
-// The protocol stands here as the items of a payload that are to come, and the block's state.
+// command_decoder: its outputs are what docs/protocol.md demands for the words that it took, for any words.
+// Here the protocol is the number of items of a payload that are still to come, and the block's state.
 // Assumed of the neighbours: a word that is not taken stays; a record is taken only while it is there;
-// no request is invited in the cycle of another one.
+// request_ready is low in the cycle of a request.
 module prove_command_decoder #(
     parameter int NUM_PE = 1,
     parameter int ROW_BITS = 10
@@ -31,11 +31,11 @@ module prove_command_decoder #(
       .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
       .under_way);
 
-  // The state by the protocol, of the words taken.
-  logic [23:0] items;  // whose last word is to come
+  // The state that the protocol demands after the words taken.
+  logic [23:0] items;  // of the payload that are still to be completed
   logic [1:0] payload, fault;
-  logic [4:0] position, item_words;  // in the present item; words of one
-  logic [10:0] points, place;  // of the block; the next point's index
+  logic [4:0] position, item_words;  // position in the present item; words of an item
+  logic [10:0] points, place;  // points of the block; index of the next point
   logic block, met, complete, header, counts, result, item_ends;
   logic [7:0] opcode;
   logic [23:0] count;
@@ -81,7 +81,7 @@ module prove_command_decoder #(
     end
   end
 
-  // What the outputs have to be a cycle after a word.
+  // The outputs that the protocol demands, a cycle after a word.
   logic asked, list, empty, point_due, finish_due, drop_due;
   logic [1:0] kind;
   logic [10:0] number, point_place;
@@ -98,7 +98,7 @@ module prove_command_decoder #(
     if (take) point_words <= {word, point_words[95:32]};
   end
 
-  // `row` and an element's place in it give a point's index.
+  // A row and the element's place in it give the index of a point.
   logic [10:0] written_place, last_place;
   always_comb begin
     written_place = 11'(point_row) * 11'(NUM_PE);
@@ -109,7 +109,7 @@ module prove_command_decoder #(
     end
   end
 
-  // One word of every record, which one is chosen freely, stands for all twenty.
+  // One word of every record stands for all twenty; the solver chooses which.
   (* keep *) logic [4:0] lane;
   assign lane = $anyconst;
   logic [31:0] lane_word, kept, leaving;
@@ -138,21 +138,21 @@ module prove_command_decoder #(
     if (!aresetn) unknown <= 1'b0;
     held <= aresetn && word_valid && !take;
     was <= word;
-    // Records that the sequencer has and knows no end of.
+    // The sequencer has records of a block that is neither finished nor dropped.
     open <= aresetn && (record_taken || (open && !finish && !drop));
-    // A word waits though no neighbour holds it.
+    // Cycles for which a word waits although no neighbour holds it.
     waited <= aresetn && word_valid && !take && sequencer_idle && request_ready
         && (!record_valid || record_taken) ? waited + 1'b1 : '0;
     if (header) skips_records <= opcode == 8'd3;
   end
   assign gives_up = block && held && was[31:24] == 8'd2;
 
-  // How far what a header may wait for has come: records leave, the block is given up, `drop` goes out.
+  // Steps that a header may wait for: records leave, the block is given up, `drop` goes out.
   logic [2:0] steps_done;
   assign steps_done = \dut.assembled_full ? 3'(!record_valid) : record_valid ? 3'd2 : \dut.block ? 3'd3
       : finish || drop ? 3'd4 : 3'd5;
 
-  // The place of the next point, as a row and an element.
+  // The index of the next point, from its row and element.
   logic [10:0] next_place;
   always_comb begin
     next_place = 11'(\dut.next_row ) * 11'(NUM_PE);
@@ -189,7 +189,7 @@ module prove_command_decoder #(
       record_stays: assert (record_valid || inside == 3'(\dut.assembled_full ));
       goes_on: assert (waited <= steps_done);
       says_under_way: assert (under_way || gives_up || !(payload != NOTHING || block || inside != '0));
-      // What the registers hold.
+      // The values of the module's registers.
       payload_counted: assert (payload == NOTHING || (items != '0 && \dut.items == items - 1'b1));
       position_follows: assert (payload == NOTHING || position + \dut.left + 1'b1 == item_words);
       items_are: assert (payload == NOTHING || item_words == (skips_records ? 5'd20 : 5'd3));

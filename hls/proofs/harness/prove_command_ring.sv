@@ -1,10 +1,10 @@
 // link_command_ring: the words of committed frames leave once, in order and unchanged; words that were
-// rolled back never leave; no word is written where no room is. Assumed of emax_link: a frame begins
-// with a rollback, at least two cycles after a commit, and has at most as many words as `room` says
-// then; a commit comes alone.
+// rolled back never leave; no word is written without room. Assumed of emax_link: a frame begins with a
+// rollback, at least two cycles after a commit, and has at most as many words as `room` says at that
+// time; a commit comes in a cycle without write or rollback.
 module prove_command_ring #(
     parameter int ROOM_BITS = 3,
-    parameter int WIDTH = 2  // nothing in the module looks at a word
+    parameter int WIDTH = 2  // the module does not depend on a word's value
 ) (
     input logic             clk,
     input logic             aresetn,
@@ -27,7 +27,7 @@ module prove_command_ring #(
       .clk, .clear, .tdata(m_axis_command_tdata[WIDTH-1:0]), .tvalid(m_axis_command_tvalid),
       .tready(m_axis_command_tready));
 
-  // What the words are by the frames: places that have been written, counted and left.
+  // The numbers of words that were written, that count, and that have left.
   logic [BITS-1:0] written, counted, left, budget, watched, inside, before_memory, in_memory, place, tentative;
   logic [WIDTH-1:0] kept;
   logic watching, leaves, commit_1, commit_2;

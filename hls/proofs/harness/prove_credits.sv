@@ -1,6 +1,6 @@
-// What stands before a pipeline that cannot stop, as in emax_element: beats enter while there are
-// credits, pass a line of LINE cycles and are pushed into a FIFO of 2^DEPTH_BITS words. Never is a
-// word pushed into a full FIFO, and no credit is lost or invented.
+// The accounting around a pipeline that cannot stop, as in emax_element: beats enter while there are
+// credits, pass a line of LINE cycles and are pushed into a FIFO of 2^DEPTH_BITS words. No word is ever
+// pushed into a full FIFO, and no credit is lost or invented.
 module prove_credits #(
     parameter int DEPTH_BITS = 3,
     parameter int LINE = 4

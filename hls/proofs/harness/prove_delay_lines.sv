@@ -1,7 +1,7 @@
-// delay_line of one style at every depth from 1 to MOST, side by side; the driver looks at each.
+// delay_line of one style at every depth from 1 to MOST, side by side; the driver proves them in turn.
 module prove_delay_lines #(
     parameter int MOST = 24,
-    parameter int WIDTH = 2,  // nothing in the module looks at a value
+    parameter int WIDTH = 2,  // the module does not depend on a value
     parameter int KIND = 0  // registers, shift register, distributed RAM, block RAM
 ) (
     input  logic                  clk,

@@ -1,5 +1,5 @@
-// link_sender into link_receiver: a status frame or a notice arrives whole, with the fields that it was
-// sent with.
+// link_sender into link_receiver: a status frame or a notice (a frame of `notice_kind`) arrives whole,
+// with the fields with which it was sent.
 module prove_frames (
     input logic clk,
     input logic notice_at_first
@@ -20,7 +20,7 @@ module prove_frames (
   logic [7:0] cycles = '0;
   assign reset = cycles < 8'd2;
   always_ff @(posedge clk) if (cycles != '1) cycles <= cycles + 1'b1;
-  // A byte every fourth cycle, as the receiver needs time between them.
+  // A byte every fourth cycle, because the receiver needs time between bytes.
   assign m_byte_ready = cycles[1:0] == 2'd0;
 
   link_sender sender (

@@ -1,9 +1,9 @@
-// pair_sequencer: the oldest record meets the rows 0, 1, ... of the points in order, each once, to the
-// last row or the fifth; then the next record does. The last record of a finished block, and it alone,
+// pair_sequencer: the oldest record meets the rows 0, 1, ... of the points in order, each once, up to the
+// last row, but at least five rows; then the next record does. Only the last record of a finished block
 // gives final pairs, one for each point. A block that is dropped gives none.
 //
-// Assumed of the neighbours: a record comes where a slot is for it, and none between a block's end and
-// `idle`; a block ends after a record of it came; the block's points stay while it has records.
+// Assumed of the neighbours: a record comes only while a slot is free, and not between a block's end and
+// `idle`; a block ends only after a record of it came; its points stay while it has records.
 module prove_pair_sequencer #(
     parameter int NUM_PE = 2,
     parameter int ROW_BITS = 4,
@@ -29,12 +29,12 @@ module prove_pair_sequencer #(
       .clk, .aresetn, .last_row, .last_row_in, .record_taken, .finish, .drop, .idle, .room, .issue,
       .row, .pair_valid, .pair_row, .pair_first, .pair_next_record, .pair_final, .pair_last);
 
-  // By the rule: records whose pass is not over, the row that is next, and the block's end.
+  // By the rule: the records whose pass is not over, the next row, and the block's end.
   logic [BITS-1:0] in_line;
   logic [ROW_BITS-1:0] next_row, last_of_pass;
   logic first_record, open, finished, dropped, ended, pass_ends, final_record, may_go_on;
   assign last_of_pass = last_row < FIFTH ? FIFTH : last_row;
-  // Of a dropped block a pass may end with its first row: `fetch_next_record` says so a cycle later.
+  // In a dropped block a pass may end with its first row; `fetch_next_record` says so a cycle later.
   logic short_pass;
   assign pass_ends = issue && (next_row == last_of_pass || (short_pass && next_row == '0));
   assign final_record = finished && in_line == 1;
@@ -53,7 +53,7 @@ module prove_pair_sequencer #(
     end
   end
 
-  // What a row's pair has to be, two cycles later.
+  // The pair that a row has to give two cycles later.
   logic valid_1, valid_2, record_taken_1, next_1, next_2, known_first_1, known_first_2, first_1, first_2;
   logic [ROW_BITS-1:0] row_1, row_2, last_row_1;
   logic [NUM_PE-1:0] final_1, final_2, last_1, last_2, last_row_in_1;
@@ -109,7 +109,7 @@ module prove_pair_sequencer #(
       goes_on: assert (waited == '0 || (waited == 2'd1 && (\dut.passing || !may_go_on)));
       idle_is_done: assert (!idle || (in_line == BITS'(record_taken_1) && !finished && !dropped));
       last_record_waits: assert (!open || \dut.waiting != '0);
-      // What the registers hold.
+      // The values of the module's registers.
       fetches: assert (\dut.fetch_valid == valid_1 && (!valid_1 || (\dut.fetch_row == row_1
           && \dut.fetch_next_record == next_1 && (!known_first_1 || \dut.fetch_first == first_1)
           && \dut.fetch_final == final_1 && \dut.fetch_last == last_1)));

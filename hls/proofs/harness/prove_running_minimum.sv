@@ -1,5 +1,5 @@
-// running_minimum: each pair's minimum is the least of the squared distances that its point has met
-// since its first pair, and infinity. One point, chosen freely, stands for all. Assumed of emax_element:
+// running_minimum: each pair's minimum is the least of infinity and the squared distances that its point
+// has met since its first pair. One point stands for all; the solver chooses it. Assumed of emax_element:
 // an index comes two cycles before its distance, and two pairs of one point are at least five cycles
 // apart unless the later one is the point's first.
 module prove_running_minimum #(
@@ -24,8 +24,8 @@ module prove_running_minimum #(
   running_minimum #(.POINT_BITS(POINT_BITS)) dut (
       .clk, .early_index, .valid, .first_pair, .index, .squared_distance, .minimum);
 
-  // The rule, for the watched point: known from its first pair on. `least` is that of a cycle before
-  // the module knows it, least_1 of the cycle after.
+  // The minimum by the rule for the watched point, known from its first pair on. `least` is ahead of the
+  // module, least_1 is `least` a cycle later.
   (* keep *) logic [POINT_BITS-1:0] watched;
   assign watched = $anyconst;
   logic here, here_1, here_2, known, known_1;

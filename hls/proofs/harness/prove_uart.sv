@@ -1,4 +1,4 @@
-// uart_sender into uart_receiver, both of CLOCKS_PER_BIT: every byte arrives, once, unchanged, in order.
+// uart_sender into uart_receiver, both with CLOCKS_PER_BIT: every byte arrives once, unchanged, in order.
 module prove_uart #(
     parameter int CLOCKS_PER_BIT = 2
 ) (
@@ -9,7 +9,7 @@ module prove_uart #(
   logic reset, s_byte_ready, m_byte_valid, line, watching;
   logic [7:0] m_byte_data, kept;
   logic [2:0] inside, ahead;
-  // One reset, then a line that idles until the receiver knows it.
+  // One reset, then an idle line until the receiver has seen it.
   logic [3:0] cycles = '0;
   logic settled;
   assign settled = cycles == 4'd9;
@@ -24,7 +24,7 @@ module prove_uart #(
       .clk, .clear(!settled), .enters(s_byte_valid && settled && s_byte_ready),
       .entering(s_byte_data), .leaves(m_byte_valid), .leaving(m_byte_data), .inside, .watching, .ahead,
       .kept);
-  // The time of eleven bits and what the receiver's registers add.
+  // The time of eleven bits and of the receiver's registers.
   localparam int LONGEST = 11 * CLOCKS_PER_BIT + 4;
   logic [7:0] waited;
   always_ff @(posedge clk) waited <= inside == '0 || m_byte_valid || !settled ? '0 : waited + 1'b1;

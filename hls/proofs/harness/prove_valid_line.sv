@@ -10,7 +10,7 @@ module prove_valid_line #(
   check_reset resets (.clk, .aresetn, .reset, .clear, .silent);
   valid_line #(.DEPTH(DEPTH)) dut (.clk, .reset, .d, .q);
 
-  // What went in, for ever remembered, and how many cycles are over since the last reset.
+  // The bits that went in, which no reset clears, and the number of cycles since the last reset.
   logic [DEPTH-1:0] went_in;
   logic [7:0] cycles;
   always_ff @(posedge clk) begin
@@ -18,7 +18,7 @@ module prove_valid_line #(
     cycles  <= reset ? '0 : cycles == 8'(DEPTH) ? cycles : cycles + 1'b1;
   end
   (* hierconn *) wire [DEPTH-1:0] \dut.line ;
-  // A bit at place i went in i + 1 cycles ago: it is what went in then, unless a reset came since.
+  // The bit at place i went in i + 1 cycles ago, and is gone if a reset came since.
   logic [DEPTH-1:0] alive;
   always_comb for (int i = 0; i < DEPTH; i++) alive[i] = 8'(i) < cycles;
   always_comb begin

@@ -1,6 +1,6 @@
-// worst_point: two cycles after a block's last value comes `done`, once, with the greatest value of the
+// worst_point: two cycles after a block's last value `done` comes, once, with the greatest value of the
 // block and the index of the first that has it. The next block may begin at once; a reset forgets the
-// block. One value, chosen freely, is watched: what comes out is greater, or equal and no later.
+// block. The solver chooses a value to watch: the result is greater, or equal and not later.
 module prove_worst_point #(
     parameter int POINT_BITS = 4
 ) (
@@ -17,7 +17,7 @@ module prove_worst_point #(
   worst_point #(.POINT_BITS(POINT_BITS)) dut (
       .clk, .reset, .valid, .last, .squared_distance, .index, .done, .worst);
 
-  // The block's values until now, and the same a cycle later, when the module has compared them.
+  // The result over the block's values so far, and a cycle later, when the module has compared them.
   logic begun, begun_1, ended, ended_1, watching, watching_1, met_before, met_before_1, outdoes;
   logic [31:0] greatest, kept, kept_1;
   logic [POINT_BITS-1:0] first_index, kept_index, kept_index_1;
@@ -29,7 +29,7 @@ module prove_worst_point #(
     if (valid) begin
       if (outdoes) {first_index, greatest} <= {index, squared_distance};
       begun <= !last;
-      // A block's first value ends the watch over the block before.
+      // A block's first value ends the watch of the block before.
       watching <= chosen || (begun && watching);
       if (chosen) {met_before, kept_index, kept} <= {!outdoes, index, squared_distance};
     end
@@ -57,7 +57,7 @@ module prove_worst_point #(
       first_of_equals: assert (!(done && watching_1 && out == kept_1 && !met_before_1
           && worst[POINT_BITS+31:32] != kept_index_1));
       by_the_rule: assert (!(done || begun_1) || worst == result_1);
-      // What the registers hold.
+      // The values of the module's registers.
       starts: assert (\dut.start == !begun_1);
       takes: assert (\dut.next_valid == valid_1
           && (!valid_1 || {\dut.next_last , \dut.next_index , \dut.next } == value_1));

@@ -1,4 +1,4 @@
-"""A netlist in BTOR2, as Yosys writes it: reading it, and running it on numbers.
+"""Reads a netlist in BTOR2, as Yosys writes it, and runs it on numbers.
 
 A value is a whole number of the node's width; a memory is a dictionary of the words that differ from 0.
 """
@@ -41,7 +41,7 @@ class System:
             elif kind in ("init", "next"):
                 (self.init if kind == "init" else self.next)[int(rest[1])] = int(rest[2])
             elif kind == "bad":
-                # An assertion without a name has its place: of folder/file:37.7-37.82 file:37 remains.
+                # An assertion without a name is called by its place: file:37 for folder/file:37.7-37.82.
                 name = rest[1].rpartition("/")[2] if len(rest) > 1 else f"assertion {len(self.bad) + 1}"
                 self.bad.append((name.split(".sv:")[0] + ".sv:" + name.split(".sv:")[1].split(".")[0]
                                  if ".sv:" in name else name, int(rest[0])))
@@ -94,7 +94,7 @@ def signed(value, width):
 
 
 def apply(node, operands, sorts):
-    """The value of an operation for the values of its operands, whose sorts are given."""
+    """The result of an operation for values of its operands, whose sorts are given."""
     kind, width = node.kind, node.sort
     if kind == "write":
         memory, address, word = operands
@@ -134,8 +134,8 @@ def apply(node, operands, sorts):
 
 
 def simulate(system, steps, inputs, states):
-    """[{node: value}] of each step. inputs(step, node) and states(node) give what is free; a state without
-    `next` is free in every step."""
+    """[{node: value}] of each step. inputs(step, node) and states(node) give the values that are free. A state
+    without `next` is free in every step."""
     trace = []
     for step in range(steps):
         values = {}

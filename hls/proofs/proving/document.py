@@ -1,4 +1,4 @@
-"""docs/proofs.md, out of the results of a whole run."""
+"""Writes docs/proofs.md from the results of a whole run."""
 
 import importlib.metadata
 

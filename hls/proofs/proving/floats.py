@@ -1,7 +1,7 @@
-"""The rules of docs/numerics.md, written in the floating point of SMT-LIB: what a result has to be.
+"""The rules of docs/numerics.md for the result of an operator, in the floating point of SMT-LIB.
 
-Each rule gives (condition that has to hold, {case: when it occurs}). A case that cannot occur would be
-a rule that proves nothing, so the proof fails then.
+Each rule gives (condition that has to hold, {case: when it occurs}). A rule proves nothing of a case that
+cannot occur, so the proof fails then.
 """
 
 from bitwuzla import Kind, RoundingMode
@@ -35,7 +35,7 @@ class Rules:
         return self.t.ite(tiny, self.zero(self.sign(word)), word)
 
     def value(self, word):
-        """The number that a word is, after flushing, in the format itself."""
+        """The number of a word after flushing, in the format itself."""
         return self.number(self.flushed(word))
 
     def number(self, word):
@@ -69,8 +69,8 @@ class Rules:
         return right, {"NaN": nan, "flushed": tiny, "infinite": infinite, "normal": normal}
 
     def add(self, a, b, result, subtract=False):
-        """A sum of normal numbers is a multiple of the least subnormal: where it is tiny it is exact, so
-        rounding at unbounded exponent and in the format are the same."""
+        """A sum of normal numbers is a multiple of the least subnormal. Where it is tiny it is exact, so
+        rounding at unbounded exponent and rounding in the format agree."""
         x, y = self.value(a), self.value(b)
         number = self.t.op(Kind.FP_SUB if subtract else Kind.FP_ADD, self.nearest, x, y)
         right, cases = self._rounded(number, result)
@@ -123,7 +123,7 @@ class Rules:
         return nan, t.either(*infinities), t.either(*zeros), t.op(Kind.BV_XOR, self.sign(a), self.sign(b))
 
     def multiply(self, a, b, result):
-        """The product by SMT-LIB's own multiplication, which is exact in the wide format."""
+        """The rule of a product, by SMT-LIB's own multiplication, which is exact in the wide format."""
         x, y = (self.convert(self.value(word), *self.wide) for word in (a, b))
         return self._product(self.t.op(Kind.FP_MUL, self.nearest, x, y), result, self._special(a, b))
 
@@ -131,8 +131,8 @@ class Rules:
         return self.multiply(a, a, result)
 
     def product_of(self, a, b, exact, result):
-        """The product for the exact product of the mantissas: sign, exponents and `exact` make a number of
-        the wide format, which holds it. That number, rounded once, is what a product is by definition."""
+        """The rule of a product, given the exact product of the mantissas. Sign, exponents and `exact` make a
+        number that the wide format holds exactly. By definition the product is that number, rounded once."""
         t, m = self.t, self.mantissa
         exponent, significand = self.wide
         bias, wide_bias = (1 << (self.exponent - 1)) - 1, (1 << (exponent - 1)) - 1
@@ -146,10 +146,10 @@ class Rules:
         special = self._special(a, b)
         return self._product(t.op(Kind.FP_FP, special[3], power, fraction), result, special)
 
-    # What the driver asks for by name.
+    # Rules and facts that the driver asks for by name.
 
     def canonical(self, word):
-        """What every result of an operator is: no subnormal, and no NaN but the one."""
+        """A property of every operator's result: no subnormal, and no NaN but 0x7fc00000."""
         t = self.t
         ones = t.eq(self.exponent_of(word), t.bv(self.exponent, (1 << self.exponent) - 1))
         zero = t.bv(self.mantissa, 0)
@@ -158,7 +158,7 @@ class Rules:
                       t.either(t.negated(ones), whole, t.eq(word, self.quiet_nan)))
 
     def facts(self, name):
-        """What is known of each value of a function that stands in for a module, or None."""
+        """The fact that holds for each value of a function that stands in for a module."""
         bits = 2 * self.mantissa + 2
         greatest = ((2 << self.mantissa) - 1) ** 2
         return {"product": lambda product, *_: self.t.both(

@@ -1,5 +1,5 @@
-"""The generated datapath beside the kernel's dataflow graph. The operators are unknown functions of their operands,
-the same on both sides, so that what is compared is which value meets which, and when."""
+"""Compares the generated datapath with the kernel's dataflow graph. The operators are unknown functions of their
+operands, the same on both sides. The proof therefore shows which values meet, and when."""
 
 import json
 import subprocess
@@ -14,7 +14,7 @@ from .solve import Solver, trace_of
 from .unroll import Terms, Unrolling
 
 lower_program = Path("build/kernel/bin/emax_lower")
-# The modules that are left out, with their operands in the harness, by what the graph calls them.
+# The graph's name of an operation: its module, which is left out, and the operands in the harness.
 MODULES = {"add": ("addend", "a"), "multiply": ("a", "b"), "square": ("a",), "less": ("a", "b")}
 
 
@@ -30,7 +30,7 @@ def read_graph(form):
 
 
 class Meaning:
-    """What a node of the graph is for the terms of its operands."""
+    """The term of a graph's node, given the terms of its operands."""
 
     def __init__(self, terms, rules, functions):
         self.t, self.rules, self.functions = terms, rules, functions
@@ -108,7 +108,7 @@ def graph(proof, system, refute=False):
         raise Failure("what is assumed of the operators contradicts itself")
     if solver.possible(terms.either(*wrong)):
         trace = trace_of(solver, unrolling, design["latency"] + 1)
-        # The first named value that differs. What the solver chose is what the operators do, the same on both sides.
+        # The first named value that differs. The operators do what the solver chose, the same on both sides.
         text = ""
         for node, value in zip(design["nodes"], values):
             if node["operation"] in ("input", "constant") or node["name"] not in system.names:
@@ -121,7 +121,7 @@ def graph(proof, system, refute=False):
         if not text:
             raise Failure("the counterexample does not replay")
         return Outcome(trace, "squared_distance", text)
-    # Each choice of the kernel goes both ways, or a wrong branch would not be seen.
+    # Each choice of the kernel has to go both ways; otherwise a wrong branch would not be seen.
     for node, value in zip(design["nodes"], values):
         if node["width"] == 1:
             for bit in (0, 1):

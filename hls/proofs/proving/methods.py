@@ -1,7 +1,7 @@
-"""The methods of proof. Each gives an Outcome: a counterexample, or none and what was found on the way.
+"""The methods of proof. Each gives an Outcome: a counterexample, or none and what was shown to occur.
 
-A proof that could not fail is a failure of its own: one without a property, with assumptions that contradict each
-other, with an assertion that no state violates, with a case that is never reached.
+A proof that could not fail is a failure: a proof without a property, with assumptions that contradict each other,
+with an assertion that no state violates, or with a case that is never reached.
 """
 
 from dataclasses import dataclass, field
@@ -26,8 +26,7 @@ class Outcome:
 
 
 class Function:
-    """An unknown function in the place of a module: equal operands give equal results, and what `facts` says of
-    each result."""
+    """An unknown function in place of a module. Equal operands give equal results, and `facts` holds for each result."""
 
     def __init__(self, terms, name, operands, width, facts=None):
         self.terms, self.facts, self.operands = terms, facts, operands
@@ -43,7 +42,7 @@ class Function:
 
 
 class Product(Function):
-    """The function of two words that a multiplier is: for counterexamples, which are to be those of true products."""
+    """The true product of two words, for counterexamples."""
 
     def apply(self, *operands):
         size = sum(operand.sort().bv_size() for operand in operands)
@@ -127,7 +126,7 @@ def _check_properties(system):
 
 
 def bounded(proof, system, refute=False):
-    """All assertions in every run of `depth` steps."""
+    """Proves all assertions in every run of `depth` steps."""
     covers = _check_properties(system)
     found = first_violation(system, (proof.reach or proof.depth) if refute else proof.depth, proof.limit)
     if refute or found is not None:
@@ -136,8 +135,8 @@ def bounded(proof, system, refute=False):
 
 
 def induction(proof, system, refute=False):
-    """All assertions in every run of any length: they hold in the first steps, and in a step after `depth` steps,
-    of any state, in which they hold."""
+    """Proves all assertions in every run of any length: they hold in the first steps, and they hold after any `depth`
+    steps, from any state, in which they hold."""
     covers = _check_properties(system)
     found = first_violation(system, max(proof.depth, proof.reach) if refute else proof.depth, proof.limit)
     if refute or found is not None:
@@ -163,8 +162,8 @@ def induction(proof, system, refute=False):
 
 
 def pipeline(proof, system, refute):
-    """Of a pipeline: its inputs in step 0 and its output `depth` edges later, from any state of its registers. What
-    holds so holds in every step after `depth` edges, whatever was in the pipeline before."""
+    """The inputs of a pipeline in step 0 and its output `depth` edges later, from any state of its registers. A
+    property of these holds in every step after `depth` edges, whatever was in the pipeline before."""
     terms, rule, facts = Terms(), proof.rule, []
     rules = floats.Rules(terms, rule.exponent, rule.mantissa)
     replaced, functions = {}, {}
@@ -217,15 +216,15 @@ def counters(system):
 
 
 def counted(system, unrolling):
-    """That each counter starts with a value that it can have, as far as the terms look at it."""
+    """The condition that each counter that the terms read starts with a value that it can have."""
     terms = unrolling.terms
     return [terms.either(*(terms.eq(unrolling.term(state, 0), terms.bv(system.nodes[state].sort, value)) for value in values))
             for state, values in counters(system).items() if (state, 0) in unrolling.cache]
 
 
 def delays(proof, system, refute=False):
-    """Lines of 1 to `depth` edges side by side, of which `rule` names those to look at: each gives in any step what
-    went in so many steps before. Counters start with any value that they can have, all else with anything."""
+    """Proves the lines that `rule` names, of those of 1 to `depth` edges side by side: in any step each gives the word
+    that went in as many steps before. Counters start with any value that they can have, all else with any value."""
     width = system.width("d")
     if not proof.rule:
         raise Failure("the proof looks at no line")
@@ -248,7 +247,7 @@ def delays(proof, system, refute=False):
 
 
 def expected(proof, values):
-    """The word that the rule wants for the operands of a counterexample, in words."""
+    """The result that the rule demands for the operands of a counterexample, as text."""
     terms, rule = Terms(), proof.rule
     rules = floats.Rules(terms, rule.exponent, rule.mantissa)
     bits = rule.mantissa + 1
@@ -302,7 +301,7 @@ DESCRIPTIONS = {
 
 
 def depth(proof):
-    """How deep a proof goes, in words."""
+    """The depth of a proof, as text."""
     if proof.method == "induction":
         return f"any number of cycles ({proof.depth} in the induction)"
     if proof.method == "bounded":

@@ -1,4 +1,4 @@
-"""The sources of a proof, with its fault in them if one is asked for, and the netlist that Yosys makes of them."""
+"""The sources of a proof, with a fault where one is asked for, and the netlist that Yosys makes of them."""
 
 import os
 import re
@@ -18,8 +18,8 @@ ACTIVE = re.compile(r"^  int active .*= 0;$", re.MULTILINE)
 
 
 def sources(family, replaced):
-    """{file of a module: text}. The files of a family stand in for the behavioural ones of their name, those of
-    `replaced`, paths in the harness, for all of theirs."""
+    """{file of a module: text}. A family's file replaces the behavioural file of the same name. A file of `replaced`,
+    paths in the harness, replaces every file of the same name."""
     folders = [RTL / "behavioural", RTL, RTL / "core", RTL / "link", RTL / "generated"]
     if family != "behavioural":
         folders.append(RTL / family)
@@ -61,7 +61,7 @@ def script(proof, folder, names, mutated):
 
 
 def netlist(proof, folder, fault=None):
-    """The proof's System. Everything that was made of it lies in the folder."""
+    """The System of a proof. All intermediate files are kept in the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     texts = with_fault(sources(proof.family, proof.files), fault)

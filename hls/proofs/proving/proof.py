@@ -1,12 +1,11 @@
-"""What a proof is. The proofs themselves stand in hls/proofs/table.py."""
+"""The parts of a proof. The proofs themselves stand in hls/proofs/table.py."""
 
 from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A fault that has to refute the proof: a mutant of hls/rtl/mutation.sv, or words of a file put in the place
-    of others (file, old, new)."""
+    """A fault that has to refute the proof: a mutant of hls/rtl/mutation.sv, or a replaced text (file, old, new)."""
 
     what: str = ""
     mutant: str = ""
@@ -26,15 +25,15 @@ class Proof:
     depth: int  # the latency of a pipeline, the depth of an induction or of a bounded check
     faults: tuple
     parameters: dict = field(default_factory=dict)
-    files: tuple = ()  # of hls/proofs/harness: the harness, and modules that stand in for others
+    files: tuple = ()  # in hls/proofs/harness: the harness, and modules that replace others
     family: str = "behavioural"
-    rule: object = None  # methods "words", "split" and "graph": what the result has to be
-    reach: int = 0  # from the first step on: within how many steps covers and faults are found
+    rule: object = None  # of the methods "words", "split" and "graph": the rule of the result
+    reach: int = 0  # steps, from the first on, within which covers and faults must be found
     spread: bool = False  # memories become registers
-    watch: tuple = ()  # (file, text): signals for the harness to look at, put before the file's last endmodule
+    watch: tuple = ()  # (file, text): signals that the harness reads, inserted before the file's last endmodule
     limit: int = 600  # seconds for the solver
     quick: bool = True
-    assumes: str = ""  # other proofs, or statements outside, that this one builds on
+    assumes: str = ""  # other proofs or conditions that this proof builds on
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A proof and its faults, one after the other, as a dictionary for the driver."""
+"""Runs a proof and its faults, one after the other; the result is a dictionary for the driver."""
 
 import shutil
 import time

@@ -1,4 +1,4 @@
-"""The solver, held to an answer, and the traces that its models stand for."""
+"""The solver, which has to answer, and the traces of its models."""
 
 import time
 
@@ -10,7 +10,7 @@ from .waveform import Trace
 
 
 class Solver:
-    """What is assumed for good, and questions about it. An answer that is neither yes nor no is a failure."""
+    """Permanent assumptions, and questions about them. An answer that is neither yes nor no is a failure."""
 
     def __init__(self, terms, limit):
         options = Options()
@@ -26,7 +26,7 @@ class Solver:
             self.solver.assert_formula(condition)
 
     def possible(self, *conditions):
-        """Whether all conditions can hold together with what is assumed."""
+        """Whether all conditions can hold together with the assumptions."""
         result = self.solver.check_sat(*conditions)
         if result not in (Result.SAT, Result.UNSAT):
             late = f" within {self.limit:g} s" if time.monotonic() > self.end else ""
@@ -50,7 +50,7 @@ class Solver:
 
 
 def trace_of(solver, unrolling, steps):
-    """The netlist run on the numbers of the solver's model. What the model leaves open is 0."""
+    """Runs the netlist on the numbers of the solver's model. Values that the model leaves open are 0."""
     system = unrolling.system
 
     def free(step, number):

@@ -1,9 +1,9 @@
-"""Products of mantissas out of partial products: a pipeline that adds up the products of the operands' parts.
+"""Proves a pipeline that adds up the products of the operands' parts to the product of two mantissas.
 
-With a = sum of a_i 2^i and b = sum of b_j 2^j it is an identity of whole numbers that a b = sum of a_i b_j 2^(i + j).
-What is proven is that the hardware multiplies these parts and no others, and adds all of them at their places; each
-partial product is an unknown that is at most the greatest product of its parts. A part by part of at most SMALL bits
-is a product for the solver itself.
+With a = sum of a_i 2^i and b = sum of b_j 2^j, a b = sum of a_i b_j 2^(i + j) is an identity of whole numbers. The
+proof shows that the hardware multiplies these parts and no others, and adds all products at their places. Each partial
+product is an unknown that is at most the greatest product of its parts. A product of parts of at most SMALL bits is
+left to the solver itself.
 """
 
 from bitwuzla import Kind

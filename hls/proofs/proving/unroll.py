@@ -16,7 +16,7 @@ EXTENSIONS = {"uext": Kind.BV_ZERO_EXTEND, "sext": Kind.BV_SIGN_EXTEND}
 
 
 class Terms:
-    """Short names for what proofs write often. A condition is a Boolean; a bit is a vector of one."""
+    """Short names for common terms. A condition is a Boolean; a bit is a vector of one bit."""
 
     def __init__(self):
         self.tm = TermManager()
@@ -67,7 +67,7 @@ class Terms:
 class Unrolling:
     """term(node, step). Step 0 starts from the initial values where `initial` is set, else anywhere.
 
-    `replaced` maps inputs to functions of the step, for outputs of modules that are left out.
+    `replaced` maps inputs to functions of the step, for the outputs of modules that are left out.
     """
 
     def __init__(self, system, terms, initial, replaced=None, products=None):

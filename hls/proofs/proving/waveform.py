@@ -1,10 +1,10 @@
-"""A trace of a netlist: as a waveform in VCD format, and as a table of words."""
+"""A trace of a netlist, as a waveform in VCD format and as a table of words."""
 
 from .btor import simulate
 
 
 class Trace:
-    """What a counterexample does: the values of all nodes in each step, computed on numbers alone."""
+    """The values of all nodes in each step of a counterexample, computed on numbers alone."""
 
     def __init__(self, system, steps, inputs, states):
         self.system = system
@@ -47,7 +47,7 @@ class Trace:
         path.write_text("\n".join(lines) + "\n")
 
     def table(self):
-        """The signals of the top, a line each, a column for each step."""
+        """A table of the top's signals, with a row for each signal and a column for each step."""
         rows = [name for name in self.names() if "." not in name and "[" not in name and name != "clk" and not name.endswith("_EN")]
         width = max([len(name) for name in rows], default=0)
         lines = []

@@ -1,8 +1,8 @@
-// What every stream of words promises: each word that enters leaves once, in its place, unchanged.
+// The promise of every stream of words: each word that enters leaves once, in order, unchanged.
 //
-// `inside` counts the words that have entered and not left. One word, chosen freely, is watched:
-// `kept` is what it was, `ahead` how many words are before it. The proofs' inductions say where
-// in a module those words are.
+// `inside` counts the words that have entered and not left. One word, which the solver chooses, is
+// watched: `kept` is its value, `ahead` the number of words before it. The harness of a module says
+// where in the module those words are.
 module check_order #(
     parameter int WIDTH = 8,
     parameter int COUNT_BITS = 6

@@ -1,11 +1,11 @@
-// The first two cycles of a proof are a reset; later ones are resets as aresetn pleases. `reset` is
-// what the design derives of it, a cycle later. All other registers may start with anything.
+// The first two cycles of a proof are a reset; later resets come whenever aresetn is low. `reset` is
+// aresetn as the design registers it, a cycle later. All other registers may start with any value.
 module check_reset (
     input  logic clk,
     input  logic aresetn,
     output logic reset,
     output logic clear,
-    output logic silent  // the cycle before was one of reset
+    output logic silent  // the cycle before was a reset
 );
   logic ran;
   initial begin

@@ -1,5 +1,5 @@
-// In place of mantissa_multiply: any function of the operands, with its latency. The driver of the
-// proofs ties `result` to a and b.
+// Replaces mantissa_multiply by any function of the operands, with its latency. The driver of the
+// proofs makes `result` a function of a and b.
 module mantissa_multiply #(
     parameter int WIDTH_A = 24,
     parameter int WIDTH_B = 24,

@@ -1,4 +1,4 @@
-// In place of mantissa_square: see mantissa_multiply.sv in this folder.
+// Replaces mantissa_square; see mantissa_multiply.sv in this folder.
 module mantissa_square #(
     parameter int WIDTH = 24,
     parameter int LATENCY = 5

@@ -1,5 +1,5 @@
-// In place of delay_line: its definition, a register for each edge. Proofs of their own show that each
-// style keeps it.
+// Replaces delay_line by its definition, a register for each edge. Proofs of their own show that each
+// style meets the definition.
 module delay_line #(
     parameter int WIDTH = 32,
     parameter int DEPTH = 1,

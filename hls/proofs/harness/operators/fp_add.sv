@@ -1,5 +1,5 @@
-// In place of fp_add: any function of its operands, with its latency. The driver of the proofs ties
-// `result` to them.
+// Replaces fp_add by any function of its operands, with its latency. The driver of the proofs makes
+// `result` a function of the operands.
 module fp_add #(
     parameter int EXPONENT = 8,
     parameter int MANTISSA = 23,
