@@ -188,76 +188,98 @@ LocalModel fit_quadratic(const Matrix& steps, const Matrix& values, const Vector
   return model;
 }
 
-LocalStep best_step(const LocalSpace& space, const Genes& centre, const LocalModel& model,
-                    double radius, double& penalty) {
-  const Eigen::Index n = space.size();
-  const auto nonlinear = static_cast<Eigen::Index>(row_count(space.constraints()));
+namespace {
+
+// The linear part of the programs around a centre, in units of the radius, so that the solver's
+// tolerances are relative to it; above it room for the nonlinear rows.
+ConvexProgram linear_part(const LocalSpace& space, const Genes& centre, double radius) {
   Matrix linear_rows;
   Vector linear_bounds;
   space.linear_rows(centre, radius, linear_rows, linear_bounds);
-  // In units of the radius, so that the solver's tolerances are relative to it.
   linear_bounds /= radius;
   constexpr double kInside = 1e-9;  // where rounding cannot make a step leave the linear domain
-  linear_bounds.head(linear_bounds.size() - 2 * n).array() -= kInside;
+  linear_bounds.head(linear_bounds.size() - 2 * space.size()).array() -= kInside;
+  ConvexProgram program;
+  program.elastic = static_cast<Eigen::Index>(row_count(space.constraints()));
+  program.rows.resize(program.elastic + linear_rows.rows(), space.size());
+  program.bounds.resize(program.elastic + linear_rows.rows());
+  program.rows.bottomRows(linear_rows.rows()) = linear_rows;
+  program.bounds.tail(linear_rows.rows()) = linear_bounds;
+  return program;
+}
 
+// The model at `at` as a convex program: its nonlinear rows and its objective, whose curvature is
+// the Lagrangian's with these multipliers.
+void linearize(const LocalModel& model, const std::vector<NonlinearConstraint>& constraints,
+               const Vector& at, const Vector& multipliers, double radius, ConvexProgram& program) {
+  const Vector responses = model.at(at);
+  const bool curved = !model.hessians.empty();
+  Matrix curvature = Matrix::Zero(at.size(), at.size());
+  if (curved) curvature = model.hessians[0];
+  Eigen::Index r = 0;
+  const auto add_row = [&](double sign, std::size_t c, double tolerance) {
+    const auto response = static_cast<Eigen::Index>(c) + 1;
+    const Vector gradient = sign * model.gradient(c + 1, at);
+    program.rows.row(r) = gradient.transpose() * radius;
+    program.bounds[r] = tolerance - kMargin - sign * responses[response] + gradient.dot(at);
+    if (curved) curvature += sign * multipliers[r] * model.hessians[c + 1];
+    ++r;
+  };
+  for (std::size_t c = 0; c < constraints.size(); ++c) {
+    add_row(1, c, constraints[c].tolerance);
+    if (constraints[c].relation == Relation::kEqual) add_row(-1, c, constraints[c].tolerance);
+  }
+  program.hessian = curved ? convex(curvature) : curvature;
+  program.gradient = (model.gradient(0, at) - program.hessian * at) * radius;
+  program.hessian *= radius * radius;
+}
+
+// Well above what the steepest constraint asks for.
+double first_penalty(const ConvexProgram& program) {
+  const double steepest = program.gradient.cwiseAbs().maxCoeff();
+  const double rise = program.rows.topRows(program.elastic).rowwise().norm().maxCoeff();
+  return rise > 0 ? 10 * steepest / rise : 1;
+}
+
+// The solution under a penalty that is worth it: raised until most of what can be had of
+// feasibility is taken. `violation`: before the step.
+ConvexSolution solve_steered(ConvexProgram& program, double violation, double& penalty) {
+  program.penalty = penalty;
+  ConvexSolution solution = solve(program);
+  if (!solution.converged || !(solution.excess > kMargin)) return solution;
+  ConvexProgram feasibility = program;
+  feasibility.hessian.setZero();
+  feasibility.gradient.setZero();
+  feasibility.penalty = 1;
+  const double least = solve(feasibility).excess;
+  for (int raise = 0; raise < 6; ++raise) {
+    constexpr double kSolved = 1e-7;  // below it the solver's own tolerance would speak
+    if (solution.excess - least <= 0.1 * (violation - least) + kSolved * (1 + violation)) break;
+    penalty *= 10;
+    program.penalty = penalty;
+    solution = solve(program);
+  }
+  return solution;
+}
+
+}  // namespace
+
+LocalStep best_step(const LocalSpace& space, const Genes& centre, const LocalModel& model,
+                    double radius, double& penalty) {
   const auto merit = [&](const Vector& responses) {
     return responses[0] + penalty * std::max(0.0, space.violation(responses) + kMargin);
   };
-  ConvexProgram program;
-  program.rows.resize(nonlinear + linear_rows.rows(), n);
-  program.bounds.resize(nonlinear + linear_rows.rows());
-  program.rows.bottomRows(linear_rows.rows()) = linear_rows;
-  program.bounds.tail(linear_rows.rows()) = linear_bounds;
-  program.elastic = nonlinear;
-
-  LocalStep best{Vector::Zero(n)};
-  Vector at = Vector::Zero(n);
-  Vector multipliers = Vector::Zero(nonlinear);
+  ConvexProgram program = linear_part(space, centre, radius);
+  LocalStep best{Vector::Zero(space.size())};
+  Vector at = Vector::Zero(space.size());
+  Vector multipliers = Vector::Zero(program.elastic);
   const int passes = model.hessians.empty() ? 1 : 5;
   for (int pass = 0; pass < passes; ++pass) {
-    const Vector responses = model.at(at);
-    Matrix curvature = Matrix::Zero(n, n);
-    if (!model.hessians.empty()) curvature = model.hessians[0];
-    Eigen::Index r = 0;
-    const auto add_row = [&](double sign, std::size_t c, double tolerance) {
-      const auto response = static_cast<Eigen::Index>(c) + 1;
-      const Vector gradient = sign * model.gradient(c + 1, at);
-      program.rows.row(r) = gradient.transpose() * radius;
-      program.bounds[r] = tolerance - kMargin - sign * responses[response] + gradient.dot(at);
-      if (!model.hessians.empty()) curvature += sign * multipliers[r] * model.hessians[c + 1];
-      ++r;
-    };
-    for (std::size_t c = 0; c < space.constraints().size(); ++c) {
-      const NonlinearConstraint& constraint = space.constraints()[c];
-      add_row(1, c, constraint.tolerance);
-      if (constraint.relation == Relation::kEqual) add_row(-1, c, constraint.tolerance);
-    }
-    program.hessian = model.hessians.empty() ? Matrix::Zero(n, n) : convex(curvature);
-    program.gradient = (model.gradient(0, at) - program.hessian * at) * radius;
-    program.hessian *= radius * radius;
-    const double steepest = program.gradient.cwiseAbs().maxCoeff();
-    const double rise = program.rows.topRows(nonlinear).rowwise().norm().maxCoeff();
-    if (penalty == 0) penalty = rise > 0 ? 10 * steepest / rise : 1;
-    program.penalty = penalty;
-    ConvexSolution solution = solve(program);
-
-    // The penalty must be worth it: most of what can be had of feasibility is taken.
-    const double now = std::max(0.0, space.violation(responses));
-    if (solution.converged && solution.excess > kMargin) {
-      ConvexProgram feasibility = program;
-      feasibility.hessian.setZero();
-      feasibility.gradient.setZero();
-      feasibility.penalty = 1;
-      const double least = solve(feasibility).excess;
-      for (int raise = 0; raise < 6; ++raise) {
-        constexpr double kSolved = 1e-7;  // below it the solver's own tolerance would speak
-        if (solution.excess - least <= 0.1 * (now - least) + kSolved * (1 + now)) break;
-        penalty *= 10;
-        program.penalty = penalty;
-        solution = solve(program);
-      }
-    }
-    multipliers = solution.multipliers.head(nonlinear);
+    linearize(model, space.constraints(), at, multipliers, radius, program);
+    if (penalty == 0) penalty = first_penalty(program);
+    const double violation = std::max(0.0, space.violation(model.at(at)));
+    const ConvexSolution solution = solve_steered(program, violation, penalty);
+    multipliers = solution.multipliers.head(program.elastic);
     if (!solution.x.allFinite()) break;
     const double sum = multipliers.sum();
     if (sum < 0.9 * penalty) penalty = std::max(penalty, 2 * sum);
