@@ -54,8 +54,8 @@ struct Individual {
 // telling its recorded results again.
 class Genocop {
  public:
-  // Throws emax::Error for an empty domain, settings out of range and known results that do not fit
-  // the problem.
+  // Throws emax::Error for a problem without genes, an empty domain, settings out of range and
+  // known results that do not fit the problem.
   Genocop(Problem problem, Settings settings, std::uint64_t seed);
   Genocop(const Genocop&) = delete;  // the monotone step refers to its neighbours
   Genocop& operator=(const Genocop&) = delete;

@@ -22,6 +22,7 @@ double left_side(const LinearConstraint& constraint, const Genes& genes) {
 }
 
 void check(const Problem& problem) {
+  if (problem.genes.empty()) throw Error("the problem has no genes; give it at least one");
   for (const Gene& gene : problem.genes) {
     const bool integer = gene.is_whole();
     const bool holds_value =

@@ -20,10 +20,10 @@ struct Interval {
 // inequalities on them. All methods but complete(), reduce() take and give free coordinates.
 class LinearDomain {
  public:
-  // Throws emax::Error when a domain is empty, a start lies outside, the equalities contradict each
-  // other or leave no continuous gene to solve for, a linear constraint or the monotone gene is a
-  // categorical gene or none, Gene::only_with is not as its declaration says, or no point is found
-  // inside.
+  // Throws emax::Error when there are no genes, a domain is empty, a start lies outside, the
+  // equalities contradict each other or leave no continuous gene to solve for, a linear constraint
+  // or the monotone gene is a categorical gene or none, Gene::only_with is not as its declaration
+  // says, or no point is found inside.
   explicit LinearDomain(const Problem& problem);
 
   std::size_t size() const { return free_.size(); }
@@ -49,7 +49,7 @@ class LinearDomain {
   // Whether coordinate k means anything beside the categories of the point (Gene::only_with).
   bool has_meaning(const Genes& free, std::size_t k) const {
     const auto& condition = conditions_[k];
-    return !condition || (free[condition->gene] == condition->category) != condition->unless;
+    return !condition || condition->holds(free[condition->gene]);
   }
   // Coordinates that may move and mean something there.
   std::vector<std::size_t> movable_with_meaning(const Genes& free) const;

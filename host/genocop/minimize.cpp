@@ -72,7 +72,6 @@ inline namespace v1 {
 
 Minimum minimize(const Problem& problem, const std::function<Evaluation(const Genes&)>& evaluate,
                  const MinimizeOptions& options) {
-  if (problem.genes.empty()) throw Error("problem: no genes");
   if (options.budget == 0) throw Error("budget: at least one evaluation");
   if (options.jobs == 0) throw Error("jobs: at least one");
   Settings settings;

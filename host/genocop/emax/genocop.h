@@ -39,6 +39,9 @@ struct Gene {
     std::size_t gene;  // a categorical gene that is itself unconditional
     double category;
     bool unless = false;  // with every other category instead
+
+    // Where that gene has this value.
+    bool holds(double value) const { return (value == category) != unless; }
     bool operator==(const Condition&) const = default;
   };
 
@@ -121,8 +124,9 @@ struct Minimum {
 };
 
 // The same result for any number of jobs. What `evaluate` throws ends the search and comes out; an
-// evaluation that fails is Evaluation{}. Throws Error for an empty domain, for constraints, starts
-// and known results that do not fit the genes, and where nothing was evaluated.
+// evaluation that fails is Evaluation{}. Throws Error for a problem without genes, for an empty
+// domain, for constraints, starts and known results that do not fit the genes, and where nothing
+// was evaluated.
 // Beside the evaluations O(budget * (budget * genes + (genes + constraints)^3)).
 EMAX_API Minimum minimize(const Problem& problem,
                           const std::function<Evaluation(const Genes&)>& evaluate,

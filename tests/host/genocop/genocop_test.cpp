@@ -437,6 +437,15 @@ TEST(Genocop, ConstraintValuesAreAskedForWhereTheProblemNamesThem) {
   EXPECT_THROW(search.tell(0, {true, 1, -1}), std::logic_error);
 }
 
+TEST(Genocop, RefusesAProblemWithoutGenes) {
+  try {
+    Genocop({}, {}, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the problem has no genes; give it at least one");
+  }
+}
+
 TEST(Genocop, RefusesSettingsOutOfRange) {
   const auto refused = [](auto change) {
     Settings settings;
