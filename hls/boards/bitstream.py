@@ -23,7 +23,7 @@ TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
 SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 3, 13, 17
-# Some placements are never routed: of two that were watched, arcs still overlapped after 44 minutes.
+# Some placements are never routed: with seed 2 of an earlier design arcs overlapped after 44 minutes.
 SEED_LIMIT = 40
 # Sent into the netlist: frames, damaged ones included, and blocks whose answers must be right.
 DRIVEN = ["--frames", 30, "--blocks", 6]
