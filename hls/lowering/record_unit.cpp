@@ -99,7 +99,7 @@ class RecordUnit {
     const std::string low = std::to_string(input.record_bit);
     const std::string high =
         std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":";
-    const std::string data = "write_record[" + (bits == 1 ? "" : high) + low + "]";
+    std::string data = "write_record[" + (bits == 1 ? "" : high) + low + "]";
     if (late == 0) return data;
     const std::string name = identifiers_.take(input.name + "_late");
     (bits == 1 ? late_conditions_ : late_reals_).push_back(name);
