@@ -42,7 +42,34 @@ install(FILES sw_model/model/arithmetic_probe.h sw_model/model/emax_model.h
 # The element's SystemVerilog for a design of one's own.
 install(DIRECTORY hls/rtl DESTINATION ${CMAKE_INSTALL_DATADIR}/emax
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f")
-install(FILES LICENSE docs/third_party.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
+install(FILES LICENSE ${documents} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# A manual page for emax and one for each command, of the program's own --help and of docs/user/.
+if(EMAX_MAN)
+  find_program(LOWDOWN lowdown REQUIRED)
+  file(GLOB documents CONFIGURE_DEPENDS docs/user/*.md)
+  foreach(document ${documents})
+    get_filename_component(command ${document} NAME_WE)
+    set(page emax-${command})
+    if(command STREQUAL files)
+      set(command)
+      set(page emax)
+    endif()
+    string(TOUPPER ${page} title)
+    set(output ${PROJECT_BINARY_DIR}/man/${page})
+    add_custom_command(OUTPUT ${output}.1
+      COMMAND ${PROJECT_SOURCE_DIR}/cmake/man_page.sh $<TARGET_FILE:emax> ${PROJECT_SOURCE_DIR}/docs
+        ${CMAKE_INSTALL_DOCDIR} ${command} > ${output}.md
+      COMMAND ${LOWDOWN} -s -tman --out-no-smarty -m title=${title} -m section=1
+        -m "source=emax ${PROJECT_VERSION}" -o ${output}.1 ${output}.md
+      DEPENDS emax cmake/man_page.sh ${document} COMMENT "Manual page ${page}(1)")
+    list(APPEND pages ${output}.1)
+  endforeach()
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man)
+  add_custom_target(emax_man ALL DEPENDS ${pages})
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/emax)
 configure_package_config_file(cmake/emaxConfig.cmake.in

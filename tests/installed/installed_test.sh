@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # installed_test.sh PROJECT BUILD COMPILER CLANG VERILATOR: emax installed from BUILD into a prefix of
 # its own; a project outside the tree builds the examples against it and gets the same lines with
-# every compiler and set of flags; arithmetic that is not the contract's is noticed.
+# every compiler and set of flags; arithmetic that is not the contract's is noticed. The manual pages
+# have the program's options.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/../tooling/expect.sh"
 project=$1 build=$2 gcc=$3 clang=$4 verilator=$5
@@ -9,6 +10,35 @@ prefix=$folder/prefix
 examples=$project/docs/examples
 export LD_LIBRARY_PATH=
 expect pass "" "the installation" cmake --install "$build" --prefix "$prefix"
+
+# A manual page for the program and for each of its commands, with every option that --help names.
+man_pages=$prefix/share/man/man1
+page_text() { groff -man -t -Tutf8 -ww -W break -P-cbou -rLL=2000n -rHY=0 "$man_pages/$1.1" 2>&1; }
+has_options() { # PAGE COMMAND
+  local option text
+  text=$(page_text "$1")
+  for option in $("$prefix/bin/emax" ${2:+"$2"} --help | grep -oE '^  -[^ {]+' | tr ',' '\n'); do
+    grep -qE "^ *([^ ]+ )?$option( |,|\{|$)" <<<"$text" || { echo "no $option" && return 1; }
+  done
+}
+reads_well() { ! page_text "$1" | grep warning; }
+commands=$("$prefix/bin/emax" --help | sed '1,/^Subcommands:$/d' | awk '{ print $1 }')
+expect pass "optimize" "the commands" echo "$commands"
+for command in '' $commands; do
+  page=emax${command:+-$command}
+  expect pass "" "$page(1)" has_options "$page" "$command"
+  expect pass "" "$page(1)" reads_well "$page"
+  expect pass "$page - " "$page(1)" page_text "$page"
+done
+expect fail "no --device" "a page of another command" has_options emax-verify optimize
+echo '.NONSENSE' >"$man_pages/fault.1"
+expect fail "warning" "a page with a fault" reads_well fault
+# Documents that pages name.
+grep -ohE '[a-z0-9_]+\.md' "$man_pages"/*.1 | sort -u >"$folder/named"
+expect pass "run_folder.md" "documents named" cat "$folder/named"
+while read -r document; do
+  expect pass "" "$document is installed" test -f "$prefix/share/doc/emax/$document"
+done <"$folder/named"
 
 # same_lines NAME COMPILER FLAGS [CMAKE_ARGUMENT...]
 same_lines() {
