@@ -13,7 +13,7 @@ expect pass "" "the installation" cmake --install "$build" --prefix "$prefix"
 
 # A manual page for the program and for each of its commands, with every option that --help names.
 man_pages=$prefix/share/man/man1
-page_text() { groff -man -t -Tutf8 -ww -W break -P-cbou -rLL=2000n -rHY=0 "$man_pages/$1.1" 2>&1; }
+page_text() { groff -Kutf8 -man -t -Tutf8 -ww -W break -P-cbou -rLL=2000n -rHY=0 "$man_pages/$1.1" 2>&1; }
 has_options() { # PAGE COMMAND
   local option text
   text=$(page_text "$1")
