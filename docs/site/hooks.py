@@ -101,5 +101,7 @@ def on_page_content(html, page, config, files):
             log.warning(f"{page.file.src_uri} names {path}, which is not there")
         return found[0]
 
+    # A bar in a table's code is written with a backslash, which MkDocs would show.
+    html = re.sub(r"<code>[^<]*</code>", lambda code: code[0].replace("\\|", "|"), html)
     folders = "docs|hls|sw_model|testbench|host|tests|cmake|emax"
     return re.sub(rf"<code>((?:{folders})/[\w./-]+|README\.md|CONTRIBUTING\.md)</code>(?!</a>)", link, html)

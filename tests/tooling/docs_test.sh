@@ -41,5 +41,8 @@ done
 
 sed -i 's/"name": "aresetn"/"name": "reset"/' "$copy/docs/pictures/timing_core.json"
 expect fail "timing_core.svg is not of timing_core.json" "a picture of another source" "$copy/dev" docs
+cp "$project"/docs/pictures/timing_core.json "$copy/docs/pictures"
+echo '/** @file nothing.h */' >>"$copy/docs/site/api.dox"
+expect fail "Doxygen warns of the public headers" "a comment of a file that is not there" "$copy/dev" docs
 expect fail "usage: ./dev docs" "an unknown argument" "$copy/dev" docs --none
 finish
