@@ -36,10 +36,10 @@ Scalar edge_residual(const Scalar& s, const Scalar& beyond_end) {
 }
 
 // What an edge shows to a point in the plane: the signed distance to its line, negative on the
-// outer side, and the residual along it.
+// outer side, the coordinate along it, and its residual.
 template <class Scalar>
 struct EdgeView {
-  Scalar across, residual;
+  Scalar across, along, residual;
 };
 
 template <class Scalar>
@@ -56,9 +56,9 @@ TriangleView<Scalar> view_edges(const TriangleRecord<Scalar>& t, const Scalar& y
   const Scalar across13 = z * e2.y - y * e2.z;
   const Scalar along23 = y * e3.y + z_from_v2 * e3.z;
   const Scalar across23 = y * e3.z - z_from_v2 * e3.y;
-  return {{y, edge_residual(z, z_from_v2)},
-          {across13, edge_residual(along13, Scalar(along13 - t.edge13.length))},
-          {across23, edge_residual(along23, Scalar(along23 - t.edge23.length))}};
+  return {{y, z, edge_residual(z, z_from_v2)},
+          {across13, along13, edge_residual(along13, Scalar(along13 - t.edge13.length))},
+          {across23, along23, edge_residual(along23, Scalar(along23 - t.edge23.length))}};
 }
 
 // `segment` is the record's flag: the triangle is degenerate and only edge 1 counts.

@@ -60,6 +60,8 @@ HWY_AFTER_NAMESPACE();
 #include <algorithm>
 #include <cmath>
 
+#include "sw_model/model/triangle_frame.h"
+
 namespace emax {
 
 HWY_EXPORT(measure);
@@ -106,22 +108,21 @@ LocalFrame local_frame(const std::array<Point, 3>& corners) {
 
 Foot foot_on(const LocalFrame& f, const Point& p) {
   const Vector3<double> at = to_frame(f, {p[0], p[1], p[2]});
-  const double z_from_v2 = at.z - f.length12;
+  const TriangleView<double> view = view_edges(f, at.y, at.z);
   double foot_y = at.y, foot_z = at.z, best = 1e300;
-  const auto edge = [&](double across, double s, const PlanarEdge<double>& e, double from_z) {
-    if (across >= 0) return;
-    const double on_edge = std::clamp(s, 0.0, e.length);
-    const double squared = across * across + (s - on_edge) * (s - on_edge);
+  const auto edge = [&](const EdgeView<double>& seen, const PlanarEdge<double>& e, double from_z) {
+    if (seen.across >= 0) return;
+    const double squared = seen.across * seen.across + seen.residual * seen.residual;
     if (squared >= best) return;
     best = squared;
+    const double on_edge = std::clamp(seen.along, 0.0, e.length);
     foot_y = on_edge * e.direction.y;
     foot_z = from_z + on_edge * e.direction.z;
   };
-  const Vector2<double>&e2 = f.edge13.direction, &e3 = f.edge23.direction;
-  edge(at.y, at.z, {{0, 1}, f.length12}, 0);
-  edge(at.z * e2.y - at.y * e2.z, at.y * e2.y + at.z * e2.z, f.edge13, 0);
-  edge(at.y * e3.z - z_from_v2 * e3.y, at.y * e3.y + z_from_v2 * e3.z, f.edge23, f.length12);
-  const auto eigen = [](const Vector3<double>& v) { return Point(v.x, v.y, v.z); };
+  edge(view.edge12, {{0, 1}, f.length12}, 0);
+  edge(view.edge13, f.edge13, 0);
+  edge(view.edge23, f.edge23, f.length12);
+  const Vector2<double>& e3 = f.edge23.direction;
   Foot foot;
   foot.residual = at.x * eigen(f.normal) + (at.y - foot_y) * eigen(f.in_plane) +
                   (at.z - foot_z) * eigen(f.along);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sw_model/base/deliberate_fault.h"
+#include "sw_model/model/triangle_frame.h"
 
 namespace emax {
 namespace {
@@ -195,9 +196,7 @@ bool LocalSearch::shape(const Point& position) {
     frames_.push_back(local_frame(corners));
     const LocalFrame& f = frames_.back();
     if (!state_.well_shaped(f)) return false;
-    if (!(Point(f.normal.x, f.normal.y, f.normal.z).dot(normals_[i]) >=
-          state_.guards().normal_cosine))
-      return false;
+    if (!(eigen(f.normal).dot(normals_[i]) >= state_.guards().normal_cosine)) return false;
   }
   return true;
 }

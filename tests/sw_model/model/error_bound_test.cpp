@@ -40,7 +40,7 @@ double kernel_distance(const Vector3<float>& p, const TriangleRecord<float>& rec
 double most_negative_across(const Vector3<float>& p, const TriangleRecord<float>& record) {
   const Vector3<float> frame = to_frame(record, p);
   const TriangleView<float> view = view_edges(record, frame.y, frame.z);
-  EdgeView<float> chosen = {0, 0};
+  EdgeView<float> chosen = {0, 0, 0};
   for (const EdgeView<float>& edge : {view.edge12, view.edge13, view.edge23}) {
     const bool is_first = &edge == &view.edge12;
     if ((record.tag & kSegmentFlag) != 0 && !is_first) continue;
