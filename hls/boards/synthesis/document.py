@@ -64,12 +64,15 @@ def _paths(subjects):
     return table(["critical path of", "from", "to", "logic ns", "routing ns", "logic steps"], rows)
 
 
+def _seeds(tried):
+    return ", ".join(f"{seed}: {fmax:.1f} MHz" if fmax else f"{seed}: not routed" for seed, fmax in tried.items())
+
+
 def _tried(subjects):
     lines = []
     for name, result in subjects.items():
         if len(result["tried"]) > 1:
-            seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" if fmax else f"{seed}: not routed" for seed, fmax in result["tried"].items())
-            lines.append(f"Seeds tried for {name}: {seeds}.")
+            lines.append(f"Seeds tried for {name}: {_seeds(result['tried'])}.")
     return lines
 
 
@@ -127,7 +130,6 @@ def board_section(result, versions):
     verdict = "met" if figures["fmax"] >= result["target"] else "missed"
     rows = [[name, f"{used:,}", f"{there:,}", f"{used / there:.0%}"]
             for name, (used, there) in {"LUT": (figures["lut"], LUTS), **result["utilisation"]}.items()]
-    seeds = ", ".join(f"{seed}: {fmax:.1f} MHz" if fmax else f"{seed}: not routed" for seed, fmax in result["tried"].items())
     tools = ", ".join(f"{tool} {version}" for tool, version in versions.items())
     return "\n\n".join([
         BOARD_TITLE,
@@ -137,7 +139,7 @@ def board_section(result, versions):
         "Simulated in lockstep with its source before it was written: "
         + "; ".join(f"as {stage}, {verdict}" for stage, verdict in result["driven"].items()) + ".",
         f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}"
-        f" (tried {seeds}).",
+        f" (tried {_seeds(result['tried'])}).",
         table(["resource", "used", "there", "share"], rows),
         _paths({"emax_ulx3s": result}),
     ]) + "\n"

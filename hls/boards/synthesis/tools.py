@@ -132,11 +132,10 @@ class Runner:
                 except subprocess.TimeoutExpired:
                     os.killpg(process.pid, signal.SIGKILL)
                     process.wait()
+                    raise TookTooLong(f"{title}: ended after {minutes(limit)}; its log is {log}") from None
+                finally:
                     with self.lock:
                         del self.active[process]
-                    raise TookTooLong(f"{title}: ended after {minutes(limit)}; its log is {log}") from None
-            with self.lock:
-                del self.active[process]
             if self.stopped:
                 raise Failure("stopped")
             if status != 0:
