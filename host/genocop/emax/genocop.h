@@ -4,9 +4,10 @@
 //   #include <emax/genocop.h>
 //
 //   emax::Problem problem;
-//   problem.genes = {{.name = "x", .lower = -5, .upper = 5}, {.name = "y", .lower = -5, .upper =
-//   5}}; problem.nonlinear = {{}};                                  // value <= 0 const
-//   emax::Minimum found = emax::minimize(problem, [&](const emax::Genes& g) {
+//   problem.genes = {{.name = "x", .lower = -5, .upper = 5},
+//                    {.name = "y", .lower = -5, .upper = 5}};
+//   problem.nonlinear = {{}};                                                     // value <= 0
+//   const emax::Minimum found = emax::minimize(problem, [&](const emax::Genes& g) {
 //     return emax::make_evaluation(problem.nonlinear, g[0] * g[0] + g[1] * g[1],   // minimised
 //                                  {1 - g[0] - g[1]});                          // x + y >= 1
 //   }, {.budget = 200, .seed = 1});
