@@ -108,11 +108,11 @@ class Scheduler {
     for (const Output& output : graph.outputs()) latency_ = std::max(latency_, ready(output.node));
   }
 
-  // The delay bits are an L-natural-convex function of the starts: moving up by one, again and
-  // again, the set of nodes that saves the most, from the least schedule there is, ends at the
-  // global minimum. Which set that is, is a closure problem: an item for every node, which saves
-  // the wait of its result and needs its tight users to move along, and one for the end of every
-  // value's chain, which costs when a last user moves.
+  // The delay bits are an L-natural-convex function of the starts. Each step moves the set of nodes
+  // that saves the most up by one cycle; from the earliest schedule, the steps end at the global
+  // minimum. The set is the solution of a closure problem. A node is an item that saves the wait of
+  // its result and requires its tight users. The end of a value's chain is an item that costs when
+  // a last user moves.
   void move_slack() {
     const std::size_t nodes = graph_.nodes().size();
     while (true) {

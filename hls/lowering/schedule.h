@@ -65,7 +65,7 @@ struct Schedule {
 // O(latency * nodes * edges) at worst; milliseconds for the kernel's forms.
 Schedule make_schedule(const DataflowGraph& graph, const Latencies& latencies);
 
-// As soon as possible, the slack not yet used: the start of make_schedule, and its yardstick.
+// Every node as soon as possible. make_schedule starts from it; tests compare with it.
 Schedule make_earliest_schedule(const DataflowGraph& graph, const Latencies& latencies);
 
 }  // namespace emax

@@ -1,8 +1,8 @@
 // FIFO of 2^DEPTH_BITS words (and three in its output stages) with an AXI4-Stream output.
 //
-// `push` has no handshake: whoever pushes has seen to it that there is room (credit_counter).
-// A word comes out five cycles after its push at the earliest; one word a cycle. Memory contents are
-// not reset, pointers are.
+// `push` has no handshake: the module that pushes makes sure that there is room
+// (credit_counter). A word comes out five cycles after its push at the earliest; one word a
+// cycle. Pointers are reset, the memory's contents are not.
 `include "asserted.svh"
 
 module axis_fifo #(

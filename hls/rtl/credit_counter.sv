@@ -1,8 +1,8 @@
 // Room in a FIFO that is filled by a pipeline which cannot stop: a credit is taken when a beat that
 // will end in the FIFO enters the pipeline and given back when its word leaves the FIFO. `room` is a
 // register that says whether a beat may take a credit in this cycle. One take and one give a cycle;
-// each counts a cycle later, for they come from far apart, and `room` is low when two credits are
-// left, so that it need not know of the last two takes.
+// both are registered, because they come from distant places. `room` is low from two credits on,
+// because the last two takes are not counted yet.
 `include "asserted.svh"
 `include "mutation.svh"
 

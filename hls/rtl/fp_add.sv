@@ -1,6 +1,6 @@
 // sum = a + b (a - b with SUBTRACT), LATENCY clock edges later, a pair every cycle. The rules of
 // docs/numerics.md: nearest even, subnormals count as signed zero in and out, NaN is 0x7fc00000,
-// x - x = +0. A tiny sum of normal numbers is exact, so here flushing needs no look at rounding.
+// x - x = +0. A tiny sum of normal numbers is exact, so flushing does not depend on rounding.
 //
 // One path: order by magnitude, align, add, count leading zeros by nibbles, normalise, round.
 // Thirteen steps, each at most one carry chain or three levels of logic, with a cut for a register

@@ -2,8 +2,8 @@
 // nearest even, subnormals count as signed zero, a product is flushed when it is tiny after rounding
 // at unbounded exponent, NaN is 0x7fc00000.
 //
-// The fractions go straight into the family's mantissa_multiply; zero operands are told by a flag,
-// so its operands are wires of the input with a hidden bit of 1.
+// The fractions go straight into the family's mantissa_multiply, with a hidden bit of 1. A flag marks
+// zero operands.
 module fp_multiply #(
     parameter int EXPONENT = 8,
     parameter int MANTISSA = 23,

@@ -23,10 +23,10 @@ package emax_mutation;
   localparam int MULTIPLY_SUBNORMAL_OPERAND = 27;  // fp_multiply: a subnormal operand counts as normal
   localparam int MULTIPLY_NAN_IS_INFINITY = 28;  // fp_multiply: a NaN's fraction is not looked at
   localparam int SQUARE_SIGN = 31;  // fp_square: keeps its operand's sign
-  localparam int LESS_OR_EQUAL = 41;  // fp_less: <= for <
+  localparam int LESS_OR_EQUAL = 41;  // fp_less: compares with <= instead of <
   localparam int LESS_IGNORES_SIGN = 42;  // fp_less: negative numbers compare as positive ones
   localparam int LESS_NAN_IS_ORDERED = 43;  // fp_less: a NaN compares as beyond infinity
-  localparam int LESS_SUBNORMALS_DIFFER = 44;  // fp_less: subnormals are told from zero
+  localparam int LESS_SUBNORMALS_DIFFER = 44;  // fp_less: subnormals do not count as zero
   localparam int LESS_SIGNED_ZEROS_DIFFER = 45;  // fp_less: -0 < +0
   localparam int DELAY_ONE_SHORT = 61;  // delay_line: lines in distributed RAM are one edge short
   localparam int FIELD_ALWAYS_WRITTEN = 62;  // field_memory: writes without write_enable
@@ -46,7 +46,7 @@ package emax_mutation;
   localparam int MINIMUM_WRITTEN_ASIDE = 110;  // running_minimum: written at the next pair's index
   localparam int MINIMUM_NOT_KEPT = 111;  // running_minimum: the latest distance is written instead
   localparam int WORST_NEVER_STARTS_ANEW = 112;  // worst_point: the block before goes on counting
-  localparam int WORST_TAKES_LAST_OF_EQUALS = 113;  // worst_point: >= for >
+  localparam int WORST_TAKES_LAST_OF_EQUALS = 113;  // worst_point: compares with >= instead of >
   localparam int FINAL_IGNORED = 114;  // emax_element: every minimum comes out
   localparam int LAST_LOST = 115;  // emax_element: the last beat of a block is not marked
   localparam int EDGES_SWAPPED = 116;  // emax_element: fields of edge13 and edge23 change places

@@ -1,12 +1,12 @@
 // The accounting of a ring of 2^SLOT_BITS record slots; the words themselves lie in the memories of
 // emax_distance_unit.
 //
-// A record that arrives is written into `write_slot` with `write_enable` two cycles later: both reach
-// every memory and are registers that nothing else looks at. Pairs read `slot`, the oldest record, until `advance` (the
-// record's last pair enters). The datapath reads the fields of a record at several cycles, the last
-// of them LAST_READ cycles after the pair entered: only then is the slot free again. `loaded_next`
-// says whether the next cycle has a record to read. s_axis_record_tready is a register. A different
-// record every cycle is sustained when 2^SLOT_BITS >= LAST_READ + 6.
+// A record that arrives is written into `write_slot` with `write_enable` two cycles later: both are
+// registers that reach every memory and drive nothing else. Pairs read `slot`, the oldest record,
+// until `advance`: the record's last pair enters. The datapath reads a record's fields in several
+// cycles; the slot is free after the last of them, LAST_READ cycles after the pair entered.
+// `loaded_next` says whether the next cycle has a record to read. s_axis_record_tready is a
+// register. 2^SLOT_BITS >= LAST_READ + 6 is enough for a different record in every cycle.
 `include "asserted.svh"
 `include "mutation.svh"
 

@@ -1,6 +1,6 @@
 // A ring of 2^ADDRESS_BITS words (and three in its output stages) with an AXI4-Stream output: the
-// memory and the reading side. Whoever writes keeps the pointers of writing; words before
-// `write_pointer` are read. Pointers have one bit more than addresses: full is not empty.
+// memory and the reading side. The module that writes keeps the write pointer; words before it are
+// read. A pointer has one bit more than an address, which tells a full ring from an empty one.
 //
 // A word comes out five cycles after `write_pointer` has passed it at the earliest; one word a cycle.
 // tvalid and tdata are registers; tready reaches registers and the memory's enable only.

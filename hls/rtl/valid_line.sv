@@ -1,6 +1,6 @@
-// A bit that travels beside a datapath which knows no reset: DEPTH clock edges, all of them cleared
-// by reset, so that nothing of before the reset comes out after it. Registers, not RAM: a RAM
-// cannot be cleared. DEPTH >= 2.
+// A bit that travels beside a datapath without a reset: a chain of DEPTH registers. A reset clears
+// all of them, so that no bit that went in before a reset comes out after it. Registers, not RAM: a
+// RAM cannot be cleared. DEPTH >= 2.
 `include "mutation.svh"
 
 module valid_line #(

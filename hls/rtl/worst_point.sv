@@ -1,7 +1,7 @@
 // The worst point of a block: the maximum of its final minima and the index of the first of them
-// that attains it. A value a cycle; `worst` and `done` come two cycles after the block's last value: a
-// register takes it first, since it also goes elsewhere and the comparison with its way back is long.
-// The block that follows may begin in the next cycle. reset forgets the block under way.
+// that attains it. A value a cycle; `worst` and `done` come two cycles after the block's last
+// value. The value is registered first, because it has other loads and the comparison takes a cycle.
+// The next block may begin in the next cycle. reset forgets the block under way.
 `include "mutation.svh"
 
 module worst_point #(

@@ -1,7 +1,7 @@
-// Takes a device's command words (docs/protocol.md) apart: points go to the point memories, records
-// to the elements, and whatever answers to the queue of block_answers. A word a cycle where nothing
-// holds it: a header waits for room in that queue, LoadPoints for the passes of the block before
-// (`sequencer_idle`), a record's word for the elements to take the record before it.
+// Decodes a device's command words (docs/protocol.md): points go to the point memories, records to
+// the elements, requests to the queue of block_answers. A word a cycle unless it waits: a header for
+// room in that queue, LoadPoints for the passes of the block before (`sequencer_idle`), a record's
+// word for the elements to take the record before it.
 //
 // Point i of a block goes to element i mod NUM_PE, row i / NUM_PE.
 `include "mutation.svh"
@@ -70,7 +70,7 @@ module command_decoder #(
       : asks ? request_ready : 1'b1;
   assign last_word = left == '0;
 
-  // Apart, so that nothing but registers beside it enables the 640 bits of a record.
+  // A process of its own, so that only registers beside it enable the 640 bits of a record.
   assign take_record = word_valid && state == RECORD && (!assembled_full || move);
   assign take_header = word_valid && state == HEADER && may_begin;
   assign take = take_record || take_header || (word_valid && (state == POINTS || state == SKIP));
@@ -96,8 +96,8 @@ module command_decoder #(
       drop  <= met;
     end
 
-    // What only counts once the header is taken is prepared before: so the decision whether to take
-    // it reaches few registers.
+    // Registers that matter only after the header is taken are loaded before: the decision whether
+    // to take it reaches few registers.
     if (state == HEADER) begin
       items <= count - 1'b1;
       left  <= opcode == RECORDS ? 5'd19 : 5'd2;

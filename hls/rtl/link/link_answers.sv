@@ -4,7 +4,7 @@
 //
 // `announce` is high for a cycle when a frame has become the one under way, with `under_way`, its
 // `sequence_number` and `length`; its words are read with `read_enable`, two cycles ahead. A
-// frame that is acknowledged is `passed`, and forgotten when `hold` is low: what is being sent stays.
+// frame that is acknowledged is `passed`, and dropped once `hold` is low: a frame being sent stays.
 `include "mutation.svh"
 
 module link_answers (

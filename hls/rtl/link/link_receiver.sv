@@ -3,7 +3,7 @@
 //
 // `begun` is high for a cycle when the sync bytes are there, `headed` when the fields are (they hold
 // until the next frame's), `m_word_valid` with each word of the payload, `whole` after a CRC that is
-// right. Words come before anybody knows whether they are right. Bytes come at most every 8 cycles.
+// right. Words leave before the CRC of their frame is checked. Bytes come at most every 8 cycles.
 `include "mutation.svh"
 
 module link_receiver #(

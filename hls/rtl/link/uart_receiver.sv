@@ -2,9 +2,9 @@
 //
 // `rxd` is asynchronous. Bits are sampled in their middle, counted from the edge of the start bit, so
 // that clocks may differ by a few percent where CLOCKS_PER_BIT >= 16. `m_byte_valid` is high for one
-// cycle a byte, in the middle of the stop bit. A byte without its stop bit is given too: whoever
-// checks the bytes sees it, and without it all that follow would be out of place. A line that stays
-// low gives one byte.
+// cycle a byte, in the middle of the stop bit. A byte without its stop bit is passed on too: the CRC
+// of its frame fails, and the bytes after it keep their places. A line that stays low gives one
+// byte.
 module uart_receiver #(
     parameter int CLOCKS_PER_BIT = 40
 ) (
