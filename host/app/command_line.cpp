@@ -8,6 +8,7 @@
 #include "host/app/option_checks.h"
 #include "host/config/config.h"
 #include "host/device/device_address.h"
+#include "host/parameters/descriptions.h"
 
 namespace emax {
 namespace {
@@ -46,17 +47,24 @@ constexpr const char* kClosedHelp =
     "output names (default: holes and borders stay)";
 
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
+  std::vector<std::string> methods = names_of(reconstruction_methods());
+  methods.insert(methods.begin(), kFitMethod);
+  methods.emplace_back(kAutoMethod);
+  std::vector<std::string> decimator_names = names_of(decimators());
+  decimator_names.emplace_back(kAutoDecimator);
+  std::string meanings;
+  for (const DecimatorDescription& d : decimators()) {
+    meanings += fmt::format("{}: {}; ", d.name, d.meaning);
+  }
   command
       .add_option("--method", method,
                   "reconstruction; fit: the one that fits the scan best; auto: the search chooses")
-      ->check(CLI::IsMember({"fit", "gp3", "poisson", "hoppe", "imls", "auto"}))
+      ->check(CLI::IsMember(methods))
       ->capture_default_str();
   command
-      .add_option(
-          "--decimator", decimator,
-          "bounded: every edit keeps the bound; schroeder: the paper's decimation, whose error is "
-          "measured afterwards; auto: the search chooses, under a one-sided bound")
-      ->check(CLI::IsMember({"bounded", "schroeder", "auto"}))
+      .add_option("--decimator", decimator,
+                  meanings + "auto: the search chooses, under a one-sided bound")
+      ->check(CLI::IsMember(decimator_names))
       ->capture_default_str();
 }
 
@@ -73,13 +81,16 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       ->required();
   command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off")->required();
   add_chain(command, optimize.method, optimize.decimator);
+  std::vector<std::string> one_sided = names_of_decimators(false);
+  one_sided.emplace_back(kAutoDecimator);
   command
       .add_option(
           "--bound", optimize.bound,
           "one-sided: every point of the cloud lies within the tolerance of the mesh; two-sided: "
           "also all of the mesh within the tolerance of a reference surface, and all of that "
           "surface within the tolerance of the mesh (default: two-sided, but one-sided with "
-          "--decimator schroeder or auto)")
+          "--decimator " +
+              alternatives(one_sided) + ")")
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
   command.add_option("--seed", optimize.seed, "seed of every random choice")
       ->check(whole())

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "host/app/commands.h"
-#include "host/parameters/chain_parameters.h"
 
 namespace emax {
 
@@ -17,7 +16,7 @@ struct CommandLine {
   std::string decimate_bound = "two-sided";
   ErrorOptions error;
   VerifyOptions verify;
-  std::string config_method = kFitMethod, config_decimator = "bounded";
+  std::string config_method = kFitMethod, config_decimator{Bounded::kName};
   std::function<int()> chosen;  // the exit code
 };
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "host/app/scan.h"
+#include "host/parameters/chain_parameters.h"
+#include "host/parameters/registry.h"
 
 namespace emax {
 
@@ -16,8 +18,8 @@ struct OptimizeOptions {
   CommonOptions common;
   std::string max_error;
   std::string output;
-  std::string method = "fit";
-  std::string decimator = "bounded";
+  std::string method = kFitMethod;
+  std::string decimator{Bounded::kName};
   std::string bound;  // empty: two-sided where the decimator can hold it
   std::string config;
   std::uint64_t seed = 1;

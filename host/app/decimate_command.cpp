@@ -267,16 +267,15 @@ class DecimateCommand {
   }
 
   CertifiedResult result() const {
-    CertifiedResult result = {
-        .cloud = {scan_, cloud_sha256_, options_.skip_invalid, own_cloud_},
-        .epsilon = epsilon_,
-        .mesh = result_.mesh,
-        .proven = proven_,
-        .chain = {"none",
-                  "bounded",
-                  {{kBoundedEffort, static_cast<double>(settings_.decimation.effort)},
-                   {"bounded.feature_angle", settings_.decimation.feature_angle}}}};
-    if (options_.objective == "hoppe") result.chain.parameters["bounded.hoppe"] = 1;
+    CertifiedResult result = {.cloud = {scan_, cloud_sha256_, options_.skip_invalid, own_cloud_},
+                              .epsilon = epsilon_,
+                              .mesh = result_.mesh,
+                              .proven = proven_,
+                              .chain = {"none", std::string(Bounded::kName), {}}};
+    ParameterValues& values = result.chain.parameters;
+    values.set(Bounded::kEffort, static_cast<int>(settings_.decimation.effort));
+    values.set(Bounded::kFeatureAngle, settings_.decimation.feature_angle);
+    if (options_.objective == "hoppe") values.set(Bounded::kHoppe, true);
     return result;
   }
 

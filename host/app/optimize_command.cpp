@@ -211,7 +211,7 @@ class OptimizeCommand {
     files_.emplace(options_, settings_, scan_, cloud_sha256_, *constraint_);
     print_fit(fit_, epsilon_);
     if (settings_.closed) print_closed(fit_.closed_holes, fit_.open);
-    if (settings_.decimator != "schroeder") log_->settle(kBoundSetting, checksum(settings_.bound));
+    if (takes_bound(settings_.decimator)) log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
       fmt::print(
           "outliers       {} points farther than the tolerance from the reconstruction are left "

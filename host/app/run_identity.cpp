@@ -51,7 +51,7 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"mesh.ending", lower_case_ending(settings.output)},
       {"seed", fmt::format("{}", settings.seed)},
   };
-  if (settings.decimator != "schroeder") run.emplace_back(kBoundSetting, "");
+  if (takes_bound(settings.decimator)) run.emplace_back(kBoundSetting, "");
   for (auto& value : named_values(settings.config)) {
     if (value.first != "search.budget") run.push_back(std::move(value));  // which may grow
   }

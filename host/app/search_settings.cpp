@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "host/app/interrupt.h"
+#include "host/parameters/descriptions.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -16,7 +17,7 @@ std::uint64_t budget_of(const OptimizeOptions& options, std::uint64_t configured
   const SearchEffort effort = options.effort == "quick"  ? SearchEffort::kQuick
                               : options.effort == "deep" ? SearchEffort::kDeep
                                                          : SearchEffort::kNormal;
-  return search_budget(effort, points, options.decimator != "bounded",
+  return search_budget(effort, points, !keeps_bound(options.decimator),
                        options.config.empty() ? std::nullopt : std::optional(configured));
 }
 
@@ -33,10 +34,11 @@ EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t p
 }  // namespace
 
 bool is_two_sided(const OptimizeOptions& options) {
-  const bool bounded = options.decimator == "bounded";
+  const bool bounded = keeps_bound(options.decimator);
   const bool two_sided = options.bound.empty() ? bounded : options.bound == "two-sided";
   if (two_sided && !bounded) {
-    throw Error("--bound two-sided needs --decimator bounded; the paper's chain bounds the points");
+    throw Error("--bound two-sided needs --decimator " + alternatives(names_of_decimators(true)) +
+                "; the paper's chain bounds the points");
   }
   return two_sided;
 }

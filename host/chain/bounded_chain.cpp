@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/parameters/chain_parameters.h"
+#include "host/parameters/registry.h"
 #include "host/surface/drop_components.h"
 #include "sw_model/base/error.h"
 
@@ -46,25 +46,6 @@ TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   return reference_surface(surface, kept_, bound_.epsilon / 2).mesh;
 }
 
-DecimatedMesh BoundedStage::decimate(const TriangleMesh& start, const ParameterValues& values,
-                                     const std::function<bool()>& stopped) const {
-  DecimationSettings settings;
-  settings.epsilon = bound_.epsilon;
-  settings.epsilon_back = bound_.epsilon_back;
-  settings.two_sided = two_sided();
-  static_assert(static_cast<DecimationSettings::Effort>(kDeepEffort) ==
-                DecimationSettings::Effort::kDeep);
-  settings.effort = static_cast<DecimationSettings::Effort>(values.at(kBoundedEffort));
-  settings.normal_cosine = values.at("bounded.normal_cosine");
-  settings.flatness = values.at("bounded.flatness");
-  settings.interrupted = stopped;
-  const TriangleMesh& reference = two_sided() ? bound_.reference : start;
-  DecimatedMesh made = BoundedDecimator(reference, kept_).run(start, settings);
-  if (two_sided()) return made;
-  made.mesh = drop_needless_components(std::move(made.mesh), kept_, kInside * bound_.epsilon);
-  return made;
-}
-
 SurfaceVerdict BoundedStage::judge(const TriangleMesh& mesh) const {
   SurfaceVerdict verdict;
   if (!two_sided() || equal(mesh, bound_.reference)) return verdict;
@@ -83,6 +64,26 @@ bool BoundedStage::keeps_bounds(const SurfaceVerdict& verdict) const {
   return !two_sided() ||
          (verdict.topology_difference == 0 && verdict.back_distance <= bound_.epsilon_back &&
           verdict.reference_distance <= bound_.epsilon);
+}
+
+DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& values,
+                           const BoundedStage& stage, const std::function<bool()>& stopped) {
+  using Effort = DecimationSettings::Effort;
+  static_assert(static_cast<Effort>(kDeepEffort) == Effort::kDeep);
+  const DecimationBound& bound = stage.bound();
+  DecimationSettings settings;
+  settings.epsilon = bound.epsilon;
+  settings.epsilon_back = bound.epsilon_back;
+  settings.two_sided = stage.two_sided();
+  settings.effort = static_cast<Effort>(values.at(kEffort));
+  settings.normal_cosine = values.at(kNormalCosine);
+  settings.flatness = values.at(kFlatness);
+  settings.interrupted = stopped;
+  const TriangleMesh& reference = stage.two_sided() ? bound.reference : start;
+  DecimatedMesh made = BoundedDecimator(reference, stage.kept()).run(start, settings);
+  if (stage.two_sided()) return made;
+  made.mesh = drop_needless_components(std::move(made.mesh), stage.kept(), kInside * bound.epsilon);
+  return made;
 }
 
 }  // namespace emax

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,7 +7,6 @@
 #include "host/decimate/bounded_decimation.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/parameters/decimation_bound.h"
-#include "host/parameters/parameter_spec.h"
 #include "sw_model/certify/surface_distance.h"
 
 namespace emax {
@@ -31,6 +29,7 @@ class BoundedStage {
 
   bool two_sided() const { return bound_.epsilon_back > 0; }
 
+  const DecimationBound& bound() const { return bound_; }
   const TriangleMesh& reference() const { return bound_.reference; }
   std::span<const Point> kept() const { return kept_; }  // points that are no outliers
   // Farther than that from a surface a point needs a piece of its own: half of epsilon, which
@@ -44,12 +43,6 @@ class BoundedStage {
   // What decimation starts from: the surface as a manifold, with the points inserted that are far
   // from it. Throws what reference_surface() throws, and Error where the run fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;
-
-  // `values` holds P_D. Keeps every bound that `start` keeps, and its topology; under a one-sided
-  // bound without the components that no point needs any more. `stopped` is polled now and then;
-  // true ends the work with the mesh at hand, of which the same holds.
-  DecimatedMesh decimate(const TriangleMesh& start, const ParameterValues& values,
-                         const std::function<bool()>& stopped = nullptr) const;
 
   SurfaceVerdict judge(const TriangleMesh& mesh) const;
   bool keeps_bounds(const SurfaceVerdict& verdict) const;

@@ -1,9 +1,12 @@
 #include "host/chain/chain.h"
 
+#include <algorithm>
 #include <chrono>
 
+#include "host/chain/decimator_run.h"
 #include "host/chain/fill_holes_smoothly.h"
 #include "host/geometry/scan_estimate.h"
+#include "host/parameters/descriptions.h"
 #include "host/reconstruct/moving_least_squares.h"
 #include "host/surface/crack_free.h"
 #include "host/surface/cracks.h"
@@ -28,29 +31,25 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-FillMethod fill_method(const ParameterValues& values) {
-  const auto chosen = values.find(kFillMethod);
-  return chosen == values.end() ? FillMethod::kFlat : static_cast<FillMethod>(chosen->second);
-}
-
 // As the paper's chain does it.
 TriangleMesh fill(const TriangleMesh& mesh, const ParameterValues& values) {
-  const FillMethod method = fill_method(values);
-  if (method == FillMethod::kNone) return mesh;
-  const double size = values.at("fill.size");
-  return method == FillMethod::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
+  const Fill::Method method = Fill::method(values);
+  if (method == Fill::Method::kNone) return mesh;
+  const double size = values.at(Fill::kSize);
+  return method == Fill::Method::kFlat ? fill_holes(mesh, size) : fill_holes_smoothly(mesh, size);
 }
 
 // A surface, with the cracks closed that reconstruction leaves and making it a surface; a hole of
 // the scan stays.
 TriangleMesh closed_surface(const TriangleMesh& mesh, const ChainSettings& settings,
                             const BoundedStage& bounded, double spacing) {
-  const FillMethod method = fill_method(settings.parameters);
-  if (method == FillMethod::kNone) return bounded.without_needless(manifold_part(mesh).mesh);
-  const double size = settings.parameters.at("fill.size");
-  return crack_free_surface(method == FillMethod::kSmooth ? fill_holes_smoothly(mesh, size) : mesh,
-                            bounded.kept(), bounded.far(), size, kCrackSpacings * spacing,
-                            settings.method == kInterpolatingMethod)
+  const Fill::Method method = Fill::method(settings.parameters);
+  if (method == Fill::Method::kNone) return bounded.without_needless(manifold_part(mesh).mesh);
+  const double size = settings.parameters.at(Fill::kSize);
+  return crack_free_surface(
+             method == Fill::Method::kSmooth ? fill_holes_smoothly(mesh, size) : mesh,
+             bounded.kept(), bounded.far(), size, kCrackSpacings * spacing,
+             method_named(settings.method).interpolates)
       .mesh;
 }
 
@@ -65,10 +64,7 @@ Chain::Chain(std::vector<Point> points, DecimationBound bound, std::size_t cache
 
 std::span<const Point> Chain::cloud(const ChainSettings& settings) {
   const ParameterValues values = cloud_key(settings);
-  const auto method = values.find("mls.method");
-  if (method == values.end() || static_cast<MlsMethod>(method->second) == MlsMethod::kNone) {
-    return points_;
-  }
+  if (Mls::method(values) == Mls::Method::kNone) return points_;
   return clouds_.get(values, [&] { return MovedCloud{on_least_squares_surface(points_, values)}; })
       .points;
 }
@@ -76,8 +72,7 @@ std::span<const Point> Chain::cloud(const ChainSettings& settings) {
 const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSeconds& seconds) {
   return reconstructions_.get(reconstruction_key(settings), [&] {
     Stopwatch watch;
-    Reconstructed made{
-        reconstruction_method(settings.method).reconstruct(cloud(settings), settings.parameters)};
+    Reconstructed made{emax::reconstruct(settings.method, cloud(settings), settings.parameters)};
     seconds.reconstruct = watch.lap();
     return made;
   });
@@ -96,12 +91,12 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
     }
     const Reconstruction& reconstruction = reconstruct(settings, seconds);
     Stopwatch watch;
-    const bool surface = settings.decimator != "schroeder";
+    const bool surface = takes_bound(settings.decimator);
     TriangleMesh filled = surface
                               ? closed_surface(reconstruction.mesh, settings, bounded_, spacing())
                               : fill(reconstruction.mesh, settings.parameters);
     SurfaceVerdict verdict;
-    if (settings.decimator == "bounded") {
+    if (keeps_bound(settings.decimator)) {
       filled = bounded_.start(filled);
       verdict = bounded_.judge(filled);
     }
@@ -113,38 +108,35 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
 }
 
 ChainResult Chain::run(const ChainSettings& settings, const std::function<bool()>& stopped) {
-  for (const ParameterSpec& spec : required_parameters(settings)) {
-    if (!settings.parameters.contains(spec.name)) {
-      throw Error("the parameter " + spec.name + " has no value");
-    }
-  }
+  require_values(settings);
   ChainResult result;
   const Surface& start = surface(settings, result.seconds);
   result.reconstruction_triangles = start.reconstruction_triangles;
   result.unmeshed_points = start.unmeshed_points;
   Stopwatch watch;
-  if (settings.decimator == "bounded") {
-    // Decimation mends neither a bound nor the topology.
-    const bool hopeful = bounded_.keeps_bounds(start.verdict);
-    if (hopeful) {
-      DecimatedMesh decimated = bounded_.decimate(start.mesh, settings.parameters, stopped);
-      result.mesh = std::move(decimated.mesh);
-      result.stopped = decimated.interrupted;
-    } else {
-      result.mesh = start.mesh;
-    }
-    result.seconds.decimate = watch.lap();
-    const SurfaceVerdict verdict = hopeful ? bounded_.judge(result.mesh) : start.verdict;
-    result.topology_difference = verdict.topology_difference;
-    result.back_distance = verdict.back_distance;
-    result.reference_distance = verdict.reference_distance;
-    result.seconds.check = watch.lap();
-  } else if (settings.decimator == kNoDecimator) {
+  if (settings.decimator == kNoDecimator) {
     result.mesh = start.mesh;
-  } else {
-    result.mesh = decimate_schroeder(start.mesh, settings.parameters);
-    result.seconds.decimate = watch.lap();
+    return result;
   }
+  const bool bounded = keeps_bound(settings.decimator);
+  // Decimation mends neither a bound nor the topology.
+  const bool hopeful = !bounded || bounded_.keeps_bounds(start.verdict);
+  if (hopeful) {
+    const auto decimator =
+        std::ranges::find(decimator_runs(), settings.decimator, &DecimatorRun::name);
+    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, stopped);
+    result.mesh = std::move(decimated.mesh);
+    result.stopped = decimated.interrupted;
+  } else {
+    result.mesh = start.mesh;
+  }
+  result.seconds.decimate = watch.lap();
+  if (!bounded) return result;
+  const SurfaceVerdict verdict = hopeful ? bounded_.judge(result.mesh) : start.verdict;
+  result.topology_difference = verdict.topology_difference;
+  result.back_distance = verdict.back_distance;
+  result.reference_distance = verdict.reference_distance;
+  result.seconds.check = watch.lap();
   return result;
 }
 

@@ -131,52 +131,50 @@ void read_search(const Reader& reader, const toml::table& table, Settings& setti
   }
 }
 
-void read_gene(const Reader& reader, const toml::table& table, const ParameterSpec& spec,
-               GeneConfig& config) {
-  const bool integer = spec.kind != ParameterSpec::Kind::kContinuous;
-  const std::string label = "genes." + in_quotes(spec.name);
+// `own`: the parameter as it comes, whose domain may be narrowed.
+void read_gene(const Reader& reader, const toml::table& table, const Parameter& own,
+               Parameter& gene) {
+  const std::string label = "genes." + in_quotes(own.name);
   bool has_standard = false;
-  if (table.contains("lower") || table.contains("upper")) config.fixed.reset();
+  if (table.contains("lower") || table.contains("upper")) gene.fixed.reset();
   for (const auto& [key, node] : table) {
     const std::string name = label + '.' + std::string(key.str());
     const auto value = [&](const toml::node& n) {
-      return integer ? reader.whole(n, name, spec.lower, spec.upper)
-                     : reader.number(n, name, spec.lower, spec.upper);
+      return own.is_whole() ? reader.whole(n, name, own.lower, own.upper)
+                            : reader.number(n, name, own.lower, own.upper);
     };
     if (key.str() == "lower") {
-      config.gene.lower = value(node);
+      gene.lower = value(node);
     } else if (key.str() == "upper") {
-      config.gene.upper = value(node);
+      gene.upper = value(node);
     } else if (key.str() == "standard") {
-      config.standard = value(node);
+      gene.standard = value(node);
       has_standard = true;
     } else if (key.str() == "fixed") {
-      config.fixed = value(node);
+      gene.fixed = value(node);
     } else {
       reader.unknown_key(key, fmt::format("[{}]", label), {"lower", "upper", "standard", "fixed"});
     }
   }
-  if (config.gene.lower > config.gene.upper) {
+  if (gene.lower > gene.upper) {
     reader.refuse(table.source(), fmt::format("{}: lower = {} is above upper = {}; exchange them",
-                                              label, config.gene.lower, config.gene.upper));
+                                              label, gene.lower, gene.upper));
   }
-  const double nearest = std::clamp(config.standard, config.gene.lower, config.gene.upper);
-  if (has_standard && nearest != config.standard) {
+  const double nearest = std::clamp(gene.standard, gene.lower, gene.upper);
+  if (has_standard && nearest != gene.standard) {
     reader.refuse(table.source(),
                   fmt::format("{}: standard = {} is outside lower = {} to upper = {}; move it",
-                              label, config.standard, config.gene.lower, config.gene.upper));
+                              label, gene.standard, gene.lower, gene.upper));
   }
-  config.standard = nearest;
+  gene.standard = nearest;
 }
 
 std::size_t position(const Reader& reader, const toml::key& key,
-                     std::span<const ParameterSpec> parameters) {
-  const auto found =
-      std::find_if(parameters.begin(), parameters.end(),
-                   [&](const ParameterSpec& spec) { return spec.name == key.str(); });
+                     std::span<const Parameter> parameters) {
+  const auto found = std::ranges::find(parameters, key.str(), &Parameter::name);
   if (found == parameters.end()) {
     std::vector<std::string_view> names;
-    for (const ParameterSpec& spec : parameters) names.push_back(spec.name);
+    for (const Parameter& p : parameters) names.push_back(p.name);
     reader.refuse(key.source(), fmt::format("unknown gene {}; this chain has: {}",
                                             in_quotes(key.str()), fmt::join(names, ", ")));
   }
@@ -184,7 +182,7 @@ std::size_t position(const Reader& reader, const toml::key& key,
 }
 
 LinearConstraint read_linear(const Reader& reader, const toml::table& table,
-                             std::span<const ParameterSpec> parameters) {
+                             std::span<const Parameter> parameters) {
   LinearConstraint constraint;
   int bounds = 0;
   for (const auto& [key, node] : table) {
@@ -212,7 +210,7 @@ LinearConstraint read_linear(const Reader& reader, const toml::table& table,
   return constraint;
 }
 
-double start_value(const GeneConfig& config) { return config.fixed.value_or(config.standard); }
+double start_value(const Parameter& gene) { return gene.fixed.value_or(gene.standard); }
 
 void check_start(const Reader& reader, const toml::table& table, const Config& config,
                  const LinearConstraint& constraint) {
@@ -231,30 +229,18 @@ void check_start(const Reader& reader, const toml::table& table, const Config& c
                             sum, equal ? "exactly" : "at most", constraint.bound));
 }
 
-Gene::Kind kind_of(const ParameterSpec& spec) {
-  switch (spec.kind) {
-    case ParameterSpec::Kind::kContinuous:
-      return Gene::Kind::kContinuous;
-    case ParameterSpec::Kind::kInteger:
-      return Gene::Kind::kInteger;
-    case ParameterSpec::Kind::kCategorical:
-      break;
-  }
-  return Gene::Kind::kCategorical;
-}
-
 // "whole number; only with method = 0", or "0: gp3, 1: poisson".
-std::string kind_text(const ParameterSpec& spec) {
-  std::string text = spec.kind == ParameterSpec::Kind::kInteger ? "whole number" : "number";
-  if (spec.kind == ParameterSpec::Kind::kCategorical) {
+std::string kind_text(const Parameter& p, std::span<const Parameter> all) {
+  std::string text = p.kind == Gene::Kind::kInteger ? "whole number" : "number";
+  if (p.kind == Gene::Kind::kCategorical) {
     text.clear();
-    for (std::size_t i = 0; i < spec.categories.size(); ++i) {
-      text += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i, spec.categories[i]);
+    for (std::size_t i = 0; i < p.categories.size(); ++i) {
+      text += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i, p.categories[i]);
     }
   }
-  if (spec.only_with) {
-    text += fmt::format("; only {} {} = {}", spec.only_with->unless ? "without" : "with",
-                        spec.only_with->parameter, spec.only_with->category);
+  if (p.only_with) {
+    text += fmt::format("; only {} {} = {}", p.only_with->unless ? "without" : "with",
+                        all[p.only_with->gene].name, p.only_with->category);
   }
   return text;
 }
@@ -277,23 +263,13 @@ std::string value_text(const SettingInfo& info, const Settings& settings) {
 
 }  // namespace
 
-Config default_config(std::span<const ParameterSpec> parameters) {
+Config default_config(std::span<const Parameter> parameters) {
   Config config;
-  for (const ParameterSpec& spec : parameters) {
-    Gene gene{spec.name, kind_of(spec), spec.lower, spec.upper};
-    if (spec.only_with) {
-      const auto of =
-          std::ranges::find(parameters, spec.only_with->parameter, &ParameterSpec::name);
-      gene.only_with = {static_cast<std::size_t>(of - parameters.begin()), spec.only_with->category,
-                        spec.only_with->unless};
-    }
-    config.genes.push_back({std::move(gene), spec.standard,
-                            spec.searched ? std::nullopt : std::optional(spec.standard)});
-  }
+  config.genes.assign(parameters.begin(), parameters.end());
   return config;
 }
 
-std::string default_config_text(std::span<const ParameterSpec> parameters) {
+std::string default_config_text(std::span<const Parameter> parameters) {
   const Settings settings;
   std::string text =
       "# What the search may do. Every key may be left out; it then has the value shown here.\n\n"
@@ -313,14 +289,13 @@ std::string default_config_text(std::span<const ParameterSpec> parameters) {
       "the "
       "value\n# the search starts from; fixed = VALUE takes a parameter out of the search, lower "
       "and upper\n# in its place put it back.\n";
-  for (const ParameterSpec& spec : parameters) {
-    text += fmt::format("\n# {} ({})\n[genes.{}]\n", spec.meaning, kind_text(spec),
-                        in_quotes(spec.name));
-    text += spec.searched
-                ? fmt::format("lower = {}\nupper = {}\nstandard = {}\n", number_text(spec.lower),
-                              number_text(spec.upper), number_text(spec.standard))
-                : fmt::format("fixed = {}  # lower = {}, upper = {}\n", number_text(spec.standard),
-                              number_text(spec.lower), number_text(spec.upper));
+  for (const Parameter& p : parameters) {
+    text += fmt::format("\n# {} ({})\n[genes.{}]\n", p.meaning, kind_text(p, parameters),
+                        in_quotes(p.name));
+    text += p.fixed ? fmt::format("fixed = {}  # lower = {}, upper = {}\n", number_text(*p.fixed),
+                                  number_text(p.lower), number_text(p.upper))
+                    : fmt::format("lower = {}\nupper = {}\nstandard = {}\n", number_text(p.lower),
+                                  number_text(p.upper), number_text(p.standard));
   }
   const std::string first = parameters.empty() ? "gene" : parameters.front().name;
   const std::string last = parameters.empty() ? "gene" : parameters.back().name;
@@ -331,7 +306,7 @@ std::string default_config_text(std::span<const ParameterSpec> parameters) {
   return text;
 }
 
-Config read_config(const std::filesystem::path& path, std::span<const ParameterSpec> parameters) {
+Config read_config(const std::filesystem::path& path, std::span<const Parameter> parameters) {
   const std::string file = path.string();
   std::error_code absent;
   if (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent)) {
@@ -392,18 +367,18 @@ std::vector<std::pair<std::string, std::string>> named_values(const Config& conf
     values.emplace_back(fmt::format("search.{}.{}", kOperatorsTable, kOperators[i].name),
                         number_text(config.search.operator_frequencies[i]));
   }
-  for (const GeneConfig& gene : config.genes) {
-    values.emplace_back(
-        "genes." + gene.gene.name,
-        gene.fixed ? number_text(*gene.fixed)
-                   : fmt::format("{} to {} from {}", number_text(gene.gene.lower),
-                                 number_text(gene.gene.upper), number_text(gene.standard)));
+  for (const Parameter& gene : config.genes) {
+    values.emplace_back("genes." + gene.name,
+                        gene.fixed
+                            ? number_text(*gene.fixed)
+                            : fmt::format("{} to {} from {}", number_text(gene.lower),
+                                          number_text(gene.upper), number_text(gene.standard)));
   }
   for (std::size_t i = 0; i < config.linear.size(); ++i) {
     const LinearConstraint& constraint = config.linear[i];
     std::string text;
     for (const auto& [gene, coefficient] : constraint.terms) {
-      text += fmt::format("{} {} + ", number_text(coefficient), config.genes[gene].gene.name);
+      text += fmt::format("{} {} + ", number_text(coefficient), config.genes[gene].name);
     }
     const bool equal = constraint.relation == LinearConstraint::Relation::kEqual;
     values.emplace_back(fmt::format("linear.{}", i),
@@ -415,11 +390,11 @@ std::vector<std::pair<std::string, std::string>> named_values(const Config& conf
 Problem make_problem(const Config& config, std::string_view monotone_gene) {
   Problem problem;
   Genes start;
-  for (const GeneConfig& gene : config.genes) {
-    if (gene.gene.name == monotone_gene && !gene.fixed && gene.gene.lower < gene.gene.upper) {
+  for (const Parameter& gene : config.genes) {
+    if (gene.name == monotone_gene && !gene.fixed && gene.lower < gene.upper) {
       problem.monotone_gene = problem.genes.size();
     }
-    problem.genes.push_back(gene.gene);
+    problem.genes.push_back(static_cast<const Gene&>(gene));
     if (gene.fixed) problem.genes.back().lower = problem.genes.back().upper = *gene.fixed;
     start.push_back(start_value(gene));
   }

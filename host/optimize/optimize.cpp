@@ -6,6 +6,7 @@
 
 #include "host/genocop/look_ahead_scheduler.h"
 #include "host/optimize/search_result.h"
+#include "host/parameters/registry.h"
 #include "host/worker_pool/worker_pool.h"
 #include "sw_model/base/error.h"
 
@@ -97,7 +98,7 @@ class Run {
   // an evaluation, and gains more than the last evaluations do.
   double polish_seconds() const {
     constexpr double kShare = 0.25;
-    if (!settings_.polish || settings_.decimator == "schroeder" || std::isinf(seconds_)) return 0;
+    if (!settings_.polish || !takes_bound(settings_.decimator) || std::isinf(seconds_)) return 0;
     return std::min(kShare * seconds_, surface_seconds_ + kPolishDecimations * decimation_seconds_);
   }
 
@@ -134,8 +135,9 @@ class Run {
       } else {
         CandidateInWork& work = in_work_[index];
         work.genes = std::move(candidate->genes);
-        if (walked_ && chain(work.genes).parameters.contains(problem_.genes[*walked_].name)) {
-          const Gene& gene = settings_.config.genes[*walked_].gene;
+        if (walked_ &&
+            chain(work.genes).parameters.by_name().contains(problem_.genes[*walked_].name)) {
+          const Parameter& gene = settings_.config.genes[*walked_];
           work.walk.emplace(gene.lower, gene.upper);
         }
         pool_->submit(index, trial(work));
@@ -199,14 +201,14 @@ class Run {
 
   // As the candidate behind the last one.
   void polish() {
-    const auto effort = std::ranges::find(problem_.genes, kBoundedEffort, &Gene::name);
+    const auto effort = std::ranges::find(problem_.genes, Bounded::kEffort.name, &Gene::name);
     if (effort == problem_.genes.end()) return;
     const std::uint64_t index = kPolishIndex;
     Genes deep = best_genes_;
     double& value = deep[static_cast<std::size_t>(effort - problem_.genes.begin())];
-    if (value >= kDeepEffort) return;
-    value = kDeepEffort;
-    if (!chain(deep).parameters.contains(kBoundedEffort)) return;  // it has another decimator
+    if (value >= Bounded::kDeepEffort) return;
+    value = Bounded::kDeepEffort;
+    if (!chain(deep).parameters.contains(Bounded::kEffort)) return;  // it has another decimator
     const std::size_t before = state_.best->triangles;
     const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
     std::optional<Result> result;

@@ -16,6 +16,7 @@
 #include "host/optimize/evaluation_limits.h"
 #include "host/parameters/chain_parameters.h"
 #include "host/parameters/decimation_bound.h"
+#include "host/parameters/registry.h"
 #include "host/run_log/run_log.h"
 #include "host/worker_pool/worker_pool.h"
 
@@ -24,8 +25,8 @@ namespace emax {
 // The search for the parameter set (P_R, P_D) whose mesh has the fewest triangles with
 // e_max <= epsilon (paper, sections 3 and 3.1).
 struct OptimizeSettings {
-  std::string method = "gp3";
-  std::string decimator = "bounded";
+  std::string method{Gp3::kName};
+  std::string decimator{Bounded::kName};
   // Of a two-sided bound: how far a mesh may be from the reference.
   std::optional<double> epsilon_back;
   DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings

@@ -10,7 +10,7 @@
 #include "host/geometry/bounds.h"
 #include "host/geometry/disjoint_sets.h"
 #include "host/geometry/mesh_topology.h"
-#include "host/parameters/reconstruction_parameters.h"
+#include "host/parameters/descriptions.h"
 #include "host/surface/close_holes.h"
 #include "host/surface/cracks.h"
 #include "host/surface/outward.h"
@@ -28,26 +28,25 @@ constexpr double kMany = 0.02;             // and one that calls for another,
 constexpr double kSlack = 1.5;             // beyond so many times what noise explains
 constexpr std::size_t kMeasured = 50'000;  // points whose distance is looked at
 
-constexpr const char* kLastMethod = "poisson";  // where the others have faults
+constexpr std::string_view kLastMethod = Poisson::kName;  // where the others have faults
+
+bool interpolates(const ChainSettings& chain) { return method_named(chain.method).interpolates; }
 
 ChainSettings fitted_chain(const std::string& method, const ScanEstimate& scan, double width) {
   ChainSettings chain{method, kNoDecimator,
-                      standard_values(chain_parameters(method, kNoDecimator))};
+                      ParameterValues(chain_parameters(method, kNoDecimator))};
   const double noise = scan.spacing > 0 ? scan.noise / scan.spacing : 0;
-  if (method == "imls") {
+  if (method == Imls::kName) {
     constexpr double kSmooths = 8;  // radius that averages noise away, in its standard deviations
-    const auto specs = reconstruction_parameters(method);
-    const auto bounded = [&](const char* name, double value) {
-      const auto spec = std::ranges::find(specs, name, &ParameterSpec::name);
-      chain.parameters[name] = std::clamp(value, spec->lower, spec->upper);
-    };
-    bounded("imls.least_reach", kSmooths * noise);
-    bounded("normals.k", noise > 0.2 ? 30 : 20);
+    constexpr auto kReach = Imls::kLeastReach;
+    chain.parameters.set(kReach, std::clamp(kSmooths * noise, kReach.lower, kReach.upper));
+    chain.parameters.set(Normals::kNeighbours, noise > 0.2 ? 30 : 20);
   }
-  if (method == "poisson" && scan.spacing > 0) {
+  if (method == Poisson::kName && scan.spacing > 0) {
     // Cells of one to two spacings.
     const double depth = std::ceil(std::log2(1.1 * width / (2 * scan.spacing)));
-    chain.parameters["poisson.depth"] = std::clamp(depth, 6.0, 10.0);
+    constexpr double kLeast = Poisson::kDepth.lower, kMost = Poisson::kDepth.upper;
+    chain.parameters.set(Poisson::kDepth, static_cast<int>(std::clamp(depth, kLeast, kMost)));
   }
   return chain;
 }
@@ -92,7 +91,7 @@ class Fit {
     }
     choose();
     if (settings_.method == kFitMethod && is_faulty(fit_.best())) {
-      submit(pool, kLastMethod);
+      submit(pool, std::string(kLastMethod));
       take(pool, fit_.tried.size() - 1);
       choose();
     }
@@ -105,10 +104,11 @@ class Fit {
 
  private:
   std::vector<std::string> candidates() const {
-    if (settings_.method == kAutoMethod) return {std::string(reconstruction_methods().front())};
+    if (settings_.method == kAutoMethod) return {reconstruction_methods().front().name};
     if (settings_.method != kFitMethod) return {settings_.method};
-    if (fit_.scan.noise > kClean * fit_.scan.spacing) return {"imls", kInterpolatingMethod};
-    return {kInterpolatingMethod, "imls"};
+    std::vector<std::string> both = {std::string(Gp3::kName), std::string(Imls::kName)};
+    if (fit_.scan.noise > kClean * fit_.scan.spacing) std::ranges::reverse(both);
+    return both;
   }
 
   void submit(WorkerPool& pool, const std::string& method) {
@@ -116,7 +116,7 @@ class Fit {
     tried.chain = fitted_chain(method, fit_.scan, bounds_of(cloud_).width());
     // The surface as it comes: what is done to it is to be known here.
     ChainSettings raw = tried.chain;
-    raw.parameters[kFillMethod] = static_cast<double>(FillMethod::kNone);
+    raw.parameters.set(Fill::kMethod, Fill::Method::kNone);
     pool.submit(fit_.tried.size(), raw);
     fit_.tried.push_back(std::move(tried));
   }
@@ -168,8 +168,7 @@ class Fit {
 
   bool good(const TriedSurface& tried) const {
     if (!tried.failure.empty()) return false;
-    const bool interpolates = tried.chain.method == kInterpolatingMethod;
-    if (interpolates && tried.topology.border_loops > 0) return false;
+    if (interpolates(tried.chain) && tried.topology.border_loops > 0) return false;
     return tried.cracks + tried.pieces == 0 && tried.joined <= kFew;
   }
 
@@ -185,7 +184,7 @@ class Fit {
     const double crack = kCrackSpacings * fit_.scan.spacing;
     CrackFreeSurface surface =
         crack_free_surface(std::move(std::get<ChainResult>(outcome).mesh), cloud_, epsilon_ / 2,
-                           kFill, crack, tried.chain.method == kInterpolatingMethod);
+                           kFill, crack, interpolates(tried.chain));
     if (surface.mesh.triangles.empty()) {
       tried.failure =
           "the cloud's reconstruction has no part that is a surface; take another --method";
@@ -216,7 +215,7 @@ class Fit {
     tried.joined = share_beyond(joined_beyond(tried.within_half, epsilon_));
     tried.points = cloud_.size();
     // What interpolates the points has their noise.
-    if (tried.chain.method == kInterpolatingMethod) tried.roughness = fit_.scan.noise / epsilon_;
+    if (interpolates(tried.chain)) tried.roughness = fit_.scan.noise / epsilon_;
   }
 
   std::span<const Point> cloud_;
@@ -234,9 +233,7 @@ class Fit {
 // costs more than that: it is no triangle that is one too many.
 double TriedSurface::cost() const {
   constexpr double kFault = 1000, kJoined = 2, kRough = 1, kRounded = 0.02;
-  const double own = chain.method == kInterpolatingMethod
-                         ? kRough * std::min(1.0, roughness * roughness)
-                         : kRounded;
+  const double own = interpolates(chain) ? kRough * std::min(1.0, roughness * roughness) : kRounded;
   return kFault * static_cast<double>(cracks + pieces + excess) +
          (kJoined * joined + own) * static_cast<double>(points);
 }
@@ -248,10 +245,9 @@ double joined_beyond(double within_half, double epsilon) {
 
 ParameterValues ReferenceFit::fitted_values() const {
   ParameterValues values = best().chain.parameters;
-  const ParameterValues standard =
-      standard_values(chain_parameters(best().chain.method, kNoDecimator));
-  std::erase_if(values,
-                [&](const auto& value) { return standard.at(value.first) == value.second; });
+  for (const Parameter& p : chain_parameters(best().chain.method, kNoDecimator)) {
+    if (values.by_name().at(p.name) == p.standard) values.by_name().erase(p.name);
+  }
   return values;
 }
 

@@ -8,7 +8,7 @@ namespace emax {
 DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
                                  const OptimizeSettings& settings, ReferenceFit* made) {
   DecimationBound bound;
-  if (settings.decimator == "schroeder") return bound;
+  if (!takes_bound(settings.decimator)) return bound;
   const bool two_sided = settings.epsilon_back.has_value();
   // Storing moves vertices, and with them both distances.
   const TriangleMesh box{{cloud.begin(), cloud.end()}, {}};

@@ -2,12 +2,11 @@
 #include <array>
 
 #include "host/optimize/optimize.h"
+#include "host/parameters/descriptions.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
 namespace {
-
-constexpr const char* kReduction = "schroeder.reduction";
 
 // The first start with other values where the problem has these genes, each within its domain.
 // Nothing where it has none of them.
@@ -15,21 +14,22 @@ void add_start(Problem& problem, const ParameterValues& values) {
   Genes start = problem.starts.front();
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Gene& gene = problem.genes[i];
-    const auto value = values.find(gene.name);
-    if (value != values.end()) start[i] = std::clamp(value->second, gene.lower, gene.upper);
+    const auto value = values.by_name().find(gene.name);
+    if (value != values.by_name().end())
+      start[i] = std::clamp(value->second, gene.lower, gene.upper);
   }
   if (std::ranges::count(problem.starts, start) == 0) problem.starts.push_back(std::move(start));
 }
 
 // What fits the scan goes before the standard values, but not before a person's own.
 void begin_with_fitted(Problem& problem, const OptimizeSettings& settings) {
-  if (settings.fitted.empty() || !problem.linear.empty()) return;  // which could forbid it
-  const ParameterValues standard =
-      standard_values(chain_parameters(settings.method, settings.decimator));
   ParameterValues values = settings.fitted;
-  for (const GeneConfig& gene : settings.config.genes) {
-    const auto known = standard.find(gene.gene.name);
-    if (known != standard.end() && gene.standard != known->second) values.erase(gene.gene.name);
+  // Linear constraints could forbid it.
+  if (values.by_name().empty() || !problem.linear.empty()) return;
+  for (const Parameter& own : chain_parameters(settings.method, settings.decimator)) {
+    const auto gene = std::ranges::find(settings.config.genes, own.name, &Parameter::name);
+    const bool chosen = gene != settings.config.genes.end() && gene->standard != own.standard;
+    if (chosen) values.by_name().erase(own.name);
   }
   const std::size_t before = problem.starts.size();
   add_start(problem, values);
@@ -40,11 +40,14 @@ void begin_with_fitted(Problem& problem, const OptimizeSettings& settings) {
 // decimation can come below the distance of such a point. So it also begins where few are left out.
 void add_generous_starts(Problem& problem) {
   const bool greedy = std::ranges::any_of(
-      problem.genes, [](const Gene& gene) { return gene.name == "gp3.radius"; });
+      problem.genes, [](const Gene& gene) { return gene.name == Gp3::kRadius.name; });
   // Linear constraints could forbid them.
   if (!greedy || !problem.linear.empty()) return;
   struct Generous {
-    double radius, mu, max_neighbors, surface_angle, min_angle, max_angle, normals;
+    double radius, mu;
+    int max_neighbors;
+    double surface_angle, min_angle, max_angle;
+    int normals;
   };
   constexpr std::array<Generous, 8> kGenerous = {{
       {3, 5, 200, 60, 5, 120, 40},
@@ -57,13 +60,15 @@ void add_generous_starts(Problem& problem) {
       {12, 4, 200, 130, 0, 160, 12},
   }};
   for (const Generous& g : kGenerous) {
-    add_start(problem, {{"gp3.radius", g.radius},
-                        {"gp3.mu", g.mu},
-                        {"gp3.max_neighbors", g.max_neighbors},
-                        {"gp3.surface_angle", g.surface_angle},
-                        {"gp3.min_angle", g.min_angle},
-                        {"gp3.max_angle", g.max_angle},
-                        {"normals.k", g.normals}});
+    ParameterValues values;
+    values.set(Gp3::kRadius, g.radius);
+    values.set(Gp3::kMu, g.mu);
+    values.set(Gp3::kMaxNeighbors, g.max_neighbors);
+    values.set(Gp3::kSurfaceAngle, g.surface_angle);
+    values.set(Gp3::kMinAngle, g.min_angle);
+    values.set(Gp3::kMaxAngle, g.max_angle);
+    values.set(Normals::kNeighbours, g.normals);
+    add_start(problem, values);
   }
 }
 
@@ -87,11 +92,12 @@ Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings) {
 }
 
 std::optional<std::size_t> walked_gene(const OptimizeSettings& settings) {
-  const std::vector<GeneConfig>& genes = settings.config.genes;
-  const auto gene =
-      std::ranges::find(genes, kReduction, [](const GeneConfig& g) { return g.gene.name; });
+  const Parameters& genes = settings.config.genes;
+  const auto gene = std::ranges::find_if(genes, [](const Parameter& p) {
+    return std::ranges::count(decimators(), p.name, &DecimatorDescription::monotone) > 0;
+  });
   if (!settings.config.search.monotone_walk || gene == genes.end() || gene->fixed ||
-      !(gene->gene.lower < gene->gene.upper)) {
+      !(gene->lower < gene->upper)) {
     return std::nullopt;
   }
   const auto position = static_cast<std::size_t>(gene - genes.begin());
@@ -105,9 +111,9 @@ std::optional<std::size_t> walked_gene(const OptimizeSettings& settings) {
 
 Problem search_problem(const OptimizeSettings& settings) {
   const std::optional<std::size_t> walked = walked_gene(settings);
-  // Along it triangles fall and e_max rises.
-  const bool named = settings.decimator == "schroeder" && !walked;
-  Problem problem = make_problem(settings.config, named ? kReduction : "");
+  const bool named = settings.decimator != kAutoDecimator && !walked;
+  Problem problem = make_problem(
+      settings.config, named ? decimator_named(settings.decimator).monotone : std::string_view());
   begin_with_fitted(problem, settings);
   if (!walked) return problem;
   Gene& gene = problem.genes[*walked];
@@ -120,9 +126,9 @@ Problem search_problem(const OptimizeSettings& settings) {
 
 ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
                        const Genes& genes) {
-  ParameterValues values;
+  ParameterValues::ByName values;
   for (std::size_t i = 0; i < genes.size(); ++i) values[problem.genes.at(i).name] = genes[i];
-  return chain_settings(settings.method, settings.decimator, values);
+  return chain_settings(settings.method, settings.decimator, ParameterValues(std::move(values)));
 }
 
 double violation_of(const ChainResult& made, const MeasuredError& error,

@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "host/parameters/registry.h"
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/methods.h"
+#include "host/reconstruct/reconstruction.h"
 #include "host/surface/mesh_orientation.h"
 
 namespace emax {
@@ -105,20 +106,19 @@ void remove_slivers(TriangleMesh& mesh, double flat) {
 
 }  // namespace
 
-Reconstruction GreedyProjection::run(const LocalCloud& cloud, const ParameterValues& values) const {
+Reconstruction Gp3::run(const LocalCloud& cloud, const ParameterValues& values) {
   const auto points = cloud.with_normals(values);
   if (cloud.is_regular()) break_ties(*points, cloud.spacing());
   const double radians = std::numbers::pi / 180;
   // PCL searches this many neighbours without asking how many there are.
-  const int max_neighbors =
-      std::min(static_cast<int>(values.at("gp3.max_neighbors")), static_cast<int>(cloud.size()));
+  const int max_neighbors = std::min(values.at(kMaxNeighbors), static_cast<int>(cloud.size()));
   pcl::GreedyProjectionTriangulation<pcl::PointNormal> gp3;
-  gp3.setSearchRadius(values.at("gp3.radius") * cloud.spacing());
-  gp3.setMu(values.at("gp3.mu"));
+  gp3.setSearchRadius(values.at(kRadius) * cloud.spacing());
+  gp3.setMu(values.at(kMu));
   gp3.setMaximumNearestNeighbors(max_neighbors);
-  gp3.setMaximumSurfaceAngle(values.at("gp3.surface_angle") * radians);
-  gp3.setMinimumAngle(values.at("gp3.min_angle") * radians);
-  gp3.setMaximumAngle(values.at("gp3.max_angle") * radians);
+  gp3.setMaximumSurfaceAngle(values.at(kSurfaceAngle) * radians);
+  gp3.setMinimumAngle(values.at(kMinAngle) * radians);
+  gp3.setMaximumAngle(values.at(kMaxAngle) * radians);
   gp3.setNormalConsistency(true);
   gp3.setInputCloud(points);
   gp3.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointNormal>>());

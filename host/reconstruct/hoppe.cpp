@@ -9,8 +9,9 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "host/parameters/registry.h"
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/methods.h"
+#include "host/reconstruct/reconstruction.h"
 
 namespace emax {
 namespace {
@@ -93,11 +94,10 @@ class Weld {
 
 }  // namespace
 
-Reconstruction HoppeSurface::run(const LocalCloud& cloud, const ParameterValues& values) const {
+Reconstruction Hoppe::run(const LocalCloud& cloud, const ParameterValues& values) {
   Eigen::AlignedBox3f box;
   for (const pcl::PointXYZ& p : *cloud.points()) box.extend(Eigen::Vector3f(p.getVector3fMap()));
-  CubicMarching marching(box, static_cast<int>(values.at("hoppe.resolution")),
-                         values.at("hoppe.reach"));
+  CubicMarching marching(box, values.at(kResolution), values.at(kReach));
   marching.set_spacing(cloud.spacing());
   marching.setInputCloud(cloud.with_normals(values));
   marching.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointNormal>>());

@@ -4,9 +4,10 @@
 #include <numbers>
 
 #include "host/geometry/point_tree.h"
+#include "host/parameters/registry.h"
 #include "host/reconstruct/implicit_surface.h"
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/methods.h"
+#include "host/reconstruct/reconstruction.h"
 
 namespace emax {
 namespace {
@@ -86,21 +87,21 @@ bool is_stray(const LocalCloud& cloud, const std::vector<Eigen::Vector3f>& norma
 
 }  // namespace
 
-Reconstruction ImplicitSurface::run(const LocalCloud& cloud, const ParameterValues& values) const {
+Reconstruction Imls::run(const LocalCloud& cloud, const ParameterValues& values) {
   std::vector<Eigen::Vector3f> normals = cloud.oriented_normals(values);
   const Around around = look_around(cloud);
   sharpen(normals, around);
   std::vector<double> sorted = around.spacing;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const double spacing = *middle, cell = values.at("imls.cell") * spacing;
+  const double spacing = *middle, cell = values.at(kCell) * spacing;
   std::vector<OrientedPoint> points;
   points.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (is_stray(cloud, normals, around, i, values.at("imls.least_reach") * spacing / 2)) continue;
+    if (is_stray(cloud, normals, around, i, values.at(kLeastReach) * spacing / 2)) continue;
     const double own = std::min(around.spacing[i], kSparsest * spacing);
-    const double reach = std::max({values.at("imls.reach") * own,
-                                   values.at("imls.least_reach") * spacing, kLeastCells * cell});
+    const double reach =
+        std::max({values.at(kReach) * own, values.at(kLeastReach) * spacing, kLeastCells * cell});
     const double band = std::max(kBand * reach, kLeastCells * cell);
     points.push_back({(*cloud.points())[i].getVector3fMap(), normals[i], static_cast<float>(reach),
                       static_cast<float>(band), static_cast<float>(own * own)});

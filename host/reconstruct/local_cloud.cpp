@@ -10,6 +10,7 @@
 #include <memory>
 #include <numeric>
 
+#include "host/parameters/registry.h"
 #include "host/reconstruct/orient_normals.h"
 #include "sw_model/base/error.h"
 
@@ -102,8 +103,8 @@ LocalCloud::LocalCloud(std::span<const Point> points)
 
 std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(const ParameterValues& values) const {
   const int n = static_cast<int>(size());
-  const int k = std::clamp(static_cast<int>(values.at("normals.k")), 3, n);
-  const int graph_k = std::clamp(static_cast<int>(values.at("normals.orientation_k")), 2, n);
+  const int k = std::clamp(values.at(Normals::kNeighbours), 3, n);
+  const int graph_k = std::clamp(values.at(Normals::kOrientationNeighbours), 2, n);
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(points_);
   std::vector<Eigen::Vector3f> positions(size());

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "host/parameters/parameter_spec.h"
+#include "host/parameters/parameter.h"
 #include "sw_model/base/mesh_view.h"
 #include "sw_model/model/normalization.h"
 
@@ -35,9 +35,9 @@ class LocalCloud {
   // Points of the cloud that coincide with a local point, itself included.
   std::size_t multiplicity(std::size_t local_index) const { return multiplicity_[local_index]; }
 
-  // Unit normals by principal components of the "normals.k" nearest neighbours (Hoppe's tangent
-  // planes; paper, section 2.1), made consistent by orient_normals over "normals.orientation_k" of
-  // them. O(n k + n log n).
+  // Unit normals by principal components of Normals::kNeighbours nearest neighbours (Hoppe's
+  // tangent planes; paper, section 2.1), made consistent by orient_normals over
+  // Normals::kOrientationNeighbours of them. O(n k + n log n).
   std::vector<Eigen::Vector3f> oriented_normals(const ParameterValues& values) const;
   // The same, as PCL wants them.
   pcl::PointCloud<pcl::PointNormal>::Ptr with_normals(const ParameterValues& values) const;

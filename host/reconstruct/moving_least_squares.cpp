@@ -35,20 +35,20 @@ pcl::Indices one_of_each_cell(const Cloud& cloud, double cell) {
 
 std::vector<Point> on_least_squares_surface(std::span<const Point> points,
                                             const ParameterValues& values) {
-  const auto method = static_cast<MlsMethod>(values.at("mls.method"));
-  if (method == MlsMethod::kNone) return {points.begin(), points.end()};
+  const Mls::Method method = values.at(Mls::kMethod);
+  if (method == Mls::Method::kNone) return {points.begin(), points.end()};
   const LocalCloud cloud(points);
   auto chosen = std::make_shared<pcl::Indices>(cloud.size());
   std::iota(chosen->begin(), chosen->end(), 0);
-  if (method == MlsMethod::kResample) {
-    *chosen = one_of_each_cell(*cloud.points(), values.at("mls.cell") * cloud.spacing());
+  if (method == Mls::Method::kResample) {
+    *chosen = one_of_each_cell(*cloud.points(), values.at(Mls::kCell) * cloud.spacing());
   }
   pcl::MovingLeastSquares<pcl::PointXYZ, pcl::PointXYZ> mls;
   mls.setInputCloud(cloud.points());
   mls.setIndices(chosen);
   mls.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
-  mls.setSearchRadius(values.at("mls.radius") * cloud.spacing());
-  mls.setPolynomialOrder(static_cast<int>(values.at("mls.order")));
+  mls.setSearchRadius(values.at(Mls::kRadius) * cloud.spacing());
+  mls.setPolynomialOrder(values.at(Mls::kOrder));
   mls.setNumberOfThreads(1);
   Cloud projected;
   mls.process(projected);

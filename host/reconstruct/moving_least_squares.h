@@ -3,19 +3,17 @@
 #include <span>
 #include <vector>
 
-#include "host/parameters/parameter_spec.h"
+#include "host/parameters/registry.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
 
-// The choices of "mls.method".
-enum class MlsMethod { kNone, kSmooth, kResample };
-
 // The cloud on its moving least squares surface, by PCL: every point projected onto a polynomial
-// that is fitted to its neighbours within "mls.radius", of degree "mls.order". A point of fewer
-// than three neighbours stays as it is. kResample: first one point of every cell of "mls.cell", the
-// one of least index, so that no region is denser than that; neighbours are those of the whole
-// cloud. Lengths are in multiples of the median point spacing. O(n k) for k neighbours.
+// that is fitted to its neighbours within Mls::kRadius, of degree Mls::kOrder. A point of fewer
+// than three neighbours stays as it is. Mls::Method::kResample: first one point of every cell of
+// Mls::kCell, the one of least index, so that no region is denser than that; neighbours are those
+// of the whole cloud. Lengths are in multiples of the median point spacing. O(n k) for k
+// neighbours.
 std::vector<Point> on_least_squares_surface(std::span<const Point> points,
                                             const ParameterValues& values);
 

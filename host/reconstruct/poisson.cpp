@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "host/geometry/point_tree.h"
+#include "host/parameters/registry.h"
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/methods.h"
+#include "host/reconstruct/reconstruction.h"
 
 namespace emax {
 namespace {
@@ -39,11 +40,11 @@ void trim(TriangleMesh& mesh, const LocalCloud& cloud, double spacings) {
 
 }  // namespace
 
-Reconstruction PoissonSurface::run(const LocalCloud& cloud, const ParameterValues& values) const {
+Reconstruction Poisson::run(const LocalCloud& cloud, const ParameterValues& values) {
   pcl::Poisson<pcl::PointNormal> poisson;
-  poisson.setDepth(static_cast<int>(values.at("poisson.depth")));
-  poisson.setSamplesPerNode(static_cast<float>(values.at("poisson.samples_per_node")));
-  poisson.setScale(static_cast<float>(values.at("poisson.scale")));
+  poisson.setDepth(values.at(kDepth));
+  poisson.setSamplesPerNode(static_cast<float>(values.at(kSamplesPerNode)));
+  poisson.setScale(static_cast<float>(values.at(kScale)));
   poisson.setThreads(1);
   poisson.setInputCloud(cloud.with_normals(values));
   pcl::PointCloud<pcl::PointNormal> points;
@@ -62,7 +63,7 @@ Reconstruction PoissonSurface::run(const LocalCloud& cloud, const ParameterValue
       t[corner] = static_cast<std::uint32_t>(polygon.vertices[corner]);
     }
   }
-  trim(result.mesh, cloud, values.at("poisson.trim"));
+  trim(result.mesh, cloud, values.at(kTrim));
   return result;
 }
 

@@ -3,22 +3,15 @@
 #include <pcl/console/print.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
-#include "host/parameters/reconstruction_parameters.h"
+#include "host/parameters/descriptions.h"
 #include "host/reconstruct/local_cloud.h"
-#include "host/reconstruct/methods.h"
 #include "host/surface/mesh_orientation.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
 namespace {
-
-std::string_view remedy(std::string_view method) {
-  if (method == "gp3") return "raise gp3.radius or gp3.mu";
-  if (method == "poisson") return "change poisson.depth or take another method";
-  if (method == "imls") return "raise imls.reach or lower imls.cell";
-  return "raise hoppe.reach or lower hoppe.resolution";
-}
 
 // GP3 strings triangles without area along collinear points.
 bool spans_area(const TriangleMesh& mesh) {
@@ -31,37 +24,21 @@ bool spans_area(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::span<const ParameterSpec> ReconstructionMethod::parameters() const {
-  return reconstruction_parameters(name());
-}
-
-Reconstruction ReconstructionMethod::reconstruct(std::span<const Point> points,
-                                                 const ParameterValues& values) const {
-  for (const ParameterSpec& spec : parameters()) {
-    if (!values.contains(spec.name)) throw Error("the parameter " + spec.name + " has no value");
-  }
+Reconstruction reconstruct(std::string_view method, std::span<const Point> points,
+                           const ParameterValues& values) {
+  const MethodDescription& description = method_named(method);
+  values.require(description.parameters);
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   const LocalCloud cloud(points);
-  Reconstruction result = run(cloud, values);
+  Reconstruction result =
+      std::ranges::find(method_runs(), method, &MethodRun::name)->run(cloud, values);
   drop_unused(result.mesh);
   if (!spans_area(result.mesh)) {
-    throw Error("the method " + std::string(name()) + " made no triangle with an area from " +
+    throw Error("the method " + description.name + " made no triangle with an area from " +
                 std::to_string(points.size()) + " points; are they on one line? otherwise " +
-                std::string(remedy(name())));
+                std::string(description.remedy));
   }
   return result;
-}
-
-const ReconstructionMethod& reconstruction_method(std::string_view name) {
-  static const GreedyProjection gp3;
-  static const PoissonSurface poisson;
-  static const HoppeSurface hoppe;
-  static const ImplicitSurface imls;
-  reconstruction_parameters(name);  // refuses an unknown name
-  if (name == gp3.name()) return gp3;
-  if (name == poisson.name()) return poisson;
-  if (name == imls.name()) return imls;
-  return hoppe;
 }
 
 }  // namespace emax

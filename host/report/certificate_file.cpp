@@ -125,7 +125,7 @@ std::string to_json_text(const Certificate& c) {
       {"transform", to_json(c.transform)},
       {"method", c.chain.method},
       {"decimator", c.chain.decimator},
-      {"parameters", c.chain.parameters},
+      {"parameters", c.chain.parameters.by_name()},
       {"seed", c.seed},
       {"evaluations", c.evaluations}};
   return json.dump(2) + "\n";

@@ -58,7 +58,7 @@ json to_json(const RunMessage& m) {
           {"ticket", m.ticket},
           {"method", m.settings.method},
           {"decimator", m.settings.decimator},
-          {"parameters", m.settings.parameters}};
+          {"parameters", m.settings.parameters.by_name()}};
 }
 
 json to_json(const StopMessage&) { return {{"kind", "stop"}}; }
@@ -167,9 +167,9 @@ Message from_json(const json& j) {
   const std::string kind = j.at("kind");
   if (kind == "points") return points_from_json(j);
   if (kind == "run") {
-    return RunMessage{
-        count_from(j.at("ticket")),
-        {j.at("method"), j.at("decimator"), j.at("parameters").get<ParameterValues>()}};
+    return RunMessage{count_from(j.at("ticket")),
+                      {j.at("method"), j.at("decimator"),
+                       ParameterValues(j.at("parameters").get<ParameterValues::ByName>())}};
   }
   if (kind == "stop") return StopMessage{};
   if (kind == "ready") return ReadyMessage{};

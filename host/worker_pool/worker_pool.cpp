@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "host/parameters/reconstruction_parameters.h"
+#include "host/parameters/descriptions.h"
 #include "host/worker_pool/worker_process.h"
 #include "sw_model/base/error.h"
 
@@ -36,6 +36,11 @@ struct Worker {
 
 std::string describe(const RunMessage& run) {
   return "evaluation " + std::to_string(run.ticket) + " (" + run.settings.method + ")";
+}
+
+bool is_single_use(const RunMessage& run) {
+  const MethodDescription* method = find_method(run.settings.method);
+  return method != nullptr && method->single_use;
 }
 
 std::string seconds(std::chrono::milliseconds time) {
@@ -147,7 +152,7 @@ class WorkerPool::Implementation {
   }
 
   static StageKey reconstruction_of(const RunMessage& run) {
-    const bool known = std::ranges::count(reconstruction_methods(), run.settings.method) > 0;
+    const bool known = find_method(run.settings.method) != nullptr;
     return known ? reconstruction_key(run.settings) : StageKey{run.settings.method, {}};
   }
 
@@ -219,7 +224,7 @@ class WorkerPool::Implementation {
     }
     if (auto* mesh = std::get_if<MeshMessage>(&message);
         mesh && worker.run && mesh->ticket == worker.run->ticket) {
-      if (single_use(worker.run->settings.method)) {
+      if (is_single_use(*worker.run)) {
         worker.spent = true;
         worker.made.clear();
       }
@@ -231,8 +236,8 @@ class WorkerPool::Implementation {
     }
     if (auto* failure = std::get_if<FailureMessage>(&message);
         failure && worker.run && failure->ticket == worker.run->ticket) {
-      const bool sound = failure->failure.reason == FailureReason::kError &&
-                         !single_use(worker.run->settings.method);
+      const bool sound =
+          failure->failure.reason == FailureReason::kError && !is_single_use(*worker.run);
       if (!sound) {
         give_up(worker, failure->failure);
       } else {

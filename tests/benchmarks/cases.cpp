@@ -11,8 +11,7 @@
 #include "host/files/cloud_file.h"
 #include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
-#include "host/parameters/reconstruction_parameters.h"
-#include "host/vtk_stages/vtk_stages.h"
+#include "host/parameters/registry.h"
 #include "sw_model/base/error.h"
 #include "tests/benchmarks/quadric.h"
 #include "tests/support/stimuli.h"
@@ -72,9 +71,7 @@ TriangleMesh scan(const CaseFolders& folders, const std::string& file) {
 TriangleMesh reconstructed(const CaseFolders& folders, const std::string& name,
                            std::span<const Point> cloud) {
   return cached(folders, name + "-gp3", [&] {
-    return reconstruction_method("gp3")
-        .reconstruct(cloud, standard_values(reconstruction_parameters("gp3")))
-        .mesh;
+    return reconstruct(Gp3::kName, cloud, ParameterValues(Gp3::parameters())).mesh;
   });
 }
 
@@ -118,13 +115,13 @@ std::vector<SequenceCase> sequence_cases(const CaseFolders& folders, bool quick)
                                   name, kMeshes),
                       std::move(cloud),
                       {}};
-    ParameterValues values = standard_values(decimation_parameters("schroeder"));
+    ParameterValues values(Schroeder::parameters());
     for (int i = 0; i < kMeshes; ++i) {
       const double reduction = least + 0.005 * i;
-      values["schroeder.reduction"] = reduction;
-      made.meshes.push_back(cached(
-          folders, fmt::format("{}-gp3-schroeder-{:.3f}", name, reduction),
-          [&] { return decimate_schroeder(reconstructed(folders, name, made.cloud), values); }));
+      values.set(Schroeder::kReduction, reduction);
+      made.meshes.push_back(
+          cached(folders, fmt::format("{}-gp3-schroeder-{:.3f}", name, reduction),
+                 [&] { return Schroeder::run(reconstructed(folders, name, made.cloud), values); }));
     }
     cases.push_back(std::move(made));
   };

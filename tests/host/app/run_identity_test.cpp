@@ -65,8 +65,8 @@ TEST(RunIdentity, IsAnotherWhereAResultWouldBe) {
        [](Asked& a) { a.settings.config.search.frequency_of(gaussian_mutation) = 3; }},
       {"genes.gp3.mu",
        [](Asked& a) {
-         for (GeneConfig& gene : a.settings.config.genes) {
-           if (gene.gene.name == "gp3.mu") gene.fixed = 3;
+         for (Parameter& gene : a.settings.config.genes) {
+           if (gene.name == Gp3::kMu.name) gene.fixed = 3;
          }
        }},
       {"linear.0",
@@ -93,7 +93,7 @@ TEST(RunIdentity, IsTheSameWhereResultsAre) {
       {"time", [](Asked& a) { a.settings.seconds_left = [] { return 1.0; }; }},
       {"polish", [](Asked& a) { a.settings.polish = false; }},
       {"limits", [](Asked& a) { a.settings.limits = standard_limits(1'000'000); }},
-      {"fitted values", [](Asked& a) { a.settings.fitted["gp3.mu"] = 3; }},
+      {"fitted values", [](Asked& a) { a.settings.fitted.set(Gp3::kMu, 3); }},
   };
   for (const auto& [name, change] : changes) {
     EXPECT_EQ(changed_by(change), std::set<std::string>{}) << name;

@@ -8,7 +8,7 @@
 #include "host/decimate/far_points.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
-#include "host/parameters/reconstruction_parameters.h"
+#include "host/parameters/descriptions.h"
 #include "host/surface/manifold_part.h"
 #include "sw_model/base/error.h"
 #include "sw_model/certify/certificate.h"
@@ -20,25 +20,24 @@ namespace emax::test {
 namespace {
 
 ChainSettings settings(const std::string& method) {
-  ChainSettings result{method, "schroeder", standard_values(chain_parameters(method, "schroeder"))};
-  if (method == "hoppe") result.parameters["hoppe.resolution"] = 32;
+  ChainSettings result{method, "schroeder", ParameterValues(chain_parameters(method, "schroeder"))};
+  if (method == "hoppe") result.parameters.set(Hoppe::kResolution, 32);
   return result;
 }
 
 TEST(ChainParameters, JoinTheStagesWithStandardsInTheirDomains) {
-  for (const std::string_view method : reconstruction_methods()) {
-    for (const std::string_view decimator : decimators()) {
-      const auto chain = chain_parameters(method, decimator);
+  for (const MethodDescription& method : reconstruction_methods()) {
+    for (const DecimatorDescription& decimator : decimators()) {
+      const auto chain = chain_parameters(method.name, decimator.name);
       std::set<std::string> names;
-      for (const ParameterSpec& spec : chain) {
+      for (const Parameter& spec : chain) {
         EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
         EXPECT_LT(spec.lower, spec.upper) << spec.name;
         EXPECT_LE(spec.lower, spec.standard) << spec.name;
         EXPECT_LE(spec.standard, spec.upper) << spec.name;
         EXPECT_FALSE(spec.meaning.empty()) << spec.name;
       }
-      EXPECT_EQ(chain.size(), reconstruction_parameters(method).size() + 1 +
-                                  decimation_parameters(decimator).size());
+      EXPECT_EQ(chain.size(), method.parameters.size() + 1 + decimator.parameters.size());
       EXPECT_TRUE(names.contains("fill.size"));
     }
   }
@@ -57,8 +56,8 @@ TEST(RunChain, MakesASmallerMesh) {
 }
 
 ChainSettings bounded(double mu = 2.3) {
-  ChainSettings result{"gp3", "bounded", standard_values(chain_parameters("gp3", "bounded"))};
-  result.parameters["gp3.mu"] = mu;
+  ChainSettings result{"gp3", "bounded", ParameterValues(chain_parameters("gp3", "bounded"))};
+  result.parameters.set(Gp3::kMu, mu);
   return result;
 }
 
@@ -75,7 +74,7 @@ TEST(RunChain, BoundedDecimationIsHeldToTheReference) {
   EXPECT_TRUE(check_mesh(bound.reference.view()).valid());
   EXPECT_TRUE(certify(cloud, bound.reference.view()).within(0.025));
   ChainSettings candidate = bounded(3);
-  candidate.parameters["bounded.flatness"] = 0.01;
+  candidate.parameters.set(Bounded::kFlatness, 0.01);
   const ChainResult result = Chain(cloud, bound).run(candidate);
   EXPECT_LT(result.mesh.triangles.size(), result.reconstruction_triangles / 4);
   EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
@@ -182,8 +181,8 @@ TEST(BoundedStage, DropsPiecesThatNoPointNeeds) {
   const BoundedStage stage(surface.vertices, bound);
   const TriangleMesh start = stage.without_needless(surface);
   EXPECT_EQ(components(start), 3u);
-  const TriangleMesh mesh =
-      stage.decimate(start, standard_values(decimation_parameters("bounded"))).mesh;
+  const ParameterValues standards(Bounded::parameters());
+  const TriangleMesh mesh = Bounded::run(start, standards, stage, nullptr).mesh;
   EXPECT_EQ(components(mesh), 2u);
   EXPECT_LE(certify(surface.vertices, mesh.view()).e_max_upper, bound.epsilon);
 }
@@ -215,28 +214,29 @@ TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
 // Every candidate of auto is one of a method, with the values that mean something there.
 TEST(ChainParameters, AutoHoldsEveryMethod) {
   const auto all = chain_parameters("auto", "bounded");
-  const ParameterValues standards = standard_values(all);
+  const ParameterValues standards(all);
   std::set<std::string> names;
-  for (const ParameterSpec& spec : all) EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+  for (const Parameter& spec : all) EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
   for (std::size_t m = 0; m < reconstruction_methods().size(); ++m) {
-    const std::string method(reconstruction_methods()[m]);
+    const std::string method = reconstruction_methods()[m].name;
     ParameterValues values = standards;
-    values["method"] = static_cast<double>(m);
+    values.by_name()["method"] = static_cast<double>(m);
     ChainSettings candidate = chain_settings("auto", "bounded", values);
     EXPECT_EQ(candidate.method, method);
-    for (const ParameterSpec& spec : chain_parameters(method, "bounded")) {
+    for (const Parameter& spec : chain_parameters(method, "bounded")) {
       EXPECT_TRUE(names.contains(spec.name)) << spec.name;
-      EXPECT_TRUE(candidate.parameters.erase(spec.name)) << spec.name;
+      EXPECT_TRUE(candidate.parameters.by_name().erase(spec.name)) << spec.name;
     }
-    EXPECT_EQ(candidate.parameters, (ParameterValues{{"mls.method", 0}, {"fill.method", 1}}));
+    EXPECT_EQ(candidate.parameters.by_name(),
+              (ParameterValues::ByName{{"mls.method", 0}, {"fill.method", 1}}));
   }
   ParameterValues unfilled = standards;
-  unfilled["fill.method"] = 0;
-  unfilled["mls.method"] = 1;
+  unfilled.set(Fill::kMethod, Fill::Method::kNone);
+  unfilled.set(Mls::kMethod, Mls::Method::kSmooth);
   const ChainSettings candidate = chain_settings("auto", "bounded", unfilled);
-  EXPECT_FALSE(candidate.parameters.contains("fill.size"));
-  EXPECT_FALSE(candidate.parameters.contains("mls.cell"));
-  EXPECT_TRUE(candidate.parameters.contains("mls.radius"));
+  EXPECT_FALSE(candidate.parameters.contains(Fill::kSize));
+  EXPECT_FALSE(candidate.parameters.contains(Mls::kCell));
+  EXPECT_TRUE(candidate.parameters.contains(Mls::kRadius));
   EXPECT_EQ(chain_settings("gp3", "bounded", standards).parameters, standards);
 }
 
@@ -244,15 +244,15 @@ TEST(ChainParameters, AutoHoldsEveryMethod) {
 TEST(ChainParameters, AutoHoldsBothDecimators) {
   for (const std::string method : {"gp3", "auto"}) {
     const auto all = chain_parameters(method, "auto");
-    ParameterValues values = standard_values(all);
-    EXPECT_EQ(values.size(), all.size());
+    ParameterValues values(all);
+    EXPECT_EQ(values.by_name().size(), all.size());
     for (std::size_t d = 0; d < decimators().size(); ++d) {
-      const std::string decimator(decimators()[d]);
-      values["decimator"] = static_cast<double>(d);
+      const std::string decimator = decimators()[d].name;
+      values.by_name()["decimator"] = static_cast<double>(d);
       const ChainSettings candidate = chain_settings(method, "auto", values);
       EXPECT_EQ(candidate.method, "gp3");
       EXPECT_EQ(candidate.decimator, decimator);
-      const ParameterValues plain = standard_values(chain_parameters(method, decimator));
+      const ParameterValues plain(chain_parameters(method, decimator));
       EXPECT_EQ(candidate.parameters, chain_settings(method, decimator, plain).parameters);
     }
   }
@@ -260,15 +260,15 @@ TEST(ChainParameters, AutoHoldsBothDecimators) {
 
 TEST(RunChain, AutoRunsTheMethodsThemselves) {
   const std::vector<Point> cloud = torus_cloud(40, 16);
-  ParameterValues values = standard_values(chain_parameters("auto", "schroeder"));
-  values["hoppe.resolution"] = 32;
+  ParameterValues values(chain_parameters("auto", "schroeder"));
+  values.set(Hoppe::kResolution, 32);
   Chain chain(cloud);
   for (const double m : {0.0, 2.0}) {
-    values["method"] = m;
+    values.by_name()["method"] = m;
     const ChainSettings candidate = chain_settings("auto", "schroeder", values);
     ChainSettings plain{candidate.method, "schroeder", {}};
-    for (const ParameterSpec& spec : chain_parameters(plain.method, "schroeder")) {
-      plain.parameters[spec.name] = values.at(spec.name);
+    for (const Parameter& spec : chain_parameters(plain.method, "schroeder")) {
+      plain.parameters.by_name()[spec.name] = values.by_name().at(spec.name);
     }
     EXPECT_TRUE(same_bytes(chain.run(candidate).mesh, Chain(cloud).run(plain).mesh)) << m;
   }
@@ -279,17 +279,20 @@ TEST(RunChain, TellsTheWaysToFillAndSmoothApart) {
   std::vector<Point> cloud = torus_cloud(40, 16);
   std::erase_if(cloud, [](const Point& p) { return (p - Point(1.4, 0, 0)).norm() < 0.5; });
   Chain chain(cloud);
-  ParameterValues values = standard_values(chain_parameters("auto", kNoDecimator));
-  values["fill.size"] = 0.5;
+  ParameterValues values(chain_parameters("auto", kNoDecimator));
+  values.set(Fill::kSize, 0.5);
   const auto run = [&] { return chain.run(chain_settings("auto", kNoDecimator, values)).mesh; };
   std::vector<TriangleMesh> meshes;
-  for (const double fill : {0.0, 1.0, 2.0}) {
-    for (const double mls : {0.0, 1.0, 2.0}) {
-      values["fill.method"] = fill;
-      values["mls.method"] = mls;
-      values["mls.cell"] = 1.5;
+  for (const Fill::Method fill :
+       {Fill::Method::kNone, Fill::Method::kFlat, Fill::Method::kSmooth}) {
+    for (const Mls::Method mls :
+         {Mls::Method::kNone, Mls::Method::kSmooth, Mls::Method::kResample}) {
+      values.set(Fill::kMethod, fill);
+      values.set(Mls::kMethod, mls);
+      values.set(Mls::kCell, 1.5);
       meshes.push_back(run());
-      EXPECT_EQ(check_mesh(meshes.back().view()).boundary_edges > 0, fill == 0) << fill << mls;
+      EXPECT_EQ(check_mesh(meshes.back().view()).boundary_edges > 0, fill == Fill::Method::kNone)
+          << static_cast<int>(fill) << static_cast<int>(mls);
     }
   }
   for (std::size_t a = 0; a < meshes.size(); ++a) {
@@ -298,7 +301,7 @@ TEST(RunChain, TellsTheWaysToFillAndSmoothApart) {
   }
   EXPECT_EQ(chain.reconstructions(), 3u);
   EXPECT_EQ(chain.clouds(), 2u);
-  values.erase("mls.cell");
+  values.by_name().erase("mls.cell");
   EXPECT_THROW(run(), Error);
 }
 
@@ -312,11 +315,12 @@ TEST(RunChain, TakesNoNoticeOfTheCaches) {
   SCOPED_TRACE("seed 9");
   for (int i = 0; i < 8; ++i) {
     ChainSettings candidate = i % 2 == 0 ? settings("gp3") : bounded();
-    candidate.parameters["gp3.mu"] = 2 + 0.5 * random.below(3);
-    candidate.parameters["fill.size"] = 0.1 * random.below(2);
-    candidate.parameters.insert(
-        {{"mls.method", i < 4 ? 0 : 1}, {"mls.radius", 2}, {"mls.order", 2}});
-    if (i % 2 == 0) candidate.parameters["schroeder.reduction"] = random.uniform(0.2, 0.9);
+    candidate.parameters.set(Gp3::kMu, 2 + 0.5 * random.below(3));
+    candidate.parameters.set(Fill::kSize, 0.1 * random.below(2));
+    candidate.parameters.set(Mls::kMethod, i < 4 ? Mls::Method::kNone : Mls::Method::kSmooth);
+    candidate.parameters.set(Mls::kRadius, 2);
+    candidate.parameters.set(Mls::kOrder, 2);
+    if (i % 2 == 0) candidate.parameters.set(Schroeder::kReduction, random.uniform(0.2, 0.9));
     reconstructions.insert(reconstruction_key(candidate));
     const ChainResult expected = Chain(cloud, bound).run(candidate);
     for (Chain* chain : {&shared, &forgetful}) {
@@ -338,23 +342,25 @@ TEST(RunChain, RepeatsNoStageForALaterStagesGene) {
   Chain chain(torus_cloud(30, 12), {0.1, 0, {}, {}});
   ChainSettings candidate = bounded();
   EXPECT_GT(chain.run(candidate).seconds.reconstruct, 0);
-  candidate.parameters["bounded.flatness"] = 0.01;
+  candidate.parameters.set(Bounded::kFlatness, 0.01);
   const ChainResult again = chain.run(candidate);
   EXPECT_EQ(again.seconds.reconstruct, 0);
   EXPECT_EQ(again.seconds.prepare, 0);
   EXPECT_EQ(chain.surfaces(), 1u);
-  candidate.parameters["fill.size"] = 0.01;
+  candidate.parameters.set(Fill::kSize, 0.01);
   chain.run(candidate);
   EXPECT_EQ(chain.surfaces(), 2u);
   EXPECT_EQ(chain.reconstructions(), 1u);
-  candidate.parameters["gp3.mu"] = 3;
+  candidate.parameters.set(Gp3::kMu, 3);
   chain.run(candidate);
   EXPECT_EQ(chain.reconstructions(), 2u);
   EXPECT_EQ(chain.clouds(), 0u);
   ChainSettings smoothed = settings("gp3");
-  smoothed.parameters.insert({{"mls.method", 1}, {"mls.radius", 4}, {"mls.order", 2}});
+  smoothed.parameters.set(Mls::kMethod, Mls::Method::kSmooth);
+  smoothed.parameters.set(Mls::kRadius, 4);
+  smoothed.parameters.set(Mls::kOrder, 2);
   for (const double mu : {3.0, 4.0}) {
-    smoothed.parameters["gp3.mu"] = mu;
+    smoothed.parameters.set(Gp3::kMu, mu);
     chain.run(smoothed);
   }
   EXPECT_EQ(chain.reconstructions(), 4u);
@@ -388,9 +394,9 @@ TEST(StageCache, KeepsTheLastUsedWithinItsBytes) {
 }
 
 TEST(RunChain, NamesAMissingParameter) {
-  for (const ParameterSpec& spec : chain_parameters("gp3", "schroeder")) {
+  for (const Parameter& spec : chain_parameters("gp3", "schroeder")) {
     ChainSettings lacking = settings("gp3");
-    lacking.parameters.erase(spec.name);
+    lacking.parameters.by_name().erase(spec.name);
     try {
       Chain(torus_cloud(20, 12)).run(lacking);
       ADD_FAILURE() << "no error without " << spec.name;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -12,17 +13,18 @@
 namespace emax {
 namespace {
 
-const std::vector<ParameterSpec>& parameters() {
-  using Kind = ParameterSpec::Kind;
-  static const std::vector<ParameterSpec> specs = {
-      {"normals.k", Kind::kInteger, 6, 40, 20, "neighbours of a normal"},
-      {"gp3.mu", Kind::kContinuous, 2, 6, 2.7, "search radius in nearest distances"},
-      {"gp3.min_angle", Kind::kContinuous, 0, 10, 5, "least angle in degrees"},
-      {"gp3.max_angle", Kind::kContinuous, 120, 175, 150, "greatest angle in degrees"},
-      {"decimate.reduction", Kind::kContinuous, 0, 0.98, 0.1, "share of triangles removed"},
-      {"decimate.effort", Kind::kInteger, 0, 3, 2, "how much", {}, std::nullopt, false},
-  };
-  return specs;
+using Real = ParameterKey<double>;
+using Whole = ParameterKey<int>;
+
+const Parameters& parameters() {
+  static const Parameters all =
+      parameters_of(Whole{"normals.k", 6, 40, 20, "neighbours of a normal"},
+                    Real{"gp3.mu", 2, 6, 2.7, "search radius in nearest distances"},
+                    Real{"gp3.min_angle", 0, 10, 5, "least angle in degrees"},
+                    Real{"gp3.max_angle", 120, 175, 150, "greatest angle in degrees"},
+                    Real{"decimate.reduction", 0, 0.98, 0.1, "share of triangles removed"},
+                    Whole{"decimate.effort", 0, 3, 2, "how much", {}, false});
+  return all;
 }
 
 class ConfigTest : public testing::Test {
@@ -60,7 +62,7 @@ TEST_F(ConfigTest, DefaultTextReadsBackExactly) {
   for (const SettingInfo& info : setting_infos()) {
     EXPECT_NE(text.find('\n' + std::string(info.name) + " = "), std::string::npos) << info.name;
   }
-  for (const ParameterSpec& spec : parameters()) {
+  for (const Parameter& spec : parameters()) {
     EXPECT_NE(text.find(spec.meaning), std::string::npos) << spec.name;
   }
   EXPECT_FALSE(read("[search]\nbudget = 151") == default_config(parameters()));
@@ -124,8 +126,8 @@ terms = { "gp3.mu" = 1, "decimate.reduction" = 10 }
 equals = 4
 )");
   EXPECT_EQ(config.genes[0].fixed, 12);
-  EXPECT_EQ(config.genes[1].gene.lower, 3);
-  EXPECT_EQ(config.genes[1].gene.upper, 4.5);
+  EXPECT_EQ(config.genes[1].lower, 3);
+  EXPECT_EQ(config.genes[1].upper, 4.5);
   EXPECT_EQ(config.genes[1].standard, 3);  // moved into the narrowed domain
   using Relation = LinearConstraint::Relation;
   ASSERT_EQ(config.linear.size(), 2u);
@@ -203,27 +205,18 @@ TEST_F(ConfigTest, RefusesWhatCannotBeRead) {
 
 // Methods as categories, each with parameters of its own.
 TEST(Config, CategoriesBecomeGenesWithTheirStarts) {
-  using Kind = ParameterSpec::Kind;
-  const std::vector<ParameterSpec> specs = {
-      {"method", Kind::kCategorical, 0, 2, 1, "how", {"gp3", "poisson", "hoppe"}},
-      {"mu",
-       Kind::kContinuous,
-       2,
-       6,
-       3,
-       "search radius",
-       {},
-       ParameterSpec::Condition{"method", 0}},
-      {"fill", Kind::kCategorical, 0, 1, 0, "holes", {"none", "all"}},
-      {"size",
-       Kind::kContinuous,
-       0,
-       1,
-       0.5,
-       "of holes",
-       {},
-       ParameterSpec::Condition{"fill", 0, true}},
-  };
+  enum class Method { kGp3, kPoisson, kHoppe };
+  enum class Holes { kNone, kAll };
+  constexpr std::array<std::string_view, 3> kMethods = {"gp3", "poisson", "hoppe"};
+  constexpr std::array<std::string_view, 2> kHoles = {"none", "all"};
+  Parameters specs = parameters_of(
+      ParameterKey<Method>{"method", Method::kGp3, Method::kHoppe, Method::kPoisson, "how",
+                           kMethods},
+      Real{"mu", 2, 6, 3, "search radius"},
+      ParameterKey<Holes>{"fill", Holes::kNone, Holes::kAll, Holes::kNone, "holes", kHoles},
+      Real{"size", 0, 1, 0.5, "of holes"});
+  specs[1].only_with = {0, 0};
+  specs[3].only_with = {2, 0, true};
   const std::string text = default_config_text(specs);
   EXPECT_NE(text.find("0: gp3, 1: poisson, 2: hoppe"), std::string::npos) << text;
   EXPECT_NE(text.find("only with method = 0"), std::string::npos) << text;

@@ -21,18 +21,18 @@ const RunSettings kSettings = {{"of", "the test"}};
 
 // A gene of which the values up to 4 make workers fail, each in its own way
 // (tests/host/worker/test_methods.h).
-GeneConfig fault_gene() {
+Parameter fault_gene() {
 #ifndef __SANITIZE_ADDRESS__
-  constexpr double kFirst = 0;
+  constexpr int kFirst = 0;
 #else
-  constexpr double kFirst = 4;  // the sanitizer takes more memory than any limit
+  constexpr int kFirst = 4;  // the sanitizer takes more memory than any limit
 #endif
-  return {{"test.fault", Gene::Kind::kInteger, kFirst, 7}, 7, {}};
+  return ParameterKey<int>{"test.fault", kFirst, 7, 7, "the way to fail"}.parameter();
 }
 
 // With this seed the first candidates, which depend on no result, meet every fault once.
 std::uint64_t seed_of_every_fault(const Config& config) {
-  const auto first = static_cast<std::ptrdiff_t>(std::max(1.0, config.genes.back().gene.lower));
+  const auto first = static_cast<std::ptrdiff_t>(std::max(1.0, config.genes.back().lower));
   for (std::uint64_t seed = 1;; ++seed) {
     Genocop search(make_problem(config, "schroeder.reduction"), config.search, seed);
     std::vector<int> count(8);
@@ -287,14 +287,14 @@ TEST_F(OptimizeTest, AnEvaluationWalksTheReduction) {
   ASSERT_TRUE(state.best);
   EXPECT_GT(measured_, 1u);
   EXPECT_EQ(log.evaluations().size(), 1u);
-  const double walked = state.best->chain.parameters.at("schroeder.reduction");
+  const double walked = state.best->chain.parameters.at(Schroeder::kReduction);
   EXPECT_EQ(log.find(0)->walked, walked);
   Chain chain(cloud_);
   ChainSettings candidate = state.best->chain;
   EXPECT_TRUE(same_bytes(as_stored(chain.run(candidate).mesh, Storage::kExact), state.best->mesh));
   std::size_t fewest = state.best->triangles;
   for (int i = 0; i < 100; ++i) {
-    candidate.parameters["schroeder.reduction"] = 0.98 * i / 100;
+    candidate.parameters.set(Schroeder::kReduction, 0.98 * i / 100);
     const TriangleMesh mesh = chain.run(candidate).mesh;
     if (constraint_.measure(mesh.view()).feasible) fewest = std::min(fewest, mesh.triangles.size());
   }
@@ -316,7 +316,7 @@ TEST_F(OptimizeTest, AFloorThatBreaksTheBoundIsToldAtOnce) {
   EXPECT_FALSE(state.best);
   ASSERT_TRUE(state.least_error);
   EXPECT_EQ(meshes, 4u);
-  EXPECT_EQ(state.least_error->chain.parameters.at("schroeder.reduction"), 0);
+  EXPECT_EQ(state.least_error->chain.parameters.at(Schroeder::kReduction), 0);
 }
 
 TEST_F(OptimizeTest, WalksAreTheSameForAnyJobsAndGoOnFromTheLog) {
@@ -384,10 +384,9 @@ TEST_F(DeepOptimizeTest, TheDecimatorMayBeAGene) {
   }
   EXPECT_EQ(decimators.size(), 2u);
   EXPECT_EQ(state.best->chain.decimator, "bounded");
-  EXPECT_EQ(state.best->chain.parameters.at(kBoundedEffort), kDeepEffort);
+  EXPECT_EQ(state.best->chain.parameters.at(Bounded::kEffort), Bounded::kDeepEffort);
 
-  const auto gene = std::ranges::find(settings_.config.genes, "decimator",
-                                      [](const GeneConfig& g) { return g.gene.name; });
+  const auto gene = std::ranges::find(settings_.config.genes, "decimator", &Parameter::name);
   gene->fixed = 1;
   const OptimizeState paper = run();
   ASSERT_TRUE(paper.best);
@@ -405,7 +404,8 @@ TEST_F(DeepOptimizeTest, TheBestIsDecimatedDeepInTheEnd) {
   ASSERT_TRUE(plain.best);
   EXPECT_FALSE(plain.polished);
   ChainSettings deep = plain.best->chain;
-  EXPECT_EQ(std::exchange(deep.parameters.at(kBoundedEffort), kDeepEffort), 2);
+  EXPECT_EQ(deep.parameters.at(Bounded::kEffort), 2);
+  deep.parameters.set(Bounded::kEffort, Bounded::kDeepEffort);
   const TriangleMesh twin = Chain(cloud_, settings_.bound, 1 << 20).run(deep).mesh;
   ASSERT_LT(twin.triangles.size(), plain.best->triangles);
 

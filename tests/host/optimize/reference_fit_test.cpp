@@ -101,16 +101,16 @@ TEST(ReferenceFit, ASearchBeginsWithTheValuesThatFitTheScan) {
   const ScanOfShape scan = scan_of_shape({.shape = "torus", .noise = kEpsilon / 2});
   OptimizeSettings settings = settings_for("imls");
   settings.fitted = fit_reference(scan.points, kEpsilon, settings).fitted_values();
-  ASSERT_GT(settings.fitted.at("imls.least_reach"), 0);
+  ASSERT_GT(settings.fitted.at(Imls::kLeastReach), 0);
   settings.config = default_config(chain_parameters("imls", "bounded"));
   const auto first_reach = [&] {
     const Problem problem = search_problem(settings);
-    return chain_of(settings, problem, problem.starts.front()).parameters.at("imls.least_reach");
+    return chain_of(settings, problem, problem.starts.front()).parameters.at(Imls::kLeastReach);
   };
-  EXPECT_EQ(first_reach(), settings.fitted.at("imls.least_reach"));
+  EXPECT_EQ(first_reach(), settings.fitted.at(Imls::kLeastReach));
   // A person's own stays.
-  const auto gene = std::ranges::find(settings.config.genes, "imls.least_reach",
-                                      [](const GeneConfig& g) { return g.gene.name; });
+  const auto gene =
+      std::ranges::find(settings.config.genes, Imls::kLeastReach.name, &Parameter::name);
   gene->standard = 1.25;
   EXPECT_EQ(first_reach(), 1.25);
 }
@@ -140,7 +140,7 @@ TEST(ReferenceFit, IsTheSameForAnyNumberOfJobs) {
 TEST(ReferenceFit, CountsAgainstASurfaceWhatIsWrongWithIt) {
   TriedSurface good, cracked, bordered, rough, far;
   for (TriedSurface* tried : {&good, &cracked, &bordered, &rough, &far}) {
-    tried->chain.method = kInterpolatingMethod;
+    tried->chain.method = Gp3::kName;
   }
   good.points = cracked.points = bordered.points = rough.points = far.points = 1000;
   bordered.excess = 1;

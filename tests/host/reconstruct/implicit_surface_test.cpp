@@ -3,7 +3,7 @@
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/scan_estimate.h"
-#include "host/parameters/reconstruction_parameters.h"
+#include "host/parameters/descriptions.h"
 #include "host/reconstruct/reconstruction.h"
 #include "sw_model/certify/exact_distance.h"
 #include "tests/host/support/scanned_shapes.h"
@@ -13,12 +13,9 @@ namespace emax::test {
 namespace {
 
 TriangleMesh implicit(const std::vector<Point>& points, double least_reach = 0) {
-  ParameterValues values;
-  for (const ParameterSpec& spec : reconstruction_parameters("imls")) {
-    values[spec.name] = spec.standard;
-  }
-  values["imls.least_reach"] = least_reach;
-  return reconstruction_method("imls").reconstruct(points, values).mesh;
+  ParameterValues values(Imls::parameters());
+  values.set(Imls::kLeastReach, least_reach);
+  return reconstruct(Imls::kName, points, values).mesh;
 }
 
 // As it is contoured, without a repair.
@@ -47,12 +44,9 @@ TEST(ImplicitSurface, IsTheScannedOneWithItsHolesAndBorders) {
 // Poisson's own surface is closed.
 TEST(TrimmedPoisson, EndsWhereTheScanEnds) {
   const ScanOfShape scan = scan_of_shape({.shape = "sheet", .noise = 0.1});
-  ParameterValues values;
-  for (const ParameterSpec& spec : reconstruction_parameters("poisson")) {
-    values[spec.name] = spec.standard;
-  }
-  values["poisson.depth"] = 6;
-  const TriangleMesh mesh = reconstruction_method("poisson").reconstruct(scan.points, values).mesh;
+  ParameterValues values(Poisson::parameters());
+  values.set(Poisson::kDepth, 6);
+  const TriangleMesh mesh = reconstruct(Poisson::kName, scan.points, values).mesh;
   const ExactMesh truth(scan.surface.view());
   for (const Point& p : mesh.vertices) EXPECT_LT(truth.distance(p).upper, 6);
 }

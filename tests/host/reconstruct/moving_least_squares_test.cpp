@@ -12,11 +12,13 @@ namespace {
 
 constexpr std::uint64_t kSeed = 41;
 
-ParameterValues values(MlsMethod method) {
-  return {{"mls.method", static_cast<double>(method)},
-          {"mls.radius", 6},
-          {"mls.order", 2},
-          {"mls.cell", 2}};
+ParameterValues values(Mls::Method method) {
+  ParameterValues values;
+  values.set(Mls::kMethod, method);
+  values.set(Mls::kRadius, 6);
+  values.set(Mls::kOrder, 2);
+  values.set(Mls::kCell, 2);
+  return values;
 }
 
 std::vector<Point> noisy_sphere(double noise) {
@@ -34,17 +36,17 @@ double root_mean_square_error(const std::vector<Point>& points) {
 
 TEST(MovingLeastSquares, NoneLeavesEveryBit) {
   const std::vector<Point> cloud = noisy_sphere(0.01);
-  EXPECT_EQ(on_least_squares_surface(cloud, values(MlsMethod::kNone)), cloud);
+  EXPECT_EQ(on_least_squares_surface(cloud, values(Mls::Method::kNone)), cloud);
 }
 
 TEST(MovingLeastSquares, SmoothingTakesMostOfTheNoise) {
   const std::vector<Point> cloud = noisy_sphere(0.01);
-  const std::vector<Point> smooth = on_least_squares_surface(cloud, values(MlsMethod::kSmooth));
+  const std::vector<Point> smooth = on_least_squares_surface(cloud, values(Mls::Method::kSmooth));
   ASSERT_EQ(smooth.size(), cloud.size());
   EXPECT_LT(root_mean_square_error(smooth), 0.3 * root_mean_square_error(cloud));
   for (std::size_t i = 0; i < cloud.size(); ++i)
     EXPECT_LT((smooth[i] - cloud[i]).norm(), 0.05) << i;
-  EXPECT_EQ(on_least_squares_surface(cloud, values(MlsMethod::kSmooth)), smooth);
+  EXPECT_EQ(on_least_squares_surface(cloud, values(Mls::Method::kSmooth)), smooth);
 }
 
 TEST(MovingLeastSquares, ResamplingEvensTheDensity) {
@@ -55,8 +57,8 @@ TEST(MovingLeastSquares, ResamplingEvensTheDensity) {
     const double r = std::sqrt(1 - z * z);
     cloud.push_back({r * std::cos(turn), r * std::sin(turn), z});
   }
-  ParameterValues coarse = values(MlsMethod::kResample);
-  coarse["mls.cell"] = 4;
+  ParameterValues coarse = values(Mls::Method::kResample);
+  coarse.set(Mls::kCell, 4);
   const std::vector<Point> even = on_least_squares_surface(cloud, coarse);
   EXPECT_LT(even.size(), cloud.size() / 2);
   const auto share_of_north = [](const std::vector<Point>& points) {
@@ -72,7 +74,7 @@ TEST(MovingLeastSquares, APointOnItsOwnStays) {
   std::vector<Point> cloud = noisy_sphere(0.01);
   const Point alone(5, 5, 5);
   cloud.insert(cloud.begin() + 100, alone);
-  const std::vector<Point> smooth = on_least_squares_surface(cloud, values(MlsMethod::kSmooth));
+  const std::vector<Point> smooth = on_least_squares_surface(cloud, values(Mls::Method::kSmooth));
   ASSERT_EQ(smooth.size(), cloud.size());
   EXPECT_EQ(smooth[100], alone);
 }

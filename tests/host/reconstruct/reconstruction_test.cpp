@@ -6,7 +6,7 @@
 #include <set>
 
 #include "host/geometry/mesh_validity.h"
-#include "host/parameters/reconstruction_parameters.h"
+#include "host/parameters/descriptions.h"
 #include "sw_model/base/error.h"
 #include "tests/host/support/surface_clouds.h"
 
@@ -14,17 +14,14 @@ namespace emax::test {
 namespace {
 
 ParameterValues standards(std::string_view method) {
-  ParameterValues values;
-  for (const ParameterSpec& spec : reconstruction_parameters(method)) {
-    values[spec.name] = spec.standard;
-  }
-  if (method == "hoppe") values["hoppe.resolution"] = 32;
-  if (method == "poisson") values["poisson.depth"] = 6;
+  ParameterValues values(method_named(method).parameters);
+  if (method == "hoppe") values.set(Hoppe::kResolution, 32);
+  if (method == "poisson") values.set(Poisson::kDepth, 6);
   return values;
 }
 
 Reconstruction reconstruct(std::string_view method, const std::vector<Point>& points) {
-  return reconstruction_method(method).reconstruct(points, standards(method));
+  return emax::reconstruct(method, points, standards(method));
 }
 
 // Greatest distance of a vertex from the sphere of radius 1 around `centre`.
@@ -56,18 +53,19 @@ std::string message_of(std::string_view method, const std::vector<Point>& points
 }
 
 TEST(ReconstructionParameters, HaveStandardsInTheirDomainsAndNamesOfTheirOwn) {
-  for (const std::string_view method : reconstruction_methods()) {
+  for (const MethodDescription& method : reconstruction_methods()) {
     std::set<std::string> names;
-    for (const ParameterSpec& spec : reconstruction_parameters(method)) {
+    for (const Parameter& spec : method.parameters) {
       EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
       EXPECT_LT(spec.lower, spec.upper) << spec.name;
       EXPECT_LE(spec.lower, spec.standard) << spec.name;
       EXPECT_LE(spec.standard, spec.upper) << spec.name;
     }
-    EXPECT_EQ(reconstruction_method(method).name(), method);
+    EXPECT_EQ(std::ranges::count(method_runs(), method.name, &MethodRun::name), 1) << method.name;
   }
-  EXPECT_THROW(reconstruction_parameters("ball pivoting"), Error);
-  EXPECT_THROW(reconstruction_method("ball pivoting"), Error);
+  EXPECT_EQ(method_runs().size(), reconstruction_methods().size());
+  EXPECT_THROW(method_named("ball pivoting"), Error);
+  EXPECT_THROW(emax::reconstruct("ball pivoting", sphere_cloud(50), {}), Error);
 }
 
 TEST(Gp3, ClosesASphereOnTheCloudsOwnPoints) {
@@ -182,11 +180,11 @@ TEST(Reconstruction, TakesFewerPointsThanNeighbours) {
   const std::vector<Point> octahedron = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
   for (const std::string_view method : {"gp3", "hoppe"}) {
-    for (const double k : {3.0, 40.0}) {
+    for (const int k : {3, 40}) {
       ParameterValues values = standards(method);
-      values["normals.k"] = values["normals.orientation_k"] = k;
-      EXPECT_GT(reconstruction_method(method).reconstruct(octahedron, values).mesh.triangles.size(),
-                0u)
+      values.set(Normals::kNeighbours, k);
+      values.set(Normals::kOrientationNeighbours, k);
+      EXPECT_GT(emax::reconstruct(method, octahedron, values).mesh.triangles.size(), 0u)
           << method << " k " << k;
     }
   }
@@ -199,10 +197,10 @@ TEST(Reconstruction, OrientationSpreadsToItsNeighbours) {
   std::vector<Point> cloud = one;
   for (const Point& p : one) cloud.push_back(p + Point(2.15, 0, 0));
   ParameterValues values = standards("gp3");
-  values["gp3.surface_angle"] = 45;
-  const auto volume = [&](double orientation_k) {
-    values["normals.orientation_k"] = orientation_k;
-    return signed_volume(reconstruction_method("gp3").reconstruct(cloud, values).mesh);
+  values.set(Gp3::kSurfaceAngle, 45);
+  const auto volume = [&](int orientation_k) {
+    values.set(Normals::kOrientationNeighbours, orientation_k);
+    return signed_volume(emax::reconstruct("gp3", cloud, values).mesh);
   };
   EXPECT_NEAR(volume(6), 2 * 4 * std::numbers::pi / 3, 0.2);
   EXPECT_NEAR(volume(40), 0, 0.2);
@@ -220,9 +218,9 @@ TEST(Reconstruction, RefusesWhatSpansNoSurface) {
 
 TEST(Reconstruction, NamesAMissingParameter) {
   ParameterValues values = standards("gp3");
-  values.erase("gp3.mu");
+  values.by_name().erase("gp3.mu");
   try {
-    reconstruction_method("gp3").reconstruct(sphere_cloud(50), values);
+    emax::reconstruct("gp3", sphere_cloud(50), values);
     FAIL() << "no error";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("gp3.mu"), std::string::npos);

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "host/geometry/mesh_validity.h"
-#include "host/parameters/chain_parameters.h"
+#include "host/parameters/registry.h"
 #include "sw_model/base/error.h"
 #include "tests/host/support/surface_clouds.h"
 
@@ -29,7 +29,7 @@ TriangleMesh with_hole_at(TriangleMesh mesh, std::uint32_t vertex) {
   return mesh;
 }
 
-ParameterValues standards() { return standard_values(decimation_parameters("schroeder")); }
+ParameterValues standards() { return ParameterValues(Schroeder::parameters()); }
 
 bool less(const Point& a, const Point& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -88,9 +88,9 @@ TEST(DecimateSchroeder, ReachesTheTarget) {
   const TriangleMesh mesh = closed_surface();
   for (const double reduction : {0.3, 0.6, 0.8}) {
     ParameterValues values = standards();
-    values["schroeder.reduction"] = reduction;
-    values["schroeder.feature_angle"] = 90;
-    const TriangleMesh result = decimate_schroeder(mesh, values);
+    values.set(Schroeder::kReduction, reduction);
+    values.set(Schroeder::kFeatureAngle, 90);
+    const TriangleMesh result = Schroeder::run(mesh, values);
     const double target = static_cast<double>(mesh.triangles.size()) * (1 - reduction);
     EXPECT_NEAR(static_cast<double>(result.triangles.size()), target, 4) << reduction;
     const MeshValidity validity = check_mesh(result.view());
@@ -107,11 +107,11 @@ TEST(DecimateSchroeder, KeepsTheVerticesBytes) {
   for (Point& p : mesh.vertices) p = grained(p) + far;
   ParameterValues values = standards();
   // With splits new vertices are made, in places that exist.
-  values["schroeder.preserve_topology"] = 0;
-  values["schroeder.splitting"] = 1;
-  values["schroeder.feature_angle"] = 5;
-  values["schroeder.reduction"] = 0.9;
-  const TriangleMesh result = decimate_schroeder(mesh, values);
+  values.set(Schroeder::kPreserveTopology, false);
+  values.set(Schroeder::kSplitting, true);
+  values.set(Schroeder::kFeatureAngle, 5);
+  values.set(Schroeder::kReduction, 0.9);
+  const TriangleMesh result = Schroeder::run(mesh, values);
   EXPECT_LT(result.triangles.size(), mesh.triangles.size() / 4);
   EXPECT_TRUE(vertices_are_among(result, mesh));
 }
@@ -122,30 +122,31 @@ TEST(DecimateSchroeder, IsTheSameFarFromTheOrigin) {
   for (Point& p : near.vertices) p = grained(p);
   TriangleMesh there = near;
   there.vertices = moved(near.vertices, far);
-  TriangleMesh result = decimate_schroeder(there, standards());
+  TriangleMesh result = Schroeder::run(there, standards());
   result.vertices = moved(result.vertices, -far);
-  EXPECT_TRUE(same_bytes(result, decimate_schroeder(near, standards())));
+  EXPECT_TRUE(same_bytes(result, Schroeder::run(near, standards())));
 }
 
 // Every parameter reaches the filter: changing it changes some mesh.
 TEST(DecimateSchroeder, HeedsEveryParameter) {
   const TriangleMesh mesh = with_hole_at(closed_surface(), 200);
   ParameterValues base = standards();
-  base["schroeder.preserve_topology"] = 0;
-  base["schroeder.splitting"] = 1;
-  base["schroeder.feature_angle"] = 20;
-  base["schroeder.reduction"] = 0.95;
-  const TriangleMesh reference = decimate_schroeder(mesh, base);
-  for (const ParameterSpec& spec : decimation_parameters("schroeder")) {
+  base.set(Schroeder::kPreserveTopology, false);
+  base.set(Schroeder::kSplitting, true);
+  base.set(Schroeder::kFeatureAngle, 20);
+  base.set(Schroeder::kReduction, 0.95);
+  const TriangleMesh reference = Schroeder::run(mesh, base);
+  for (const Parameter& spec : Schroeder::parameters()) {
     ParameterValues changed = base;
-    changed[spec.name] = base[spec.name] == spec.lower ? spec.upper : spec.lower;
-    EXPECT_FALSE(same_bytes(decimate_schroeder(mesh, changed), reference)) << spec.name;
+    double& value = changed.by_name().at(spec.name);
+    value = value == spec.lower ? spec.upper : spec.lower;
+    EXPECT_FALSE(same_bytes(Schroeder::run(mesh, changed), reference)) << spec.name;
   }
 }
 
 TEST(DecimateSchroeder, RepeatsItsBytes) {
-  EXPECT_TRUE(same_bytes(decimate_schroeder(closed_surface(), standards()),
-                         decimate_schroeder(closed_surface(), standards())));
+  EXPECT_TRUE(same_bytes(Schroeder::run(closed_surface(), standards()),
+                         Schroeder::run(closed_surface(), standards())));
 }
 
 }  // namespace

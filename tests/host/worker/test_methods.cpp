@@ -27,13 +27,11 @@ void write_raw(int channel, const Bytes& bytes) {
 }  // namespace
 
 void run_test_method(const ChainSettings& settings, int channel) {
-  const auto fault = settings.parameters.find("test.fault");
+  const int fault = settings.parameters.find(kFault).value_or(0);
   constexpr std::array<const char*, 5> kFaults = {"", "test.crash", "test.hang", "test.memory",
                                                   "test.garbage"};
-  const bool faulty = fault != settings.parameters.end() && fault->second > 0 &&
-                      fault->second < static_cast<double>(kFaults.size());
-  const std::string method =
-      faulty ? kFaults[static_cast<std::size_t>(fault->second)] : settings.method;
+  const bool faulty = fault > 0 && fault < static_cast<int>(kFaults.size());
+  const std::string method = faulty ? kFaults[static_cast<std::size_t>(fault)] : settings.method;
   if (method == "test.crash") std::abort();
   if (method == "test.exit") _exit(3);
   if (method == "test.hang") hang();

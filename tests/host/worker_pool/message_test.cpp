@@ -54,8 +54,9 @@ TEST(Message, CarriesTheBoundOfTheDecimator) {
 }
 
 TEST(Message, CarriesSettings) {
-  const RunMessage sent{~std::uint64_t{0},
-                        {"gp3", "schroeder", {{"a", 0.1}, {"b", 3}, {"c", 1e-300}, {"d", -0.0}}}};
+  const RunMessage sent{
+      ~std::uint64_t{0},
+      {"gp3", "schroeder", ParameterValues({{"a", 0.1}, {"b", 3}, {"c", 1e-300}, {"d", -0.0}})}};
   const RunMessage got = round_trip(sent);
   EXPECT_EQ(got.ticket, sent.ticket);
   EXPECT_EQ(got.settings.method, "gp3");

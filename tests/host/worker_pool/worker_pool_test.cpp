@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "host/parameters/registry.h"
 #include "sw_model/base/error.h"
 #include "tests/host/support/surface_clouds.h"
 
@@ -13,9 +14,9 @@ namespace {
 using namespace std::chrono_literals;
 
 ChainSettings settings(const std::string& method) {
-  ChainSettings result{method, "schroeder", standard_values(chain_parameters(method, "schroeder"))};
-  if (method == "hoppe") result.parameters["hoppe.resolution"] = 32;
-  if (method == "poisson") result.parameters["poisson.depth"] = 6;
+  ChainSettings result{method, "schroeder", ParameterValues(chain_parameters(method, "schroeder"))};
+  if (method == "hoppe") result.parameters.set(Hoppe::kResolution, 32);
+  if (method == "poisson") result.parameters.set(Poisson::kDepth, 6);
   return result;
 }
 
@@ -65,8 +66,8 @@ TEST(WorkerPool, GivesTheSameMeshesForAnyNumberOfJobs) {
   std::vector<ChainSettings> candidates;
   for (int i = 0; i < 8; ++i) {
     candidates.push_back(settings(i % 4 == 3 ? "hoppe" : "gp3"));
-    candidates.back().parameters["schroeder.reduction"] = 0.3 + 0.05 * i;
-    candidates.back().parameters["normals.k"] = i < 4 ? 10 : 12;
+    candidates.back().parameters.set(Schroeder::kReduction, 0.3 + 0.05 * i);
+    candidates.back().parameters.set(Normals::kNeighbours, i < 4 ? 10 : 12);
   }
   const auto one = evaluate(1, candidates);
   const auto two = evaluate(2, candidates);
@@ -83,7 +84,7 @@ TEST(WorkerPool, GivesTheSameMeshesForAnyNumberOfJobs) {
 // been; one that has answered, or that nobody decimates, hears nothing of it.
 TEST(WorkerPool, StopsADecimationWithItsMesh) {
   const std::vector<Point> cloud = torus_cloud(60, 30);
-  ChainSettings bounded{"gp3", "bounded", standard_values(chain_parameters("gp3", "bounded"))};
+  ChainSettings bounded{"gp3", "bounded", ParameterValues(chain_parameters("gp3", "bounded"))};
   WorkerPool pool(cloud, {0.05, 0, {}, {}}, options(1));
   const auto next = [&pool] { return std::get<ChainResult>(pool.wait().outcome); };
   pool.submit(0, bounded);
@@ -91,7 +92,7 @@ TEST(WorkerPool, StopsADecimationWithItsMesh) {
   EXPECT_FALSE(whole.stopped);
   pool.stop();  // which has nothing to do
 
-  bounded.parameters["bounded.flatness"] = 2e-3;
+  bounded.parameters.set(Bounded::kFlatness, 2e-3);
   pool.submit(1, bounded);
   pool.submit(2, bounded);
   pool.stop();
@@ -100,7 +101,7 @@ TEST(WorkerPool, StopsADecimationWithItsMesh) {
   EXPECT_TRUE(stopped.stopped);
   EXPECT_GT(stopped.mesh.triangles.size(), whole.mesh.triangles.size());
 
-  bounded.parameters["bounded.flatness"] = 1e-3;
+  bounded.parameters.set(Bounded::kFlatness, 1e-3);
   pool.submit(3, bounded);
   EXPECT_TRUE(same_bytes(next().mesh, whole.mesh));
 
@@ -112,7 +113,7 @@ TEST(WorkerPool, StopsADecimationWithItsMesh) {
 // No process may run it twice: a worker that has goes on with what it made, or is replaced.
 TEST(WorkerPool, RunsPoissonAgainAndAgain) {
   ChainSettings other = settings("poisson");
-  other.parameters["poisson.scale"] = 1.2;
+  other.parameters.set(Poisson::kScale, 1.2);
   const auto results = evaluate(1, {settings("poisson"), other, settings("gp3"), other,
                                     settings("poisson"), settings("poisson")});
   ASSERT_EQ(results.size(), 6u);
@@ -131,7 +132,7 @@ TEST(WorkerPool, GivesCandidatesToTheWorkerThatHasTheirReconstruction) {
   std::vector<ChainSettings> candidates;
   for (int i = 0; i < 8; ++i) {
     candidates.push_back(settings(i % 2 == 0 ? "gp3" : "hoppe"));
-    candidates.back().parameters["schroeder.reduction"] = 0.1 * i;
+    candidates.back().parameters.set(Schroeder::kReduction, 0.1 * i);
   }
   std::size_t made = 0;
   for (const auto& [ticket, result] : evaluate(2, candidates)) {

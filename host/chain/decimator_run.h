@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "host/chain/bounded_chain.h"
+#include "host/parameters/registry.h"
+
+namespace emax {
+
+// What runs a decimator. `stopped` is polled by one that is bounded; true ends the work with the
+// mesh at hand.
+struct DecimatorRun {
+  std::string_view name;
+  DecimatedMesh (*run)(const TriangleMesh& start, const ParameterValues& values,
+                       const BoundedStage& stage, const std::function<bool()>& stopped);
+};
+
+template <typename Decimator>
+DecimatedMesh run_decimator(const TriangleMesh& start, const ParameterValues& values,
+                            const BoundedStage& stage, const std::function<bool()>& stopped) {
+  if constexpr (Decimator::kBounded) {
+    return Decimator::run(start, values, stage, stopped);
+  } else {
+    return {Decimator::run(start, values), {}, false};
+  }
+}
+
+template <typename... Decimator>
+std::vector<DecimatorRun> decimator_runs_of(TypeList<Decimator...>) {
+  return {{Decimator::kName, &run_decimator<Decimator>}...};
+}
+
+// Of decimators().
+std::span<const DecimatorRun> decimator_runs();
+
+}  // namespace emax
