@@ -248,19 +248,70 @@ constexpr float kProven = 0.8f;  // of squares
 // Points that the mesh before left open are searched in the tree if there are no more of them.
 constexpr std::size_t kFew = 4;
 
+// A packet under search, in variables of the search so that they stay in registers.
+struct OpenPacket {
+  PacketLanes& lanes;
+  std::uint32_t& open;  // its points that are above the limit so far
+  std::size_t& found;   // how many triangles settled the others
+  Witnesses& witnesses;
+
+  HWY_INLINE void settle(std::uint32_t leaf, std::uint32_t left) const {
+    found = witnesses.add(found, leaf, open & ~left);
+    open = left;
+  }
+  HWY_INLINE void meet(const SearchJob& job, std::uint32_t leaf, float limit) const {
+    lanes.meet(job.mesh.records[leaf]);
+    settle(leaf, open & lanes.above(limit));
+  }
+  // Only whether points lie in the triangle's prism, which is cheaper than their distance.
+  HWY_INLINE void meet(const SearchJob& job, std::uint32_t leaf, const Prism& prism) const {
+    settle(leaf, open & ~lanes.inside(job.mesh.records[leaf], prism));
+  }
+  // Points that stay above the limit raise the maximum.
+  HWY_INLINE void search(const SearchJob& job, std::size_t i, float limit,
+                         std::uint32_t& hint) const {
+    const Packet& packet = job.cloud.packets[i];
+    std::size_t in_tree = found;  // so that `found` stays in a register
+    open = search_tree(job.mesh, packet, lanes, open, limit, hint, witnesses, in_tree);
+    found = in_tree;
+    if (open == 0) return;
+    raise(job, packet, lanes, open);
+    job.raised.push_back(static_cast<std::uint32_t>(i));
+  }
+};
+
+// Candidates for the packets of a supergroup, collected for the first packet that asks.
+class SupergroupCandidates {
+ public:
+  HWY_INLINE void begin() { collected_ = false; }
+  HWY_INLINE void collect(const SearchJob& job, const FloatBox& box, float limit) {
+    radius_ = limit * kNear;
+    collected_ = job.strategy != Strategy::kBestFirst &&
+                 (job.strategy == Strategy::kPackets || worth_collecting(box, limit)) &&
+                 candidates_.collect(job.mesh, box, radius_);
+  }
+  HWY_INLINE std::size_t choose(const FloatBox& packet) {
+    return collected_ ? candidates_.choose(packet, radius_, chosen_) : 0;
+  }
+  HWY_INLINE std::uint32_t operator[](std::size_t i) const { return chosen_[i]; }
+
+ private:
+  Candidates candidates_;
+  Candidates::List chosen_;
+  float radius_ = 0;  // squared
+  bool collected_ = false;
+};
+
 [[gnu::flatten]] inline void search_supergroups(const SearchJob& job, std::size_t first,
                                                 std::size_t last) {
-  Candidates candidates;
-  Candidates::List chosen;
+  SupergroupCandidates candidates;
   Witnesses witnesses;
   std::uint32_t hint = 0;
   std::size_t inside_prisms = kPacketPoints, in_packets = 1;  // points of the supergroup before
   for (std::size_t s = first; s < last; ++s) {
     if (job.worst.is_set() && job.worst.get().squared_bits > job.enough) return;
     const PacketRange range(job.cloud, s);
-    const FloatBox& box = job.cloud.supergroups[s];
-    float radius = 0;
-    bool collected = false;
+    candidates.begin();
     // Slivers have no prisms to speak of: then they are only tried now and then.
     const bool use_prisms = s % kPrismTrial == 0 || 2 * inside_prisms >= in_packets * kPacketPoints;
     inside_prisms = in_packets = 0;
@@ -271,74 +322,41 @@ constexpr std::size_t kFew = 4;
     bool new_hint = balls.smaller() != 0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       SettledPacket& settled = job.settled.packets[i];
-      const Packet& packet = job.cloud.packets[i];
-      const float limit = limit_of(job.worst, packet);
+      const float limit = limit_of(job.worst, job.cloud.packets[i]);
       std::uint32_t open = kAll & ~still_settled(job, i, limit, hint);
-      if (open != 0) {
-        if (new_hint) within.add(balls.within(job.mesh.records[hint]), hint);
-        new_hint = false;
-        if (within.has(i - range.begin)) {
-          settled = {ball_limit, job.settled.now, {}};
-          settled.leaves.fill(within.leaf(i - range.begin));
-          continue;
-        }
+      if (open == 0) continue;
+      if (new_hint) within.add(balls.within(job.mesh.records[hint]), hint);
+      new_hint = false;
+      if (within.has(i - range.begin)) {
+        settled = {ball_limit, job.settled.now, {}};
+        settled.leaves.fill(within.leaf(i - range.begin));
+        continue;
       }
       const float proven_before = open != kAll ? settled.squared_limit : 0.0f;
-      if (open != 0) {
-        PacketLanes lanes(packet);
-        const bool few = hwy::PopCount(open) <= kFew;
-        if (!few && in_packets++ == 0) {
-          radius = limit * kNear;
-          collected = job.strategy != Strategy::kBestFirst &&
-                      (job.strategy == Strategy::kPackets || worth_collecting(box, limit)) &&
-                      candidates.collect(job.mesh, box, radius);
-        }
-        std::size_t count = 0;
-        const auto choose = [&]() HWY_ATTR {
-          if (collected && !few) count = candidates.choose(job.cloud.boxes[i], radius, chosen);
-        };
-        std::size_t found = 0;
-        float proven = limit;
-        if (use_prisms && !few) {
-          const Prism prism(limit * kProven, job.mesh.reach);
-          const std::uint32_t inside = open & lanes.inside(job.mesh.records[hint], prism);
-          found = witnesses.add(found, hint, inside);
-          open &= ~inside;
-          if (open != 0) choose();
-          for (std::size_t t = 0; open != 0 && t < count; ++t) {
-            const std::uint32_t more = open & lanes.inside(job.mesh.records[chosen[t]], prism);
-            found = witnesses.add(found, chosen[t], more);
-            open &= ~more;
-          }
-          inside_prisms += kPacketPoints - hwy::PopCount(open);
-          if (open == 0) proven = HWY_MAX(proven_before, limit * kProven);
-        } else {
-          lanes.meet(job.mesh.records[hint]);
-          const std::uint32_t left = open & lanes.above(limit);
-          found = witnesses.add(found, hint, open & ~left);
-          open = left;
-          if (open != 0) choose();
-        }
-        for (std::size_t t = 0; open != 0 && t < count; ++t) {
-          lanes.meet(job.mesh.records[chosen[t]]);
-          const std::uint32_t left = open & lanes.above(limit);
-          found = witnesses.add(found, chosen[t], open & ~left);
-          open = left;
-        }
-        if (open != 0) {
-          std::size_t in_tree = found;  // so that `found` stays in a register
-          open = search_tree(job.mesh, packet, lanes, open, limit, hint, witnesses, in_tree);
-          found = in_tree;
-        }
-        if (open != 0) {
-          raise(job, packet, lanes, open);
-          job.raised.push_back(static_cast<std::uint32_t>(i));
-        }
-        if (found != 0) hint = witnesses.leaves[found - 1];
-        witnesses.keep(found, settled);
-        settled.squared_limit = proven;
-        new_hint = found != 0 && balls.smaller() != 0;
+      float proven = limit;
+      PacketLanes lanes(job.cloud.packets[i]);
+      std::size_t found = 0;
+      const OpenPacket points = {lanes, open, found, witnesses};
+      const bool few = hwy::PopCount(open) <= kFew;
+      if (!few && in_packets++ == 0) candidates.collect(job, job.cloud.supergroups[s], limit);
+      std::size_t count = 0;
+      if (use_prisms && !few) {
+        const Prism prism(limit * kProven, job.mesh.reach);
+        points.meet(job, hint, prism);
+        if (open != 0) count = candidates.choose(job.cloud.boxes[i]);
+        for (std::size_t t = 0; open != 0 && t < count; ++t) points.meet(job, candidates[t], prism);
+        inside_prisms += kPacketPoints - hwy::PopCount(open);
+        if (open == 0) proven = HWY_MAX(proven_before, limit * kProven);
+      } else {
+        points.meet(job, hint, limit);
+        if (open != 0 && !few) count = candidates.choose(job.cloud.boxes[i]);
       }
+      for (std::size_t t = 0; open != 0 && t < count; ++t) points.meet(job, candidates[t], limit);
+      if (open != 0) points.search(job, i, limit, hint);
+      if (found != 0) hint = witnesses.leaves[found - 1];
+      witnesses.keep(found, settled);
+      settled.squared_limit = proven;
+      new_hint = found != 0 && balls.smaller() != 0;
     }
   }
 }
