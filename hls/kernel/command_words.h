@@ -10,9 +10,9 @@
 //
 // A header is the opcode in the upper 8 bits and a count or options in the lower 24. Loading points
 // begins a block: every point's running minimum becomes infinity. Each record then meets every
-// point of the block; kReduce answers and ends it. An answer's header repeats the opcode and counts
-// the words behind it. A malformed command is remembered, its payload skipped, and the next kReduce
-// answers kError with the reason in place of a result. docs/protocol.md says it all.
+// point of the block; kReduce sends the answer and ends the block. An answer's header repeats the
+// opcode and counts the words after it. After a malformed command the next kReduce answers kError
+// with the reason in place of a result. docs/protocol.md is the full definition.
 #pragma once
 
 #include "hls/kernel/triangle_record.h"
@@ -20,7 +20,7 @@
 
 namespace emax {
 
-constexpr Word kKernelVersion = 1;  // changes whenever the kernel's bits would
+constexpr Word kKernelVersion = 1;  // raised whenever the kernel's bits change
 
 enum Opcode : Word {
   kIdentify = 1,

@@ -13,8 +13,8 @@ namespace emax {
 template <class Scalar>
 class EmaxKernel {
  public:
-  // Serves one command. Blocks on the streams in hardware; in software all of the command's words
-  // must be there.
+  // Serves one command. In hardware it waits for the streams; in software all words of the command
+  // must be in the stream before the call.
   void serve(Stream<Word>& commands, Stream<Word>& answers) {
     const Word header = commands.read();
     const Word count = header_count(header);

@@ -2,8 +2,8 @@
 
 #include "hls/kernel/emax_kernel.h"
 
-// Plain binary32: flushing subnormals is the target's own (hardware operators, or the processor's
-// flush mode set by the testbench).
+// Plain binary32: the target flushes subnormals (by the hardware operators, or by the processor's
+// flush mode that the testbench sets).
 extern "C" void emax_top(emax::Stream<emax::Word>& commands, emax::Stream<emax::Word>& answers) {
   EMAX_HLS(INTERFACE axis port = commands)
   EMAX_HLS(INTERFACE axis port = answers)

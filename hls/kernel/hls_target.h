@@ -1,5 +1,5 @@
-// The one place that knows which compiler reads the kernel: an HLS compiler, which brings its own
-// streams and takes pragmas, or an ordinary one.
+// Only this header depends on the compiler that reads the kernel: an HLS compiler has its own
+// streams and takes pragmas; an ordinary compiler gets a queue and ignores the pragmas.
 #pragma once
 
 #if defined(__SYNTHESIS__) || defined(__VITIS_HLS__)

@@ -4,7 +4,7 @@
 //   edge 1 (V1V2):  s1 = z                      h1 = y
 //   edge 2 (V1V3):  s2 = y e2y + z e2z          h2 = z e2y - y e2z
 //   edge 3 (V2V3):  s3 = y e3y + zl e3z         h3 = y e3z - zl e3y
-//   r = s < 0 ? s : max(s - L, 0)               what s exceeds the edge by
+//   r = s < 0 ? s : max(s - L, 0)               how far s lies beyond the edge's ends
 //   d^2 = x^2 + (no h < 0 ? 0 : h^2 + r^2 of the edge with h < 0 and the least |r|)
 //
 // The nearest point of a triangle to a point outside lies on an edge that the point sees (h < 0),
@@ -35,8 +35,8 @@ Scalar edge_residual(const Scalar& s, const Scalar& beyond_end) {
   return select(s < zero, s, select(zero < beyond_end, beyond_end, zero));
 }
 
-// What an edge shows to a point in the plane: the signed distance to its line, negative on the
-// outer side, the coordinate along it, and its residual.
+// An edge seen from a point in the plane: the signed distance to the edge's line (negative on the
+// outer side), the coordinate along the edge, and its residual.
 template <class Scalar>
 struct EdgeView {
   Scalar across, along, residual;
@@ -74,7 +74,7 @@ Scalar squared_distance(const TriangleRecord<Scalar>& t, const Condition& segmen
   const auto visible13 = both(view.edge13.across < zero, negated(segment));
   const auto visible23 = both(view.edge23.across < zero, negated(segment));
 
-  // Edge 3 is taken over edge 2 only where it is nearer, edge 1 over both also where it is equal.
+  // An edge of higher number is chosen only where its residual is smaller: ties go to the lower.
   const auto prefer23 =
       both(visible23, either(negated(visible13),
                              magnitude(view.edge23.residual) < magnitude(view.edge13.residual)));

@@ -16,7 +16,7 @@ inline double select(bool condition, double if_true, double if_false) {
 inline float magnitude(float value) { return value < 0.0f ? -value : value; }
 inline double magnitude(double value) { return value < 0.0 ? -value : value; }
 
-// Without short circuit: both sides are wires.
+// No short circuit: both sides are computed, as wires in hardware are.
 inline bool both(bool a, bool b) { return (a & b) != 0; }
 inline bool either(bool a, bool b) { return (a | b) != 0; }
 inline bool negated(bool a) { return !a; }

@@ -33,7 +33,7 @@ struct TriangleRecord {
 
 // Calls visit for each scalar of records of the same triangle, in the order of a record's words:
 // visit(a.v1.x, b.v1.x) to visit(a.edge23.length, b.edge23.length). The last word is the tag.
-// Whoever reads, writes, names or converts the words takes their order from here.
+// All code that reads, writes, names or converts the words takes their order from here.
 template <class Visit, class... Records>
 void for_each_scalar(const Visit& visit, Records&... records) {
   visit(records.v1.x...);
@@ -58,7 +58,7 @@ void for_each_scalar(const Visit& visit, Records&... records) {
 }
 
 constexpr std::uint32_t kRecordWords = 20;
-// The names of the words, for people and for the ports of the datapath.
+// The names of the words, for reports and for the ports of the datapath.
 constexpr const char* kRecordWordNames[kRecordWords] = {"v1_x",
                                                         "v1_y",
                                                         "v1_z",

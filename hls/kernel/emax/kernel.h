@@ -6,9 +6,9 @@
 //   emax::EmaxKernel<float> kernel;      // command words in, answer words out: serve()
 //   float d2 = emax::squared_distance(record, false, point);
 //
-// Links with emax::kernel, which is headers alone, C++14. For synthesis include
-// "hls/kernel/emax_kernel.h" itself. Records come from sw_model (docs/kernel.md); commands and
-// answers are those of docs/protocol.md. Source: section 4.
+// Link emax::kernel (header-only, C++14). For synthesis include "hls/kernel/emax_kernel.h"
+// directly. sw_model makes the records (docs/kernel.md); docs/protocol.md defines commands and
+// answers. Source: section 4 of the paper.
 #ifndef EMAX_KERNEL_H
 #define EMAX_KERNEL_H
 
