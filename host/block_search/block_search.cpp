@@ -37,7 +37,7 @@ class Pipeline {
     evaluator_.begin(cloud.points(), mesh.records());
   }
 
-  // To be called before each block is prepared.
+  // Call this before each block is prepared.
   void make_room() {
     if (options_.interrupted && options_.interrupted()) {
       drain();
@@ -84,7 +84,8 @@ class Search {
     for (const PointGroup& group : cloud.groups()) bounds_.push_back(upper_bound(group));
   }
 
-  // Walks all groups that R does not settle; the worst ones first, so that R is high early.
+  // Walks all groups that R does not settle, those with the greatest bound first, so that R rises
+  // early.
   void walk(Pipeline& pipeline, std::size_t block_points, bool use_running_maximum) {
     std::vector<std::size_t> by_bound(bounds_.size());
     std::iota(by_bound.begin(), by_bound.end(), std::size_t{0});
@@ -119,7 +120,8 @@ class Search {
   }
 
  private:
-  // Whether no point of the group can change R: its bound is a kernel distance, so no margin.
+  // Whether no point of the group can change R. The bound is a kernel distance, so no margin is
+  // needed.
   bool settled(std::size_t group, const std::optional<EmaxResult>& worst) const {
     if (!worst) return false;
     if (bounds_[group] != worst->squared_bits) return bounds_[group] < worst->squared_bits;
@@ -127,7 +129,7 @@ class Search {
            cloud_.groups()[group].points.front() > worst->worst_point;
   }
 
-  // Kernel bits that no point of the group exceeds, from a few near triangles.
+  // Kernel bits that no point of the group exceeds. They come from a few near triangles.
   std::uint32_t upper_bound(const PointGroup& group) {
     arrays_.clear();
     for (const std::uint32_t i : group.points) arrays_.push_back(cloud_.points()[i]);
@@ -143,8 +145,8 @@ class Search {
     simd_.update_nearest(arrays_, mesh_.records().subspan(first, count), nearest_);
   }
 
-  // The record nearest to a point, near enough: it only makes the bound good, so plain binary32
-  // without flushing or margin will do.
+  // A record that is nearest to a point, or nearly: it only makes the bound tighter, so plain
+  // binary32 without flushing or margin is enough.
   std::uint32_t nearest_to(const Point& p, const TriangleTree::Node& hint) const {
     const Vector3<float> point = {static_cast<float>(p.x()), static_cast<float>(p.y()),
                                   static_cast<float>(p.z())};

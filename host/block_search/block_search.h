@@ -9,16 +9,16 @@
 namespace emax {
 
 // The search for e_max (paper, section 4.1; docs/numerics.md). It walks groups of neighbouring
-// points; an upper bound from the triangles that the kd-tree hints at settles most groups against
-// the running maximum R, and for the rest the AABB-tree gives the candidates: every triangle whose
-// lower bound, less the margin kappa, does not exceed the group's upper bound. Blocks of points and
-// candidates go to the evaluator. The result is that of brute force, bit for bit, worst index
-// included.
+// points. An upper bound from the triangles that the kd-tree hints at settles most groups against
+// the running maximum R. For the other groups the AABB-tree gives the candidates: every triangle
+// whose lower bound, less the margin kappa, does not exceed the group's upper bound. Blocks of
+// points and candidates go to the evaluator. The result, including the worst index, equals that of
+// brute force bit for bit.
 struct SearchOptions {
-  // Block b is prepared with the R known from the answers up to b - depth, so the counts of blocks,
-  // pairs and words are the same for every device.
+  // Block b is prepared with the R of the answers up to block b - depth. The counts of blocks,
+  // pairs and words are therefore the same for every device.
   std::size_t depth = 4;
-  // Asked between blocks; true ends the search with Interrupted.
+  // Called between blocks; true ends the search with Interrupted.
   std::function<bool()> interrupted = nullptr;
 };
 

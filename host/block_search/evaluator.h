@@ -11,7 +11,7 @@
 
 namespace emax {
 
-// Work the search could not settle: every point of a block meets every candidate.
+// Work that the search could not settle: every point of a block meets every candidate.
 struct Block {
   std::vector<std::uint32_t> points;      // indices into the cloud, ascending
   std::vector<std::uint32_t> candidates;  // indices into the records
@@ -19,18 +19,18 @@ struct Block {
 
 struct BlockAnswer {
   EmaxResult worst;                         // lowest cloud index that attains the block's maximum
-  std::vector<std::uint32_t> squared_bits;  // of every point, when asked for
+  std::vector<std::uint32_t> squared_bits;  // of every point, if the caller asked for them
 };
 
-// Whoever evaluates the kernel on blocks: the SIMD evaluator or a device. Blocks may be prepared
-// and submitted while earlier ones compute; answers come in the order of the blocks.
+// Evaluates the kernel on blocks: the SIMD evaluator or a device. Blocks may be prepared and
+// submitted while earlier ones are computed; answers come in the order of the blocks.
 class Evaluator {
  public:
   virtual ~Evaluator() = default;
 
   virtual std::string name() const = 0;
   virtual std::size_t block_points() const = 0;  // the most it takes in one block
-  // The points and records that blocks refer to. They must outlive the blocks' answers.
+  // Sets the points and records that blocks refer to. They must outlive the blocks' answers.
   virtual void begin(std::span<const Vector3<float>> points,
                      std::span<const TriangleRecord<float>> records) = 0;
   virtual void submit(const Block& block, bool list_points) = 0;

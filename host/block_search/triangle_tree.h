@@ -10,11 +10,11 @@
 
 namespace emax {
 
-// A mesh as the search needs it: records, an AABB-tree with one triangle per leaf, and the kd-tree
-// that was built together with it (paper, section 4.1). A node is split at the median of its
-// triangles' box centres; the planes of these splits are the kd-tree, so the group of triangles a
-// point falls into is one node of the AABB-tree, from where a search may begin.
-// O(n log n) to build, 80 bytes a record and 144 for its two nodes.
+// The form of a mesh that the search reads: records, an AABB-tree with one triangle per leaf, and
+// the kd-tree that is built together with it (paper, section 4.1). A node is split at the median of
+// its triangles' box centres. The planes of these splits are the kd-tree, so the group of triangles
+// that a point falls into is one node of the AABB-tree, where a search may begin. O(n log n) to
+// build, 80 bytes a record and 144 for its two nodes.
 class TriangleTree {
  public:
   struct Node {
@@ -37,7 +37,8 @@ class TriangleTree {
   const Node& left(const Node& node) const { return *(&node + 1); }
   const Node& right(const Node& node) const { return nodes_[node.right]; }
 
-  // The hint: the smallest node with at least `triangles` of them that the kd-tree leads to.
+  // The hint: the smallest node on the point's path in the kd-tree with at least `triangles`
+  // triangles.
   const Node& hint(const Point& p, std::size_t triangles) const;
 
  private:

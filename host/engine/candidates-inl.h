@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace emax {
 namespace HWY_NAMESPACE {
 
-// Of each set of eight lanes, which come first when they are stored side by side.
+// For each set of eight lanes: the indices of its lanes, ascending. They are stored side by side.
 constexpr auto kSideBySide = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
   for (std::size_t set = 0; set < table.size(); ++set) {
@@ -26,14 +26,14 @@ constexpr auto kSideBySide = [] {
 
 using IndexTag = hn::RebindToUnsigned<FloatTag>;
 
-// Some of a vector's lanes, to be stored side by side. Highway's Compress copies its table to the
-// stack at every call where GCC 12 compiles it.
+// A subset of a vector's lanes, to be stored side by side. It replaces Highway's Compress, because
+// GCC 12 compiles that so that it copies its table to the stack at every call.
 class SomeLanes {
  public:
   HWY_INLINE explicit SomeLanes(hn::Mask<FloatTag> mask)
       : mask_(mask), bits_(bits_of(LaneMask<FloatTag>{mask})) {}
   HWY_INLINE std::size_t count() const { return hwy::PopCount(bits_); }
-  // Writes a whole vector.
+  // Writes a whole vector, also behind the subset's lanes.
   template <class D>
   HWY_INLINE void store(D d, hn::Vec<D> values, hn::TFromD<D>* to) const {
     if constexpr (Floats::kCount > 8) {
@@ -52,14 +52,15 @@ class SomeLanes {
   std::uint32_t bits_;
 };
 
-// Triangles whose boxes are within sqrt(squared_radius) of a box, and these boxes side by side.
+// Triangles whose boxes are within sqrt(squared_radius) of a box, with copies of these boxes side
+// by side.
 class Candidates {
  public:
   static constexpr std::size_t kMost = 1024;
   static constexpr std::size_t kRoom = kMost + 2 * kTreeWidth;
   using List = std::array<std::uint32_t, kRoom>;
 
-  // Whether there are no more than kMost.
+  // Returns whether there are at most kMost of them.
   HWY_INLINE bool collect(const TreeView& mesh, const FloatBox& around, float squared_radius) {
     count_ = 0;
     const BoxLanes box(around);
@@ -106,8 +107,8 @@ class Candidates {
 
   std::size_t count() const { return count_; }
 
-  // Records of the candidates within sqrt(squared_radius) of a box, which is one inside that of
-  // collect(); returns their number.
+  // Writes the records of the candidates within sqrt(squared_radius) of `around`, a box inside that
+  // of collect(); returns their number.
   HWY_INLINE std::size_t choose(const FloatBox& around, float squared_radius, List& chosen) const {
     const BoxLanes box(around);
     const Floats limit(squared_radius);

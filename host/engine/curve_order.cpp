@@ -14,9 +14,9 @@ namespace emax {
 namespace {
 
 constexpr std::uint32_t kCells = 1024;
-constexpr std::size_t kPiece = 4096;  // of what threads share
+constexpr std::size_t kPiece = 4096;  // vertices or triangles that a thread takes at a time
 
-// spread_bits() of ten bits, looked up.
+// spread_bits() of every value of ten bits.
 constexpr auto kSpread = [] {
   std::array<std::uint32_t, kCells> table{};
   for (std::uint32_t value = 0; value < kCells; ++value) {
@@ -25,7 +25,7 @@ constexpr auto kSpread = [] {
   return table;
 }();
 
-// Whether all from `first` to `last` are in range.
+// Returns whether the vertices from `first` to `last` are all in range.
 bool normalize(std::span<const Point> vertices, const Normalization& normalization,
                std::size_t first, std::size_t last, std::span<NormalizedVertex> normalized) {
   bool in_range = true;
@@ -40,7 +40,7 @@ bool normalize(std::span<const Point> vertices, const Normalization& normalizati
   return in_range;
 }
 
-// Cells of a cube a little larger than the cloud's; what lies outside falls into the cells at its
+// The cells divide a cube a little larger than the cloud's. Triangles outside get the cells at its
 // faces.
 void make_codes(std::span<const NormalizedVertex> vertices, std::span<const Triangle> triangles,
                 std::size_t first, std::size_t last, std::span<LeafKey> keys) {
@@ -93,7 +93,7 @@ CurveOrder::CurveOrder(MeshView mesh, const Normalization& normalization, std::s
   in_pieces(threads, vertex_count_, kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
     if (!normalize(mesh.vertices, normalization, first, last, vertices)) in_range = false;
   });
-  if (!in_range) make_records(mesh, normalization);  // names the triangle, if it is one's
+  if (!in_range) make_records(mesh, normalization);  // names a triangle with such a vertex
 
   const auto memory = std::make_unique_for_overwrite<LeafKey[]>(triangle_count_);
   const std::span<LeafKey> unsorted(memory.get(), triangle_count_);

@@ -8,12 +8,12 @@
 
 namespace emax {
 
-// A mesh's triangles along a Morton curve of their middles, with their corners as the frames read
-// them. 20 bytes a triangle, 32 a vertex.
+// A mesh's triangles along a Morton curve of their middles, and their corners as the code that
+// makes frames reads them. 20 bytes a triangle, 32 a vertex.
 class CurveOrder {
  public:
   // Throws Error where a triangle has a vertex that is not finite or too far, as make_records does.
-  // O(n), the same with any number of threads.
+  // O(n). The result is the same with any number of threads.
   CurveOrder(MeshView mesh, const Normalization& normalization, std::size_t threads);
 
   std::span<const NormalizedVertex> vertices() const { return {vertices_.get(), vertex_count_}; }

@@ -13,7 +13,7 @@
 namespace emax {
 
 // The greatest distance so far, shared by threads: d^2 bits and the lowest index that has them, in
-// one word that only grows. What it ends at does not depend on who raised it when.
+// one word that only grows. Its final value does not depend on the order in which threads raise it.
 class RunningMaximum {
  public:
   static std::uint64_t key(const EmaxResult& r) {
@@ -35,18 +35,19 @@ class RunningMaximum {
   std::atomic<std::uint64_t> key_ = 0;
 };
 
-// How candidates for a packet are found. The answers are the same.
+// How candidates for a packet are found. All strategies give the same answers.
 enum class Strategy {
-  kAutomatic,  // by the radius beside the supergroup's size
+  kAutomatic,  // by the radius relative to the supergroup's size
   kPackets,    // collected for a supergroup and chosen for each of its packets
-  kBestFirst,  // from the tree's root for each packet, the last one's triangle as hint
+  kBestFirst,  // from the tree's root for each packet; the last packet's triangle is the hint
 };
 
-// What is known of a cloud's packets from the meshes before.
+// What earlier meshes settled of a cloud's packets.
 struct Settled {
   std::span<SettledPacket> packets;   // of the cloud
-  std::uint32_t now = 0, before = 0;  // numbers of meshes
-  // Leaf of mesh `before` to the same of `now`, or kNoLeaf, which stands behind the last, too.
+  std::uint32_t now = 0, before = 0;  // the meshes' numbers
+  // Maps each leaf of `before` to the equal leaf of `now`, or to kNoLeaf where there is none. The
+  // array ends with an extra kNoLeaf.
   std::span<const std::uint32_t> carried;
 };
 
@@ -55,32 +56,33 @@ struct SearchJob {
   TreeView mesh;
   Strategy strategy;
   RunningMaximum& worst;
-  std::uint32_t enough;                // d^2 bits: a greater maximum ends the search
-  std::vector<std::uint32_t>& raised;  // packets that raised the maximum are added
+  std::uint32_t enough;                // d^2 bits: the search ends when the maximum exceeds them
+  std::vector<std::uint32_t>& raised;  // packets that raised the maximum are appended
   Settled settled;
 };
 
-// The engine's inner loops for one kind of SIMD instructions. The same bits from every target.
+// The engine's inner loops for one SIMD instruction set. Every target gives the same bits.
 struct EngineTarget {
   std::string_view name;
 
-  // Records of the triangles and the blocks of their boxes; returns their reach. The vertices are
-  // normalised and in range. O(n), about 100 operations on doubles each.
+  // Makes the triangles' records and the blocks of their boxes; returns their reach. The vertices
+  // are normalised and in range. O(n), about 100 operations on doubles for each triangle.
   float (*make_leaves)(std::span<const NormalizedVertex> vertices,
                        std::span<const Triangle> corners, std::span<const LeafKey> keys,
                        std::span<TriangleRecord<float>> records, std::span<BoxBlock> blocks);
   void (*make_level)(std::span<const BoxBlock> below, std::span<BoxBlock> level);
 
-  // Raises the maximum by every point of these packets, exactly (best-first).
+  // Raises the maximum by the exact d^2 of every point of these packets (best-first).
   void (*search_packets)(const SearchJob& job, std::span<const std::uint32_t> packets);
-  // Raises it by all points of a range of supergroups, settling what it can against it.
+  // Raises the maximum by all points of a range of supergroups. Points that cannot raise it are
+  // settled without their exact d^2.
   void (*search_supergroups)(const SearchJob& job, std::size_t first, std::size_t last);
   // d^2 bits of every point of a range of supergroups, by point index.
   void (*nearest)(const SearchJob& job, std::size_t first, std::size_t last,
                   std::span<std::uint32_t> squared_bits);
 };
 
-// Those this processor runs, best first; the last is plain.
+// The targets that this processor runs, best first; the last uses no SIMD.
 std::span<const EngineTarget> engine_targets();
 
 }  // namespace emax

@@ -33,7 +33,7 @@ void ErrorEngine::forget() {
   remembered_.clear();
   settled_.assign(cloud_.packets().packets.size(), {});
   mesh_ = nullptr;
-  mesh_number_ = 1;  // no packet speaks of it
+  mesh_number_ = 1;  // no packet's record of settled points has this number
   carried_.clear();
 }
 
@@ -66,7 +66,8 @@ void ErrorEngine::in_supergroups(
             });
 }
 
-// Only the packet of the answer, which does not depend on the order of threads.
+// Remembers only the packet that holds the answer's point: it does not depend on the order of
+// threads.
 void ErrorEngine::remember(std::uint32_t point,
                            std::span<const std::vector<std::uint32_t>> raised) {
   for (const auto& packets : raised) {
@@ -105,8 +106,8 @@ EmaxResult ErrorEngine::e_max(const PreparedMesh& mesh) {
   return worst.get();
 }
 
-// Pieces have maxima of their own and the first piece that has a violation gives the answer, so it
-// does not depend on the number of threads.
+// Each piece has its own maximum, and the first piece with a violation gives the answer, so the
+// answer does not depend on the number of threads.
 std::optional<EmaxResult> ErrorEngine::violation(const PreparedMesh& mesh,
                                                  std::uint32_t limit_bits) {
   begin(mesh);

@@ -9,7 +9,7 @@ namespace emax {
 std::vector<EmaxResult> e_max_of_each(const PreparedCloud& cloud, std::span<const MeshView> meshes,
                                       const EngineOptions& options) {
   EngineOptions of_one = options;
-  of_one.threads = std::min<std::size_t>(options.threads, 1);  // none is refused by the engine
+  of_one.threads = std::min<std::size_t>(options.threads, 1);  // 0 stays 0: the engine refuses it
   std::deque<ErrorEngine> engines;
   do {
     engines.emplace_back(cloud, of_one);

@@ -7,10 +7,10 @@
 
 namespace emax {
 
-// The greatest d^2 and its point for each of several meshes. Each is prepared and searched by one
-// thread, as many at a time as the options have threads: nothing waits within a mesh, and a thread
-// begins with what settled the points on its mesh before. The same bits for any number of threads.
-// Throws Error as PreparedMesh does, std::invalid_argument for no threads.
+// The greatest d^2 and its point for each of several meshes. One thread prepares and searches each
+// mesh, and as many meshes run at a time as the options have threads. A thread's engine keeps the
+// triangles that settled points on its previous mesh. The bits are the same for any number of
+// threads. Throws Error as PreparedMesh does, std::invalid_argument for no threads.
 std::vector<EmaxResult> e_max_of_each(const PreparedCloud& cloud, std::span<const MeshView> meshes,
                                       const EngineOptions& options = {});
 

@@ -23,8 +23,8 @@ using DoubleVector = hn::Vec<DoubleTag>;
 using HalfFloats = hn::Rebind<float, DoubleTag>;
 constexpr std::size_t kVector = hn::MaxLanes(DoubleTag());
 
-// Two vectors as one scalar of the frames: each waits for its square roots and quotients while the
-// other's are under way.
+// Two vectors as one scalar of the frames: the square roots and quotients of one overlap with those
+// of the other.
 struct DoublesMask {
   LaneMask<DoubleTag> a, b;
 };
@@ -58,8 +58,8 @@ HWY_INLINE DoublesMask negated(DoublesMask p) { return {negated(p.a), negated(p.
 
 constexpr std::size_t kTriangles = 2 * kVector;
 
-// What a box is enlarged by: the part of kernel_distance_margin that is the triangle's own, twice,
-// which leaves room for the roundings of the box itself. The rest is in kBoundSlack.
+// A box is enlarged by twice the part of kernel_distance_margin that depends on the triangle, which
+// leaves room for the roundings of the box itself. The rest of the margin is in kBoundSlack.
 constexpr double kBoxMargin = 0x1p-18, kBoxFloor = 0x1p-60;
 
 using HalfVector = hn::Vec<HalfFloats>;
@@ -78,15 +78,15 @@ HWY_INLINE void store_words(Doubles a, Doubles b, Doubles c, Doubles d, float* t
 constexpr std::size_t kWordsAtOnce = 4;
 
 struct LeafLanes {
-  // Of each corner, its vertex.
+  // The vertex of each corner.
   alignas(64) std::array<std::array<std::int64_t, kTriangles>, 3> corners;
   alignas(64)
       std::array<std::array<float, kTriangles * kWordsAtOnce>, kRecordWords / kWordsAtOnce> words;
-  alignas(64) std::array<double, kTriangles> segment;  // not 0 for one
+  alignas(64) std::array<double, kTriangles> segment;  // not 0 for a segment
 };
 
-// One corner of each lane's triangle. Four vertices at a time are turned as a matrix, which is
-// faster than to gather their coordinates.
+// One corner of each lane's triangle. Four vertices at a time are loaded and transposed, which is
+// faster than gathering their coordinates.
 struct CornerLanes {
   Lanes<DoubleTag> x, y, z;
   HWY_INLINE CornerLanes(const NormalizedVertex* vertices, const std::int64_t* which) {
@@ -130,7 +130,7 @@ HWY_INLINE double make_some_leaves(const NormalizedVertex* vertices, LeafLanes& 
   }
 
   auto f = kernel::frame_of(c);
-  // The tag's place stays 0.
+  // The place of the tag stays 0.
   std::array<Doubles, kRecordWords> words{};
   std::size_t word = 0;
   const auto take = [&](const Doubles& scalar) HWY_ATTR __attribute__((always_inline)) {

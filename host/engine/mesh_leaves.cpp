@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kPiece = 4096;  // triangles
 static_assert(kPiece % kTreeWidth == 0);
-constexpr std::size_t kMostInCell = 8;  // that are compared
+constexpr std::size_t kMostInCell = 8;  // at most this many leaves of a cell are compared
 
 bool same_triangle(const TriangleRecord<float>& a, const TriangleRecord<float>& b) {
   return std::memcmp(&a, &b, offsetof(TriangleRecord<float>, tag)) == 0 &&
@@ -42,7 +42,7 @@ MeshLeaves::MeshLeaves(MeshView mesh, const Normalization& normalization,
 
 std::vector<std::uint32_t> MeshLeaves::carried_to(const MeshLeaves& now) const {
   std::vector<std::uint32_t> carried(count_ + 1, kNoLeaf);
-  std::size_t cell = 0;  // the first of now's that does not come before this one
+  std::size_t cell = 0;  // the first leaf of `now` whose cell is not before leaf i's
   for (std::size_t i = 0; i < count_; ++i) {
     const std::uint32_t code = keys_[i].code;
     while (cell < now.count_ && now.keys_[cell].code < code) ++cell;

@@ -10,12 +10,12 @@
 namespace emax {
 
 // The leaves of the engine's tree: a mesh's records along a Morton curve of the triangles' middles.
-// 88 bytes a triangle; while they are made 12 more, and 32 a vertex.
+// 88 bytes a triangle; 12 more a triangle, and 32 a vertex, while they are made.
 class MeshLeaves {
  public:
-  // `blocks`, one for each kTreeWidth triangles, become their boxes. Throws Error where a triangle
-  // has a vertex that is not finite or too far, as make_records does. O(n), the same with any
-  // number of threads.
+  // Fills `blocks`, one for each kTreeWidth triangles, with the triangles' boxes. Throws Error
+  // where a triangle has a vertex that is not finite or too far, as make_records does. O(n). The
+  // result is the same with any number of threads.
   MeshLeaves(MeshView mesh, const Normalization& normalization, const EngineTarget& target,
              std::size_t threads, std::span<BoxBlock> blocks);
 
@@ -24,9 +24,9 @@ class MeshLeaves {
   float reach() const { return reach_; }
   std::size_t memory_bytes() const { return count_ * (sizeof keys_[0] + sizeof records_[0]); }
 
-  // For each leaf, one of `now` with the same record but for its tag's index, or kNoLeaf; kNoLeaf
-  // behind the last. O(n); of triangles that share a cell of the curve only the first few are
-  // compared.
+  // Maps each leaf to the leaf of `now` that has the same record except for the index in its tag,
+  // or to kNoLeaf where there is none. The array ends with an extra kNoLeaf. O(n): of the triangles
+  // in one cell of the curve only the first few are compared.
   std::vector<std::uint32_t> carried_to(const MeshLeaves& now) const;
 
  private:

@@ -20,8 +20,9 @@ using Floats = Lanes<FloatTag>;
 constexpr std::size_t kVectors = kPacketPoints / Floats::kCount;
 static_assert(kTreeWidth == kPacketPoints, "a block of boxes has the vectors of a packet");
 
-// A lower bound that exceeds sqrt(best d^2) by this ratio of squares rules a triangle out: the part
-// of the kernel's error that grows with the distance, and the roundings of the bound itself.
+// A triangle is ruled out where its lower bound exceeds sqrt(best d^2) by this ratio of squares.
+// The ratio covers the part of the kernel's error that grows with the distance, and the roundings
+// of the bound itself.
 constexpr float kBoundSlack = 1.0f + 0x1p-16f;
 
 template <class D>
@@ -31,17 +32,18 @@ HWY_INLINE std::uint32_t bits_of(LaneMask<D> mask) {
   return bytes[0] | std::uint32_t{bytes[1]} << 8;
 }
 
-// A true distance of at most this makes the kernel's d^2 no greater than `squared_limit`, and
-// leaves as much again for the errors of what bounds it (docs/numerics.md, "Prisms"). Not positive
-// where the limit is within the errors.
+// A true distance of at most this makes the kernel's d^2 no greater than `squared_limit`. As much
+// room again is left for the errors of the test that bounds the distance (docs/numerics.md,
+// "Prisms"). The result is not positive where the limit is within the errors.
 HWY_INLINE float allowed_distance(float squared_limit, float reach) {
   const float limit = std::sqrt(HWY_MAX(squared_limit, 0.0f)) * (1 - 0x1p-20f);
   return limit - (2 * reach + limit) * 0x1p-17f;
 }
 
-// What proves a d^2 within a limit without computing it: a point over the triangle, enlarged so
-// little that no corner moves by more than `overshoot`, and at most `height` off its plane
-// (docs/numerics.md, "Prisms"). Nothing is inside where the limit is within the errors.
+// A prism proves that a point's d^2 is within a limit without computing it: the point lies over the
+// triangle and at most `height` off its plane. The triangle is enlarged so little that no corner
+// moves by more than `overshoot` (docs/numerics.md, "Prisms"). The prism is empty where the limit
+// is within the errors.
 struct Prism {
   float height, overshoot, edge_error;
 
@@ -69,7 +71,7 @@ struct PacketLanes {
   HWY_INLINE void meet(const TriangleRecord<float>& record) {
     HWY_NAMESPACE::meet(record, at, nearest);
   }
-  // Lanes that lie in the prism over a triangle, which is enlarged in its plane; not for a segment.
+  // Lanes that lie in the prism over a triangle. The triangle must not be a segment.
   HWY_INLINE std::uint32_t inside(const TriangleRecord<float>& r, const Prism& prism) const {
     const FloatTag d;
     const auto all = [d](float value) HWY_ATTR { return hn::Set(d, value); };
@@ -130,9 +132,10 @@ class BallLanes {
       squared_left_[v] = left * left;
     }
   }
-  // Packets whose balls are smaller than the allowed distance, a bit each.
+  // Packets whose balls are smaller than the allowed distance, one bit each.
   HWY_INLINE std::uint32_t smaller() const { return smaller_; }
-  // Those within it of a triangle, with all of their points (docs/numerics.md, "Balls").
+  // Those of them that lie within the allowed distance of a triangle with all of their points
+  // (docs/numerics.md, "Balls").
   HWY_INLINE std::uint32_t within(const TriangleRecord<float>& record) const {
     Real squared[kBallVectors];
     for (Real& s : squared) s = Real(std::numeric_limits<float>::infinity());
@@ -151,7 +154,8 @@ class BallLanes {
   std::uint32_t smaller_ = 0;
 };
 
-// Squares of the gaps between a box and those of a block, for vector v of it.
+// Squares of the gaps between a box and the boxes of a block. v is the number of the block's
+// vector.
 struct BoxLanes {
   Floats lo[3], hi[3];
   HWY_INLINE explicit BoxLanes(const FloatBox& box) {

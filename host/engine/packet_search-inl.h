@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 constexpr std::uint32_t kAll = 0xffff;
 constexpr float kNoLimit = -1.0f;  // every d^2 is above it
 
-// The d^2 above which a packet's points matter: above the maximum, or equal to it with a lower
-// index.
+// Only a d^2 above this limit can change the maximum for a point of this packet: it is greater than
+// the maximum, or equal to it with a lower index.
 HWY_INLINE float limit_of(const RunningMaximum& worst, const Packet& packet) {
   if (!worst.is_set()) return kNoLimit;
   const EmaxResult r = worst.get();
@@ -26,28 +26,28 @@ HWY_INLINE float limit_of(const RunningMaximum& worst, const Packet& packet) {
   return r.squared_bits == 0 ? kNoLimit : bits_float(r.squared_bits - 1);
 }
 
-// The same for every packet, whatever its indices.
+// The limit that holds for every packet, whatever its indices.
 HWY_INLINE float limit_of(const RunningMaximum& worst) {
   if (!worst.is_set()) return kNoLimit;
   const EmaxResult r = worst.get();
   return r.squared_bits == 0 ? kNoLimit : bits_float(r.squared_bits - 1);
 }
 
-// Triangles that settle points of a packet, gathered without a branch. Who gathers keeps their
-// number, in a register.
+// Triangles that settle points of a packet, gathered without a branch. The caller keeps the count
+// in a register.
 struct Witnesses {
-  // Each settles a point that was open; a place behind them is written to.
+  // Each entry settles a point that was open. add() also writes to the place behind the last entry.
   static constexpr std::size_t kRoom = kPacketPoints + 1;
   std::array<std::uint32_t, kRoom> leaves;
-  std::array<std::uint32_t, kRoom> points;  // a bit each
+  std::array<std::uint32_t, kRoom> points;  // one bit each
 
-  // Returns the number that there are now.
+  // Returns the new count.
   HWY_INLINE std::size_t add(std::size_t count, std::uint32_t leaf, std::uint32_t settled) {
     leaves[count] = leaf;
     points[count] = settled;
-    return count + HWY_MIN(settled, 1u);  // not a branch that GCC would find
+    return count + HWY_MIN(settled, 1u);  // GCC would make a branch of a comparison
   }
-  // In place of what `packet` had for these points.
+  // Replaces what `packet` had for these points.
   HWY_INLINE void keep(std::size_t count, SettledPacket& packet) const {
     const IndexTag d;
     const auto bits = hn::Shl(hn::Set(d, 1u), hn::Iota(d, 0u));
@@ -62,8 +62,9 @@ struct Witnesses {
   }
 };
 
-// Points of packet i that an earlier mesh's triangles settle on this mesh, too. Its leaves become
-// this mesh's, kNoLeaf for the other points; `hint` one of them, if there is any.
+// Returns the points of packet i that triangles of an earlier mesh settle on this mesh, too. The
+// packet's leaves become those of this mesh, kNoLeaf for the other points. `hint` becomes one of
+// the leaves, if there is any.
 HWY_INLINE std::uint32_t still_settled(const SearchJob& job, std::size_t i, float limit,
                                        std::uint32_t& hint) {
   const Settled& known = job.settled;
@@ -94,7 +95,7 @@ HWY_INLINE std::uint32_t still_settled(const SearchJob& job, std::size_t i, floa
   return settled;
 }
 
-// Packets of a supergroup whose balls a triangle settles, and which.
+// Packets of a supergroup whose balls a triangle settles, and that triangle.
 class SettledBalls {
  public:
   HWY_INLINE void add(std::uint32_t packets, std::uint32_t leaf) {
@@ -140,9 +141,10 @@ HWY_INLINE float greatest(const std::array<float, kPacketPoints>& values, std::u
   return most;
 }
 
-// Best-first from what the lanes have met already, until every open lane is at the limit or below
-// or has its true d^2; returns the latter. `last_met` becomes the record that was met last, and
-// those that settle lanes are witnesses.
+// Searches best-first, beginning with the distances that the lanes have. It ends when every open
+// lane is at or below the limit or has its true d^2, and returns the lanes above the limit.
+// `last_met` becomes the record that was met last. The records that settle lanes are added to the
+// witnesses.
 [[gnu::flatten]] inline std::uint32_t search_tree(const TreeView& mesh, const Packet& packet,
                                                   PacketLanes& lanes, std::uint32_t open,
                                                   float limit, std::uint32_t& last_met,
@@ -153,7 +155,7 @@ HWY_INLINE float greatest(const std::array<float, kPacketPoints>& values, std::u
   lanes.store(nearest);
   float bound = greatest(nearest, open) * kBoundSlack;
 
-  // A path of the tree and its siblings: levels * (kTreeWidth - 1) + 1 at most.
+  // The stack holds a path of the tree and its siblings: at most levels * (kTreeWidth - 1) + 1.
   std::array<Visit, 8 * kTreeWidth> stack;
   std::size_t depth = 0;
   stack[depth++] = {0, 0, static_cast<std::uint32_t>(mesh.levels.size() - 1)};
@@ -216,8 +218,8 @@ inline void search_packets(const SearchJob& job, std::span<const std::uint32_t> 
   }
 }
 
-constexpr std::size_t kPrismTrial = 16;  // supergroups
-constexpr float kGuess = 2.0f;           // of squares
+constexpr std::size_t kPrismTrial = 16;  // every so many supergroups prisms are tried anyway
+constexpr float kGuess = 2.0f;           // ratio of squared radii
 
 // The packets of supergroup s.
 struct PacketRange {
@@ -227,8 +229,9 @@ struct PacketRange {
         end(HWY_MIN(begin + kSupergroupPackets, cloud.packets.size())) {}
 };
 
-// Whether candidates for the whole supergroup serve its packets; where the radius is large beside
-// it, they would be nearly the same for each, and the last packet's triangle settles most of them.
+// Whether candidates are collected once for the whole supergroup. Where the radius exceeds the
+// supergroup's size, the candidates would be nearly the same for each packet, and the last packet's
+// triangle settles most points.
 HWY_INLINE bool worth_collecting(const FloatBox& box, float squared_radius) {
   float side = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -237,15 +240,15 @@ HWY_INLINE bool worth_collecting(const FloatBox& box, float squared_radius) {
   return squared_radius < side * side;
 }
 
-// The part of the limit within which candidates are looked for: most points are much nearer than
-// the farthest, and the others are searched in the tree.
-constexpr float kNear = 0x1p-4f;  // of squares
+// Candidates are collected within this part of the limit, as a ratio of squares: most points are
+// much nearer than the farthest. The other points are searched in the tree.
+constexpr float kNear = 0x1p-4f;
 
-// Prisms are for points this much nearer than the limit, so that what they prove holds for a mesh
-// with a lower maximum, too.
-constexpr float kProven = 0.8f;  // of squares
+// Prisms prove a limit lower by this ratio of squares, so that the proof also holds for a mesh with
+// a lower maximum.
+constexpr float kProven = 0.8f;
 
-// Points that the mesh before left open are searched in the tree if there are no more of them.
+// At most this many points that the last mesh left open are searched directly in the tree.
 constexpr std::size_t kFew = 4;
 
 // A packet under search, in variables of the search so that they stay in registers.
@@ -307,15 +310,16 @@ class SupergroupCandidates {
   SupergroupCandidates candidates;
   Witnesses witnesses;
   std::uint32_t hint = 0;
-  std::size_t inside_prisms = kPacketPoints, in_packets = 1;  // points of the supergroup before
+  std::size_t inside_prisms = kPacketPoints, in_packets = 1;  // of the previous supergroup
   for (std::size_t s = first; s < last; ++s) {
     if (job.worst.is_set() && job.worst.get().squared_bits > job.enough) return;
     const PacketRange range(job.cloud, s);
     candidates.begin();
-    // Slivers have no prisms to speak of: then they are only tried now and then.
+    // Few points lie in the prisms of slivers. Prisms are then tried only for every kPrismTrial-th
+    // supergroup.
     const bool use_prisms = s % kPrismTrial == 0 || 2 * inside_prisms >= in_packets * kPacketPoints;
     inside_prisms = in_packets = 0;
-    // Where the maximum is large beside packets, one triangle settles many of them at once.
+    // Where the maximum is large relative to packets, one triangle settles many of them at once.
     const float ball_limit = limit_of(job.worst) * kProven;
     const BallLanes balls(job.cloud.balls[s], allowed_distance(ball_limit, job.mesh.reach));
     SettledBalls within;
@@ -361,8 +365,8 @@ class SupergroupCandidates {
   }
 }
 
-// A radius that most points of a supergroup will be within is guessed from the one before; those
-// beyond it are searched in the tree.
+// The radius for a supergroup is a guess from the previous one, within which most points will be.
+// Points beyond it are searched in the tree.
 [[gnu::flatten]] inline void nearest(const SearchJob& job, std::size_t first, std::size_t last,
                                      std::span<std::uint32_t> squared_bits) {
   Candidates candidates;

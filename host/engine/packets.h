@@ -41,16 +41,16 @@ struct LeafKey {
 };
 constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
-// What settled a packet on a mesh: for each point a triangle within sqrt(squared_limit) of it, or
-// kNoLeaf. It serves for every mesh that has this triangle, too.
+// The triangles that settled a packet on a mesh: for each point a triangle within
+// sqrt(squared_limit) of it, or kNoLeaf. They serve for every mesh that has the same triangle.
 struct SettledPacket {
-  float squared_limit = std::numeric_limits<float>::infinity();  // it settles nothing
-  std::uint32_t mesh = 0;                                        // its number
+  float squared_limit = std::numeric_limits<float>::infinity();  // infinity: nothing is settled
+  std::uint32_t mesh = 0;                                        // the mesh's number
   std::array<std::uint32_t, kPacketPoints> leaves;
 };
 
-// The boxes of a tree node's children, empty (and infinitely far) behind the last one. Each is
-// larger than what it holds by the part of the kernel's error that does not depend on the point
+// The boxes of a tree node's children; the boxes behind the last child are empty (infinitely far).
+// Each box is enlarged by the part of the kernel's error that does not depend on the point
 // (docs/numerics.md, "Lower bounds in binary32").
 struct alignas(64) BoxBlock {
   std::array<std::array<float, kTreeWidth>, 3> lo, hi;
@@ -64,7 +64,7 @@ struct PacketView {
 };
 
 // Records in the order of the leaves. Child c of block b of a level is block b * kTreeWidth + c of
-// the level below, and a record for level 0; the last level is one block.
+// the level below; on level 0 the child is a record. The last level is one block.
 struct TreeView {
   std::span<const TriangleRecord<float>> records;
   float reach;  // at least the greatest |V1| + longest edge of a triangle

@@ -60,8 +60,9 @@ void PreparedCloud::add_ball(std::size_t packet) {
       std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
 }
 
-// A kd-split at the median of the longest side, at whole supergroups, then at whole packets. Equal
-// coordinates are ordered by index, so the packets are the same with every standard library.
+// Splits at the median of the longest side of the box, first at whole supergroups, then at whole
+// packets. Equal coordinates are ordered by index, so the packets are the same with every standard
+// library.
 void PreparedCloud::split(std::span<IndexedPoint> points) {
   FloatBox box = {points.front().at, points.front().at};
   for (const IndexedPoint& p : points) extend(box, p.at, p.at);

@@ -10,14 +10,14 @@
 
 namespace emax {
 
-// Neighbouring points that are judged together.
+// Neighbouring points that the search handles together.
 struct PointGroup {
   std::span<const std::uint32_t> points;  // indices into the cloud, ascending
   Eigen::AlignedBox3d box;                // of the points as the kernel reads them
 };
 
-// What the search needs of a cloud, made once: normalised points, and packets of kPacketPoints
-// neighbours, each a group. O(n log^2 n) time, 35 bytes a point.
+// The form of a cloud that the search reads, made once: normalised points, and packets of
+// kPacketPoints neighbours, each of which is a group. O(n log^2 n) time, 35 bytes a point.
 class PreparedCloud {
  public:
   static constexpr std::size_t kGroupPoints = kPacketPoints;

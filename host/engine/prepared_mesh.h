@@ -8,9 +8,10 @@
 
 namespace emax {
 
-// A mesh as the engine needs it: records along a Morton curve and over them a tree of kTreeWidth
-// children a node, which is implicit: only boxes are stored. Made anew for every mesh, so it is
-// made fast: O(n), 114 bytes a triangle. The same bits with any number of threads.
+// The form of a mesh that the engine reads: records along a Morton curve and a tree of boxes over
+// them with kTreeWidth children a node. The tree is implicit: only boxes are stored. It is made
+// anew for every mesh, so it is made fast: O(n), 114 bytes a triangle. The bits are the same with
+// any number of threads.
 class PreparedMesh {
  public:
   // Throws Error for no triangles, and as MeshLeaves does.
