@@ -17,7 +17,7 @@ struct Bounds {
   Point midpoint() const { return 0.5 * lower + 0.5 * upper; }
 };
 
-// `points` is not empty and finite. O(n).
+// `points` is not empty, its coordinates are finite. O(n).
 inline Bounds bounds_of(std::span<const Point> points) {
   Bounds box{points.front(), points.front()};
   for (const Point& point : points) {

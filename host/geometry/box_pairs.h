@@ -36,7 +36,7 @@ class BoxPairs {
     build(0, 0, items_.size());
   }
 
-  // Calls visit(i, j) once for each pair, i != j in no particular order.
+  // Calls visit(i, j) with i != j once for each pair, in no particular order.
   template <class Visit>
   void for_each(const Visit& visit) const {
     if (!nodes_.empty()) join_self(0, visit);

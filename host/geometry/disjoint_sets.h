@@ -7,8 +7,8 @@
 
 namespace emax {
 
-// Of 0 to size - 1, each a set of its own at first; the least of a set is its root. Nearly O(1) a
-// call.
+// Sets of the numbers 0 to size - 1. At first each number is a set of its own. The least number of
+// a set is its root. Nearly O(1) a call.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size) : parent_(size) {
@@ -18,7 +18,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // Whether they were apart.
+  // Returns whether the two were in different sets.
   bool join(std::size_t i, std::size_t j) {
     i = root(i);
     j = root(j);

@@ -12,7 +12,7 @@ inline bool repeats_index(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-// One side of a triangle, seen from its vertex of lower index.
+// One side of a triangle, stored at the lower of its two vertices.
 struct EdgeSide {
   std::uint32_t upper;       // the other vertex
   bool ascends;              // the triangle runs from lower to upper
@@ -20,14 +20,15 @@ struct EdgeSide {
   std::size_t upper_corner;
 };
 
-// The sides of all triangles, grouped by edge. Triangles with a repeated index have none. Indices
-// are in range. O(n log n) for the greatest number n of sides at one vertex, linear in the rest.
+// The sides of all triangles, grouped by edge. Triangles with a repeated index have no sides here.
+// Indices are in range. O(n log n) in the greatest number n of sides at one vertex, linear in the
+// total.
 class EdgeSides {
  public:
   explicit EdgeSides(const MeshView& mesh);
 
   // Calls visit(std::span<const EdgeSide>) with the sides of each edge, in the order of the
-  // triangles; edges in the order of their vertices.
+  // triangles. Edges come in the order of their vertices.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
     for (std::size_t v = 0; v + 1 < begin_of_.size(); ++v) {
@@ -44,7 +45,7 @@ class EdgeSides {
 
  private:
   std::vector<std::size_t> begin_of_;  // where the sides of each lower vertex begin
-  std::vector<EdgeSide> sides_;        // of one lower vertex: sorted by the upper one
+  std::vector<EdgeSide> sides_;        // sides at one lower vertex are sorted by the upper one
 };
 
 }  // namespace emax

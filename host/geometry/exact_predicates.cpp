@@ -17,9 +17,9 @@ template <unsigned kBits>
 using Fixed =
     mp::number<mp::cpp_int_backend<kBits, kBits, mp::signed_magnitude, mp::unchecked, void>>;
 
-// Bits from the lowest to the highest of the coordinates along one axis: where machine integers do,
-// of nearly all meshes, and of any doubles. The determinant of three differences, each of one bit
-// more, fits.
+// Largest spans, in bits from the lowest to the highest of the coordinates along one axis.
+// kWordSpan: machine integers suffice. kNarrowSpan: nearly all meshes. kWidestSpan: any doubles.
+// The integers hold the determinant of three differences, each of which has one bit more.
 constexpr int kWordSpan = 60;
 constexpr int kNarrowSpan = 160;
 constexpr int kWidestSpan = 1024 + 1074;
@@ -31,8 +31,8 @@ static_assert(3 * (kWidestSpan + 1) + 3 <= 6336);
 
 __extension__ using Int128 = __int128;
 
-// Coordinates along one axis as integers. Each axis has a unit of its own, a power of two: that
-// scales a determinant without changing its sign.
+// Coordinates along one axis as integers. Each axis has its own unit, a power of two, which scales
+// a determinant without changing its sign.
 template <std::size_t N>
 class Axis {
  public:
@@ -94,8 +94,8 @@ int sign2d(const Axis<3>& x, const Axis<3>& y) {
   return sign(Product(dx(1) * dy(2) - dy(1) * dx(2)));
 }
 
-// The sign of a[0] b[0] + a[1] b[1] + a[2] b[2]. In words |a| < 2^61 and |b| < 2^124: b is taken
-// apart at 64 bits, so that neither sum leaves 128.
+// The sign of a[0] b[0] + a[1] b[1] + a[2] b[2]. In words |a| < 2^61 and |b| < 2^124: b is split at
+// 64 bits, so that both sums fit into 128 bits.
 int sign_of_sum(const std::array<std::int64_t, 3>& a, const std::array<Int128, 3>& b) {
   Int128 upper = 0;
   Int128 lower = 0;
@@ -128,7 +128,7 @@ int sign3d(const std::array<Axis<4>, 3>& axis) {
   return sign_of_sum(w, minor);
 }
 
-// Where the greatest differences stay between these, no product of three of them over- or
+// If the greatest differences are between these limits, no product of three of them over- or
 // underflows by as much as the slack in the error bounds below.
 constexpr double kSmallest = 1e-90;
 constexpr double kGreatest = 1e90;

@@ -8,10 +8,10 @@
 
 namespace emax {
 
-// Merges vertices of exactly equal coordinates (-0 equals 0 and becomes it), drops those that no
-// triangle uses, and numbers the rest in the order in which triangles first use them. Triangles
-// keep their number and order; one whose corners fall together keeps its place with a repeated
-// index. Coordinates are finite. O(n) expected.
+// Merges vertices of exactly equal coordinates (-0 counts as 0 and becomes 0), drops vertices that
+// no triangle uses, and numbers the others in the order in which triangles first use them.
+// Triangles keep their number and order; a triangle whose corners were merged stays, with a
+// repeated index. Coordinates are finite. O(n) expected.
 void merge_equal_vertices(std::vector<Point>& vertices, std::vector<Triangle>& triangles);
 
 // Whether any triangle uses the vertex, for each of `vertex_count` vertices. O(n).

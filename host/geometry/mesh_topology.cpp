@@ -36,12 +36,12 @@ MeshTopology topology_of(const MeshView& mesh) {
       if (fans.root(c) == c) ++vertices;
     }
   }
-  // Each vertex on a border of the cut surface has two sides there, so joined ends make loops, and
-  // the side that joins nothing closes one.
+  // Each vertex on a border of the cut surface has two border sides, so the sides form loops. The
+  // side that joins nothing new closes a loop.
   for (const EdgeSide& side : borders) {
     if (!fans.join(side.lower_corner, side.upper_corner)) ++topology.border_loops;
   }
-  // 2 components - border loops - characteristic, ordered so that no difference falls below 0.
+  // 2 components - border loops - characteristic. In this order no unsigned difference is negative.
   topology.genus = (2 * topology.components + edges - topology.border_loops - vertices - faces) / 2;
   return topology;
 }

@@ -7,16 +7,14 @@
 
 namespace emax {
 
-// What a surface is like however it is bent: of how many pieces it is, how many closed lines bound
-// it, and how many handles its pieces have together.
-//
-// Any mesh is understood as the surface it becomes when it is cut apart along every edge that is
-// not of exactly two triangles which run through it in opposite directions, and at every vertex
-// whose triangles are more than one fan after that. So a cut along an edge of three triangles is
-// border three times. Edges and vertices are told apart by index, not position. The surface left by
-// the cuts is manifold and oriented: a one-sided surface, such as a Moebius strip, counts as it is
-// after the cut along the edges where its triangles disagree. Triangles with a repeated index and
-// vertices of no triangle are no part of it.
+// Properties of a surface that do not depend on how it is bent: the number of its pieces, of the
+// closed lines that bound it, and of the handles of all pieces together. Any mesh is understood as
+// the surface that these cuts make of it: along every edge that is not of exactly two triangles
+// which run through it in opposite directions, then at every vertex whose triangles form more than
+// one fan. An edge of three triangles therefore becomes border three times. Edges and vertices are
+// distinguished by index, not by position. The surface after the cuts is manifold and oriented. A
+// one-sided surface, such as a Moebius strip, is counted after the cut along the edges where its
+// triangles disagree. Triangles with a repeated index and vertices of no triangle do not count.
 //
 // Genus is the sum over the components: (2 components - border loops - characteristic) / 2 with the
 // Euler characteristic vertices - edges + triangles of the cut surface.

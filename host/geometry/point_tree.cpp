@@ -21,7 +21,7 @@ PointTree::PointTree(std::span<const Point> points) : points_(points.begin(), po
   for (std::size_t i = 0; i < points.size(); ++i) points_[i] = points[original_[i]];
 }
 
-// Until the tree is built points_ stand in their original order.
+// points_ keep their original order until the tree is built.
 std::uint32_t PointTree::build(std::uint32_t begin, std::uint32_t end) {
   const auto node = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({0, begin, end, 0, 0});
@@ -51,7 +51,7 @@ void PointTree::nearest(const Point& p, std::size_t k, std::vector<Neighbour>& f
   std::ranges::sort_heap(found);
 }
 
-// `found` is a heap of the nearest so far; `beyond` is how far p lies outside the node, axis by
+// `found` is a heap of the nearest so far. `beyond` is how far p lies outside the node along each
 // axis.
 void PointTree::search(std::uint32_t at, const Point& p, std::size_t k, Point beyond,
                        std::vector<Neighbour>& found) const {

@@ -23,15 +23,16 @@ class PointTree {
 
   std::size_t size() const { return points_.size(); }
 
-  // The k nearest points, all where there are fewer, nearest first; of equal distances the lower
-  // indices. O(k log k + log n) for points of a surface. Safe for concurrent use.
+  // The k nearest points, or all if there are fewer, nearest first; equal distances in the order of
+  // the indices, the lower first. O(k log k + log n) for points of a surface. Safe for concurrent
+  // use.
   void nearest(const Point& p, std::size_t k, std::vector<Neighbour>& found) const;
 
  private:
   struct Node {
     double split;              // coordinate of the plane between the children
     std::uint32_t begin, end;  // places of its points
-    std::uint32_t right;       // the right child, the left one follows its parent; 0 in a leaf
+    std::uint32_t right;       // the right child (the left child follows its parent); 0 in a leaf
     int axis;
   };
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
@@ -40,7 +41,7 @@ class PointTree {
 
   std::vector<Node> nodes_;
   std::vector<Point> points_;            // in the order of the leaves
-  std::vector<std::uint32_t> original_;  // and their indices
+  std::vector<std::uint32_t> original_;  // the index of each in the cloud
 };
 
 }  // namespace emax

@@ -31,7 +31,7 @@ class Ears {
     normal_ = newell_normal(corners_, vertices_);
   }
 
-  // Empty where no ear is left.
+  // Returns nothing if no ear is left.
   std::vector<Triangle> cut() {
     std::vector<Triangle> triangles;
     while (corners_.size() > 3) {

@@ -20,7 +20,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// Standard deviation of what a quadric over the plane of principal components leaves.
+// Standard deviation of the residuals of a quadric over the plane of principal components.
 double residual(std::span<const Point> points) {
   const auto n = static_cast<Eigen::Index>(points.size());
   Point mean = Point::Zero();
@@ -64,7 +64,7 @@ ScanEstimate estimate_scan(std::span<const Point> cloud) {
     residuals.push_back(residual(around));
     residuals_of_few.push_back(residual(std::span(around).first(std::min(kFew, around.size()))));
   }
-  // Medians of chi-squared over its 19 and 6 degrees of freedom.
+  // Medians of chi-squared over its degrees of freedom: 19 for 25 points and 6 for 12.
   const double all = std::pow(median(residuals), 2) / 0.9651;
   const double few = std::pow(median(residuals_of_few), 2) / 0.8914;
   constexpr double kRatio = double{kFitted} / double{kFew}, kGrowth = kRatio * kRatio * kRatio;

@@ -7,7 +7,8 @@
 namespace emax {
 namespace {
 
-// Through memory: GCC 12 vectorises a pair of double(float(x)) into no rounding at all.
+// The value goes through memory, because GCC 12 vectorises a pair of double(float(x)) without any
+// rounding.
 Point rounded_to_binary32(const Point& vertex) {
   Point stored;
   for (int k = 0; k < 3; ++k) {

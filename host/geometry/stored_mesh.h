@@ -4,14 +4,14 @@
 
 namespace emax {
 
-// How coordinates are kept: as they are, or as STL does, rounded to 32 bit with equal vertices
+// How coordinates are kept: unchanged, or as STL keeps them, rounded to 32 bits with equal vertices
 // merged.
 enum class Storage { kExact, kBinary32 };
 
 // The mesh that storing and reading gives back, bit for bit. kBinary32 rounds coordinates, then
-// drops unused vertices and merges equal ones in the order of first use; triangles keep their
-// number and order, so one that collapses stays, with a repeated index, for check_mesh to report.
-// Coordinates are finite. O(n) expected.
+// drops unused vertices and merges equal ones in the order of first use. Triangles keep their
+// number and order: a triangle that collapses stays with a repeated index, which check_mesh
+// reports. Coordinates are finite. O(n) expected.
 TriangleMesh as_stored(const TriangleMesh& mesh, Storage storage);
 
 // The greatest distance by which storing moves a vertex. O(n).

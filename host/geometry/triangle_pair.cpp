@@ -13,8 +13,8 @@ namespace {
 using Corners = std::array<Point, 3>;
 using Point2 = Eigen::Vector2d;
 
-// An axis along which the triangle can be projected without losing its area: that of the greatest
-// component of its normal, or the next one where rounding misleads.
+// An axis along which the triangle can be projected without losing its area: the axis of the
+// greatest component of its normal, or the next one where that component is only rounding.
 int projection_axis(const Corners& t) {
   const Point normal = (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs();
   int axis = 0;
@@ -57,12 +57,12 @@ bool segment_meets_coplanar(const Point& p, const Point& q, const Corners& t) {
   return inside;
 }
 
-// `side_p` and `side_q` tell on which side of the triangle's plane the ends are.
+// `side_p` and `side_q` are the sides of the triangle's plane on which the ends lie.
 bool segment_meets(const Point& p, int side_p, const Point& q, int side_q, const Corners& t) {
   if (side_p * side_q > 0) return false;
   if (side_p == 0 && side_q == 0) return segment_meets_coplanar(p, q, t);
-  // The line crosses the plane in one point; it is in the triangle when it passes all edges on the
-  // same side.
+  // The line crosses the plane in one point. The point is in the triangle if the line passes all
+  // edges on the same side.
   bool left = false;
   bool right = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -82,9 +82,9 @@ bool one_sided(const std::array<int, 3>& side, std::size_t from) {
   return true;
 }
 
-// The corners before `shared` (0 or 1 of them) are one and the same vertex of both. A common point
-// other than it lies on a segment of common points that leaves one of the triangles through an edge
-// opposite to that vertex; without a shared vertex, some edge of one meets the other.
+// The corners before `shared` (0 or 1 of them) are the same vertex of both triangles. Any other
+// common point lies on a segment of common points that leaves one of the triangles through the edge
+// opposite to that vertex. Without a shared vertex, some edge of one triangle meets the other.
 bool meet(const Corners& a, const Corners& b, std::size_t shared) {
   std::array<int, 3> side_b{};
   for (std::size_t i = shared; i < 3; ++i) side_b[i] = orient3d(a[0], a[1], a[2], b[i]);
@@ -100,7 +100,8 @@ bool meet(const Corners& a, const Corners& b, std::size_t shared) {
   return false;
 }
 
-// Coplanar and with the opposite corners on the same side of the shared edge.
+// Whether the triangles (a, b, c) and (a, b, d) are coplanar, with c and d on the same side of the
+// shared edge.
 bool folded_over(const Point& a, const Point& b, const Point& c, const Point& d) {
   if (orient3d(a, b, c, d) != 0) return false;
   const int axis = projection_axis({a, b, c});
@@ -114,7 +115,7 @@ bool folded_over(const Point& a, const Point& b, const Point& c, const Point& d)
 bool intersect_beyond_shared(const MeshView& mesh, std::size_t first, std::size_t second) {
   Triangle s = mesh.triangles[first];
   Triangle t = mesh.triangles[second];
-  // Shared corners are moved to the front of both, in the same order.
+  // Shared corners are moved to the front of both triangles, in the same order.
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto same = std::find(t.begin() + static_cast<std::ptrdiff_t>(shared), t.end(), s[i]);

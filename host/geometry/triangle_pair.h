@@ -6,9 +6,9 @@
 
 namespace emax {
 
-// Whether two triangles of a mesh meet anywhere but in the vertex or edge that they share by index;
-// touching counts. Neither is degenerate. Exact. Equal corners of different index are not shared,
-// three shared corners are an overlap.
+// Whether two triangles of a mesh meet outside the vertex or edge that they share by index;
+// touching counts. Neither triangle is degenerate. Exact. Equal corners of different index are not
+// shared; three shared corners are an overlap.
 bool intersect_beyond_shared(const MeshView& mesh, std::size_t first, std::size_t second);
 
 }  // namespace emax

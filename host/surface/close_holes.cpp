@@ -15,14 +15,14 @@
 namespace emax {
 namespace {
 
-constexpr double kFoldsBack = -0.5;  // cosine: a turn of more than 120 degrees is no surface's
+constexpr double kFoldsBack = -0.5;  // cosine: a sharper turn than 120 degrees folds back
 constexpr std::uint32_t kNone = ~0u;
 
 struct DirectedEdge {
   std::uint32_t from, to;
 };
 
-// Who lies where in a mesh, and its holes.
+// The triangles around each vertex of a mesh, and the mesh's holes.
 class Adjacency {
  public:
   explicit Adjacency(const TriangleMesh& mesh) : mesh_(mesh), first_(mesh.vertices.size() + 1, 0) {
@@ -84,12 +84,12 @@ class Adjacency {
   }
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> first_, around_;  // of each vertex, among the triangles around all
+  std::vector<std::uint32_t> first_, around_;  // around v: first_[v] to first_[v + 1]
   std::vector<std::vector<std::uint32_t>> holes_;
   std::unordered_map<std::uint32_t, std::uint32_t> hole_at_;
 };
 
-// Every hole, where none is too wide for a crack.
+// Which holes are cracks. With an infinite `crack` all of them are.
 std::vector<bool> cracks_of(const TriangleMesh& mesh, const Adjacency& adjacency, double crack) {
   if (crack == std::numeric_limits<double>::infinity()) {
     return std::vector<bool>(adjacency.holes().size(), true);
@@ -109,7 +109,7 @@ std::vector<bool> cracks_of(const TriangleMesh& mesh, const Adjacency& adjacency
   return find_cracks(loops, mesh.vertices, crack);
 }
 
-// One hole, or what it becomes with the triangles around it dropped, and what closes it.
+// A hole and the triangles around it that are dropped, with the patches that close it.
 class Opening {
  public:
   Opening(const TriangleMesh& mesh, const Adjacency& adjacency, double farthest,
@@ -120,7 +120,7 @@ class Opening {
         most_edges_(most_edges),
         cracks_(cracks) {}
 
-  // False when it cannot be closed.
+  // Returns false where the hole cannot be closed.
   bool close(std::uint32_t hole, int rings) {
     if (!take(hole)) return false;
     if (!trace()) return false;
@@ -140,7 +140,7 @@ class Opening {
   const std::vector<Triangle>& patches() const { return patches_; }
   std::size_t holes() const { return holes_.size(); }
 
-  // Vertices that it changes or rests on.
+  // Vertices of the dropped triangles and of the patches.
   std::vector<std::uint32_t> touched() const {
     std::vector<std::uint32_t> all;
     for (const std::uint32_t t : dropped_) {
@@ -160,7 +160,7 @@ class Opening {
   bool drop(std::span<const std::uint32_t> triangles) {
     for (const std::uint32_t t : triangles) {
       if (!dropped_.insert(t).second) continue;
-      // Another hole that it reaches becomes part of this one.
+      // Another hole at a vertex of the triangle becomes part of this one.
       for (const std::uint32_t v : mesh_.triangles[t]) {
         const std::uint32_t hole = adjacency_.hole_at(v);
         if (hole != kNone && !holes_.contains(hole) && !take(hole)) return false;
@@ -171,8 +171,8 @@ class Opening {
 
   bool is_left(std::uint32_t t) const { return t != kNone && !dropped_.contains(t); }
 
-  // The edges of what is left around, as loops; where one would touch itself, all triangles at that
-  // vertex are dropped.
+  // Traces the edges that triangles which stay have at the opening, as loops. Where a loop would
+  // touch itself, all triangles at that vertex are dropped.
   bool trace() {
     for (;;) {
       std::unordered_map<std::uint32_t, std::uint32_t> next;
@@ -203,8 +203,8 @@ class Opening {
     }
   }
 
-  // Of the holes and of what is dropped, in the direction of triangles that would be in its place;
-  // in an order that depends on the mesh alone.
+  // The edges of the holes and of the dropped triangles, in the direction of the triangles that
+  // would take their place. The order depends on the mesh alone.
   std::vector<DirectedEdge> edges() const {
     std::vector<DirectedEdge> all;
     std::vector<std::uint32_t> names(holes_.begin(), holes_.end());
@@ -264,7 +264,8 @@ class Opening {
   std::vector<Triangle> patches_;
 };
 
-// Which openings' patches meet the mesh or each other's beyond what they share.
+// Which openings have patches that meet the mesh or other patches beyond the vertices and edges
+// that they share.
 std::vector<bool> intersecting(const TriangleMesh& mesh, std::span<const Opening> openings) {
   const std::size_t given = mesh.triangles.size();
   TriangleMesh all = mesh;
@@ -280,7 +281,7 @@ std::vector<bool> intersecting(const TriangleMesh& mesh, std::span<const Opening
     if (j < given) return;
     const std::uint32_t o = owner[j - given];
     if (i < given && openings[o].dropped().contains(i)) return;
-    // What another opening drops may come back, so it counts, too.
+    // Triangles that another opening drops count, too: they may come back.
     if (intersect_beyond_shared(all.view(), i, j)) bad[o] = true;
   });
   return bad;

@@ -13,8 +13,9 @@
 
 namespace emax {
 
-// How well triangles close a hole: first the cosine of the sharpest fold between them and with the
-// mesh around, to be great, then their area, to be small.
+// How well triangles close a hole. `fold` is the cosine of the sharpest fold between them and with
+// the mesh around; greater is better. It is compared first. `area` is their area; smaller is
+// better.
 struct PatchQuality {
   double fold = 1;
   double area = 0;
@@ -26,17 +27,17 @@ struct PatchQuality {
 };
 
 struct HolePatch {
-  std::vector<std::array<std::size_t, 3>> triangles;  // of positions along the hole
+  std::vector<std::array<std::size_t, 3>> triangles;  // indices of corners of the hole
   PatchQuality quality;
 };
 
-// A triangulation of the polygon `hole` whose sharpest fold is the least there is, up to
-// kExactCorners corners, else nearly, and of little area (after Barequet and Sharir 1995 and Liepa
-// 2003). `behind` holds, for the edge from each
-// corner to the next, the third corner of the mesh's triangle on its other side; `may_join(i, j)`
-// says whether two corners that are not neighbours may be joined. Triangles follow the polygon's
-// direction. Nothing where there is no triangulation without triangles of no area, or none is
-// found. O(k^4) time and O(k^3) memory for k corners where it is exact, else O(k^3) and O(k^2).
+// Triangulates the polygon `hole` (after Barequet and Sharir 1995 and Liepa 2003). Up to
+// kExactCorners corners the sharpest fold is the least possible, else nearly so; the area is small.
+// `behind` holds, for the edge from each corner to the next, the third corner of the mesh's
+// triangle on its other side. `may_join(i, j)` tells whether two corners that are not neighbours
+// may be joined. Triangles follow the polygon's direction. Returns nothing where every
+// triangulation has a triangle of no area, or none is found. For k corners: O(k^4) time and O(k^3)
+// memory up to kExactCorners, else O(k^3) and O(k^2).
 inline constexpr std::size_t kExactCorners = 60;
 std::optional<HolePatch> best_patch(std::span<const Point> hole, std::span<const Point> behind,
                                     const std::function<bool(std::size_t, std::size_t)>& may_join);
@@ -47,34 +48,33 @@ struct ClosedHoles {
   std::size_t dropped = 0;  // triangles around them
 };
 
-// Closes holes of `mesh`, which is as manifold_part() gives it, without new vertices. Where a
-// hole's rim folds over itself, so that no patch would continue it, up to kRimRings rings of
-// triangles around it are dropped first, if the wider hole can be closed. A hole stays open when it
-// has more than `most_edges` edges or is wider than `size`: when a vertex is farther than that many
-// widths of the mesh from their mean. It also stays open when it is no crack (find_cracks()).
-// What comes out is as manifold_part() gives it. O(n log n).
+// Closes holes of `mesh` without new vertices. Where a hole's rim folds over itself, no patch can
+// continue it; then up to kRimRings rings of triangles around it are dropped first, if the wider
+// hole can be closed. A hole stays open if it has more than `most_edges` edges, if a vertex of it
+// is farther from their mean than `size` times the mesh's width, or if it is not a crack
+// (find_cracks()). `mesh` is as manifold_part() gives it; so is the result. O(n log n).
 inline constexpr std::size_t kMostHoleEdges = 400;
 inline constexpr int kRimRings = 4;
 ClosedHoles close_holes(TriangleMesh mesh, double size,
                         double crack = std::numeric_limits<double>::infinity(),
                         std::size_t most_edges = kMostHoleEdges);
 
-// close_holes() for all that can be closed, and what cannot. Holes of kMostClosedEdges edges take
-// seconds.
+// close_holes() for all holes that can be closed, with a list of the borders that stay open. Holes
+// of kMostClosedEdges edges take seconds.
 struct OpenBorder {
   std::size_t edges = 0;
   Point middle;       // mean of its vertices
-  double radius = 0;  // their greatest distance from it
+  double radius = 0;  // their greatest distance from the mean
 };
 struct ClosedSurface {
   TriangleMesh mesh;
   std::size_t closed = 0;        // holes
-  std::vector<OpenBorder> open;  // borders that are left
+  std::vector<OpenBorder> open;  // borders that stay open
 };
 inline constexpr std::size_t kMostClosedEdges = 1500;
 ClosedSurface close_surface(TriangleMesh mesh);
 
-// Border loops that are cracks (find_cracks()). For a mesh as manifold_part() gives it.
+// Number of border loops that are cracks (find_cracks()). `mesh` is as manifold_part() gives it.
 std::size_t count_cracks(const TriangleMesh& mesh, double crack);
 
 }  // namespace emax

@@ -9,20 +9,21 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kNearest = 40;           // edges looked at
+constexpr std::size_t kNearest = 40;           // edges that are tested for each edge
 constexpr double kCone = 0.7, kFacing = -0.3;  // cosines
 constexpr double kAcross = -0.5;               // likewise
-constexpr double kDetour = 3;                  // along the loop, in distances across it
+constexpr double kDetour = 3;                  // length along the loop, in distances across it
 
-// In the triangle's plane, away from it.
+// The direction in the triangle's plane, perpendicular to the edge, that points away from the
+// triangle.
 Point ahead_of(const RimEdge& edge) {
   const Point along = (edge.to - edge.from).normalized();
   const Point away = edge.from - edge.behind;
   return (away - away.dot(along) * along).normalized();
 }
 
-// Side of the square that a vertex has of the surface: the median over the loop, where vertices are
-// on one side only.
+// The distance between vertices around a loop: the side of the square that each vertex has of the
+// surface. Median over the loop. Vertices at the loop are on one side only.
 double spacing_at(std::span<const RimEdge> loop, const PointTree& tree) {
   constexpr std::size_t kAround = 10;
   std::vector<double> squares;
@@ -40,19 +41,19 @@ double spacing_at(std::span<const RimEdge> loop, const PointTree& tree) {
 struct Place {
   Point middle, ahead;
   std::uint32_t loop;
-  double along;  // from where the loop begins
+  double along;  // length of the loop up to this place
 };
 
-// Whether the mesh goes on before an edge, at another.
+// Whether the mesh continues ahead of an edge, at the other edge.
 bool goes_on(const Place& place, const Place& other, double most) {
   const Point offset = other.middle - place.middle;
   return offset.norm() <= most && offset.dot(place.ahead) > kCone * offset.norm() &&
          other.ahead.dot(place.ahead) < kFacing;
 }
 
-// Whether the other is the far side of a slit that the loop runs around: neither is behind the
-// other, as the sides of a tongue are, and the way along the loop is long. The slit may lie along a
-// sharp edge or at the tip of a fin.
+// Whether the other edge is on the far side of a slit that the loop runs around. Then neither edge
+// is behind the other, as the two sides of a tongue are, and the way along the loop is long. The
+// slit may lie along a sharp edge or at the tip of a fin.
 bool lies_across(const Place& place, const Place& other, double most, double length) {
   if (place.loop != other.loop) return false;
   const Point offset = other.middle - place.middle;

@@ -11,7 +11,7 @@
 namespace emax {
 namespace {
 
-constexpr double kAlike = 8;  // components whose areas differ by no more are looked at together
+constexpr double kAlike = 8;  // components within this ratio of areas are tested in the same round
 
 class Components {
  public:
@@ -42,7 +42,7 @@ class Components {
  private:
   const TriangleMesh& mesh_;
   DisjointSets sets_;
-  std::vector<double> areas_;  // of each at its root
+  std::vector<double> areas_;  // of each component, at its root
 };
 
 }  // namespace
@@ -54,7 +54,7 @@ TriangleMesh drop_needless_components(TriangleMesh mesh, std::span<const Point> 
   TriangleMesh part = components.part(added);
   if (part.triangles.size() == mesh.triangles.size()) return mesh;
 
-  struct Open {  // a point that nothing kept is known to be near to
+  struct Open {  // a point that is not yet known to be near a kept component
     Point point;
     std::size_t component;  // nearest to it
   };

@@ -17,16 +17,16 @@ namespace emax {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
-// A flip is worth turning the edges around by that on average; less may be rounding, and flips
-// would not end.
+// A flip must reduce the turn of the edges around it by this ratio of their length. A smaller gain
+// may be rounding, and the flips would not end.
 constexpr double kGain = 1e-9;
 
 double turn_cost(const Point& from, const Point& to, const Point& normal, const Point& other) {
   return (to - from).norm() * (normal - other).norm();
 }
 
-// Sides are numbered 3 * triangle + place of the vertex that they come from. Edges of triangles
-// with a locked vertex stay.
+// A side has the number 3 * triangle + place of its first vertex. Edges of triangles with a locked
+// vertex are not flipped.
 class Flips {
  public:
   Flips(TriangleMesh& mesh, const std::vector<std::uint8_t>& locked)
@@ -94,14 +94,14 @@ class Flips {
   double cost(std::uint32_t a, std::uint32_t b, const Point& n, const Point& m) const {
     return turn_cost(at(a), at(b), n, m);
   }
-  // Of a side as it is, against `n`.
+  // The cost of side s if its own triangle had the normal `n`.
   double cost_outside(std::uint32_t s, const Point& n) const {
     if (twin_[s] == kNone) return 0;
     const Triangle& t = mesh_.triangles[twin_[s] / 3];
     return cost(from(s), from(following(s)), n, unit_normal(t[0], t[1], t[2]));
   }
 
-  // Of the edges around a side and its twin.
+  // Total length of the five edges of the two triangles at a side and its twin.
   double length(std::uint32_t s, std::uint32_t t) const {
     double sum = 0;
     for (const std::uint32_t side :
@@ -150,7 +150,7 @@ class Flips {
       side = twin_[following(following(side))];
     } while (side != kNone && side != s);
     if (side == s) return false;
-    for (side = s; twin_[side] != kNone;) {  // the other way round, from the border
+    for (side = s; twin_[side] != kNone;) {  // in the other direction, from the border
       side = following(twin_[side]);
       if (has(side)) return true;
     }
@@ -162,7 +162,8 @@ class Flips {
     if (t != kNone) twin_[t] = s;
   }
 
-  // Triangles (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b), sides s and t those between.
+  // Triangles (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b). Sides s and t are the edge
+  // between them.
   void flip(std::uint32_t s) {
     const std::uint32_t t = twin_[s];
     const std::uint32_t bc = following(s), ca = following(bc), ad = following(t),
@@ -189,7 +190,7 @@ class Flips {
   std::vector<std::uint8_t> changed_;  // of the triangles
 };
 
-// Locks the vertices of changed triangles that intersect others; false where none does.
+// Locks the vertices of changed triangles that intersect others; returns false if none does.
 bool lock_intersecting(const TriangleMesh& mesh, const std::vector<std::uint8_t>& changed,
                        std::vector<std::uint8_t>& locked) {
   bool found = false;
@@ -208,7 +209,7 @@ bool lock_intersecting(const TriangleMesh& mesh, const std::vector<std::uint8_t>
 
 std::size_t flip_edges(TriangleMesh& mesh) {
   std::vector<std::uint8_t> locked(mesh.vertices.size(), 0);
-  // Every round locks vertices that were not: of triangles that a flip made.
+  // Every round locks new vertices: those of triangles that a flip made.
   for (;;) {
     TriangleMesh flipped = mesh;
     Flips flips(flipped, locked);

@@ -13,7 +13,7 @@ double cosine(const Point& a, const Point& b) {
   return length > 0 ? a.dot(b) / length : -1;
 }
 
-// Of a triangle's normal against the triangle on the other side of its edge.
+// The fold of a triangle with this normal against the triangle behind its edge.
 double fold_behind(const Point& normal, const Point& from, const Point& to, const Point& behind) {
   return cosine(normal, (from - to).cross(behind - to));
 }
@@ -35,8 +35,9 @@ class HoleTriangulation {
   }
 
  private:
-  // Of the polygon from corner i to j with the triangle (i, k, j); nothing where there is no
-  // triangulation. How sharply a neighbour folds against it depends on k, so each k is kept.
+  // The best triangulation of the polygon from corner i to j that has the triangle (i, k, j);
+  // `quality` is empty where there is none. The parts of all k are kept, because the fold against a
+  // neighbour depends on k.
   struct Part {
     std::optional<PatchQuality> quality;
     std::size_t low = 0, high = 0;  // the apexes of the triangles at (i, k) and (k, j)
@@ -70,7 +71,8 @@ class HoleTriangulation {
     }
   }
 
-  // Of the polygon from corner i to j, together with the fold at (i, j) against `normal`.
+  // The best triangulation of the polygon from corner i to j, including the fold at (i, j) against
+  // `normal`.
   Best best_at(std::size_t i, std::size_t j, const Point* normal) const {
     if (j == i + 1) return {PatchQuality{fold_at(*normal, i, j), 0}, 0};
     Best best;
@@ -109,12 +111,12 @@ class HoleTriangulation {
 
   std::span<const Point> hole_, behind_;
   const std::function<bool(std::size_t, std::size_t)>& may_join_;
-  std::vector<std::size_t> first_;  // of the parts from i to j
+  std::vector<std::size_t> first_;  // index of the first part from i to j
   std::vector<Part> parts_;
 };
 
-// Of many corners: of each part of the polygon only the best triangulation is kept, whatever will
-// lie beside it, so that the whole may miss the best (Liepa 2003). O(k^3) time, O(k^2) memory.
+// For many corners. It keeps only the best triangulation of each part of the polygon, whatever will
+// be beside it, so the whole may not be the best (Liepa 2003). O(k^3) time, O(k^2) memory.
 class QuickTriangulation {
  public:
   QuickTriangulation(std::span<const Point> hole, std::span<const Point> behind,
@@ -141,7 +143,7 @@ class QuickTriangulation {
   }
 
  private:
-  // Of the polygon from corner i to j, with the triangle (i, apex, j).
+  // The polygon from corner i to j, with the triangle (i, apex, j).
   struct Part {
     PatchQuality quality;
     Point normal = Point::Zero();

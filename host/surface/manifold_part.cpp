@@ -66,7 +66,7 @@ std::size_t drop_degenerate(TriangleMesh& mesh) {
     Triangle sorted = mesh.triangles[t];
     std::sort(sorted.begin(), sorted.end());
     const auto [a, b, c] = mesh.view().corners(t);
-    // A normal of length 0 is no use either, even where exact arithmetic sees an area.
+    // A normal of length 0 is of no use, even where exact arithmetic finds an area.
     const bool repeats = sorted[0] == sorted[1] || sorted[1] == sorted[2];
     flags[t] = repeats || collinear(a, b, c) ||
                !(normal_of(mesh, static_cast<std::uint32_t>(t)).squaredNorm() > 0) ||
@@ -143,7 +143,7 @@ class Fans {
  public:
   explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), sets_(3 * mesh.triangles.size()) {}
 
-  // Through the edge that both have.
+  // Joins the corners of two triangles at the ends of the edge that they share.
   void join(const Side& s, const Side& t) {
     for (const std::uint32_t vertex : {s.low, s.high}) {
       sets_.join(corner_at(s.triangle, vertex), corner_at(t.triangle, vertex));
@@ -161,7 +161,7 @@ class Fans {
   DisjointSets sets_;
 };
 
-// Of each vertex, the root of its fan of the greatest area; ~0 where there is none.
+// For each vertex, the root of its fan of the greatest area; ~0 where it has no fan.
 std::vector<std::uint32_t> largest_fans(const TriangleMesh& mesh, Fans& fans) {
   const auto corners = static_cast<std::uint32_t>(3 * mesh.triangles.size());
   std::vector<double> area(corners, 0);  // of each root
@@ -188,8 +188,8 @@ std::size_t drop_at_vertices(TriangleMesh& mesh) {
   return drop(mesh, flags);
 }
 
-// Pairs the sides of an edge that run through it in opposite directions, those first that continue
-// each other best, and calls join(s, t) for each pair. Whether any side is left.
+// Pairs the sides of an edge that run through it in opposite directions, beginning with the pair
+// that folds least, and calls join(s, t) for each pair. Returns whether any side has no partner.
 template <class Join>
 bool pair_sides(const TriangleMesh& mesh, std::span<const Side> sides, const Join& join) {
   std::vector<const Side*> open;
@@ -214,8 +214,9 @@ bool pair_sides(const TriangleMesh& mesh, std::span<const Side> sides, const Joi
   }
 }
 
-// A triangle without area whose corner lies on a side of a single other triangle: that one is split
-// there, and nothing of the surface is lost.
+// Splits triangles at collinear ones. Where a triangle without area has a corner on a side of a
+// single other triangle, that other triangle is split at the corner, so no part of the surface is
+// lost.
 std::size_t split_at_collinear(TriangleMesh& mesh) {
   std::size_t split = 0;
   const std::vector<Side> sides = sides_by_edge(mesh);
@@ -231,7 +232,7 @@ std::size_t split_at_collinear(TriangleMesh& mesh) {
         !is_flat(t)) {
       continue;
     }
-    // Its longest side, and the corner between the ends.
+    // Finds its longest side, and the corner between the ends.
     std::size_t longest = 0;
     const auto length = [&](std::size_t i) {
       return (mesh.vertices[flat[(i + 1) % 3]] - mesh.vertices[flat[i]]).squaredNorm();
@@ -275,7 +276,7 @@ void cut_apart(CutSurface& surface) {
         pair_sides(mesh, sides, [&](const Side& s, const Side& t) { fans.join(s, t); });
     if (sides.size() > 2 || (sides.size() == 2 && parted)) ++surface.cut_edges;
   });
-  // The largest fan keeps the vertex.
+  // The fan of the greatest area keeps the vertex.
   std::vector<std::uint32_t> keeper = largest_fans(mesh, fans);
   std::vector<std::uint32_t> vertex_of(3 * mesh.triangles.size(), ~0u);  // of each other root
   std::vector<std::uint8_t> cut(mesh.vertices.size(), 0);
@@ -321,7 +322,7 @@ std::size_t drop_intersecting(TriangleMesh& mesh) {
   return drop(mesh, flags);
 }
 
-// Whatever is not manifold, until nothing is.
+// Drops triangles until the mesh is manifold.
 std::size_t drop_non_manifold(TriangleMesh& mesh) {
   std::size_t dropped = 0;
   for (std::size_t last = 1; last > 0;) {
@@ -333,7 +334,7 @@ std::size_t drop_non_manifold(TriangleMesh& mesh) {
   return dropped;
 }
 
-// How many vertices went, of those that triangles use.
+// Returns the number of used vertices that were merged into others.
 std::size_t merge_all(TriangleMesh& mesh) {
   drop_unused_vertices(mesh.vertices, mesh.triangles);
   const std::size_t before = mesh.vertices.size();
@@ -368,7 +369,8 @@ CutSurface cut_to_manifold(TriangleMesh mesh) {
   surface.turned = orient_consistently(mesh);
   surface.mesh = std::move(mesh);
   cut_apart(surface);
-  // Where both ends of an edge stay joined around a triangle that was parted from it.
+  // An edge may still have two triangles whose both ends are joined around a triangle that was cut
+  // off from it.
   surface.dropped += drop_non_manifold(surface.mesh);
   drop_unused(surface.mesh);
   return surface;

@@ -14,14 +14,14 @@ namespace {
 struct HalfEdge {
   std::uint32_t low, high;  // the edge's vertices
   std::uint32_t triangle;
-  bool rising;  // the triangle runs through it from low to high
+  bool rising;  // the triangle runs through the edge from low to high
 
   auto edge() const { return std::pair(low, high); }
 };
 
 struct Neighbour {
   std::uint32_t triangle;
-  bool opposed;  // consistently oriented as they stand
+  bool opposed;  // the two triangles run through the edge in opposite directions
 };
 
 // Up to three neighbours a triangle, through edges of exactly two triangles.

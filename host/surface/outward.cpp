@@ -16,9 +16,9 @@ constexpr std::uint32_t kNone = ~0u;
 
 // The closed components of a mesh.
 struct ClosedParts {
-  std::vector<std::uint32_t> of_triangle;  // the component, kNone in one with a border
-  std::vector<std::uint32_t> vertex;       // one of each
-  std::vector<double> volume;              // of each, times 6; negative where it faces inward
+  std::vector<std::uint32_t> of_triangle;  // the component, or kNone if it has a border
+  std::vector<std::uint32_t> vertex;       // one of each component
+  std::vector<double> volume;  // of each component, times 6; negative where it faces inward
 };
 
 ClosedParts closed_parts(const TriangleMesh& mesh) {
@@ -46,7 +46,7 @@ ClosedParts closed_parts(const TriangleMesh& mesh) {
       parts.volume.push_back(0);
     }
     const std::uint32_t part = parts.of_triangle[t] = parts.of_triangle[root];
-    // From a point of the component, so that its place does not matter.
+    // Taken from a point of the component, so that its position does not affect the rounding.
     const Point& origin = mesh.vertices[parts.vertex[part]];
     const auto [a, b, c] = mesh.view().corners(t);
     parts.volume[part] += (a - origin).cross(b - origin).dot(c - origin);
@@ -54,9 +54,9 @@ ClosedParts closed_parts(const TriangleMesh& mesh) {
   return parts;
 }
 
-// Whether the ray from p along x passes through the triangle. Seen along x, a point on an edge
-// counts as beyond the edge for every triangle at it, so that a closed surface is passed through an
-// even number of times from outside.
+// Whether the ray from p along x passes through the triangle. A point on an edge, seen along x,
+// counts as beyond the edge for every triangle there. From outside, a closed surface is therefore
+// passed through an even number of times.
 bool is_passed(const Point& p, const TriangleMesh& mesh, const Triangle& triangle) {
   constexpr int kAxis = 0;
   const Eigen::Vector2d at = project(p, kAxis);
@@ -72,7 +72,7 @@ bool is_passed(const Point& p, const TriangleMesh& mesh, const Triangle& triangl
   const auto& [a, b, c] = triangle;
   const Point &first = mesh.vertices[a], &second = mesh.vertices[b], &third = mesh.vertices[c];
   const int turn = orient2d(project(first, kAxis), project(second, kAxis), project(third, kAxis));
-  // Before the plane, seen along x.
+  // p lies before the plane, seen along x.
   return orient3d(first, second, third, p) * turn < 0;
 }
 
@@ -81,7 +81,7 @@ std::vector<std::size_t> depths(const TriangleMesh& mesh, const ClosedParts& par
   const std::size_t count = parts.vertex.size();
   std::vector<std::size_t> depth(count, 0);
   if (count < 2) return depth;
-  std::vector<std::uint32_t> by_y(count);  // components by where their vertex lies
+  std::vector<std::uint32_t> by_y(count);  // components ordered by y of their vertex
   for (std::uint32_t i = 0; i < count; ++i) by_y[i] = i;
   const auto place = [&](std::uint32_t part) -> const Point& {
     return mesh.vertices[parts.vertex[part]];

@@ -1,10 +1,10 @@
-// Whether triangles are a surface, decided exactly.
+// Decides exactly whether triangles form a surface.
 //
 //   #include <emax/check.h>
 //
 //   if (!emax::check_surface(mesh).valid()) ...
 //
-// Links with emax::certify. Threads may call at once.
+// Link emax::certify. Several threads may call the function at once.
 #pragma once
 
 #include <emax/error.h>
@@ -15,7 +15,7 @@
 namespace emax {
 inline namespace v1 {
 
-// What is wrong with a mesh, and its topology, in counts. Vertices are told apart by index, not
+// The faults of a mesh and its topology, as counts. Vertices are distinguished by index, not by
 // position.
 struct SurfaceCheck {
   std::size_t non_manifold_edges = 0;     // of more than two triangles
@@ -23,7 +23,7 @@ struct SurfaceCheck {
   std::size_t inconsistent_edges = 0;     // of two triangles that run through it the same way
   std::size_t degenerate_triangles = 0;   // a repeated index or exactly no area
   std::size_t self_intersections = 0;     // pairs of triangles that meet beyond what they share
-  std::size_t boundary_edges = 0;         // of one triangle; no fault
+  std::size_t boundary_edges = 0;         // of one triangle; not a fault
   std::size_t components = 0;             // of triangles joined by edges
 
   bool valid() const {
@@ -32,7 +32,7 @@ struct SurfaceCheck {
   }
 };
 
-// Throws Error for an argument that is no mesh. O(n log n) for the meshes of surfaces.
+// Throws Error for an argument that is not a mesh. O(n log n) for the meshes of surfaces.
 EMAX_API SurfaceCheck check_surface(SurfaceSpan mesh);
 
 }  // namespace v1
