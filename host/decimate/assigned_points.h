@@ -8,8 +8,8 @@
 
 namespace emax {
 
-// Which points of the cloud each triangle answers for, with their squared distances to it: upper
-// bounds of the distance to the mesh. Every point hangs in one triangle's list or in none.
+// The points of the cloud that each triangle answers for, with their squared distances to it: upper
+// bounds of the distance to the mesh. A point is in the list of one triangle or of none.
 class AssignedPoints {
  public:
   AssignedPoints(std::size_t points, std::size_t slots)
@@ -51,7 +51,7 @@ class AssignedPoints {
  private:
   std::vector<std::uint32_t> owner_;
   std::vector<double> squared_;
-  std::vector<std::uint32_t> next_, previous_;  // of each point in its list
+  std::vector<std::uint32_t> next_, previous_;  // of each point, in its list
   std::vector<std::uint32_t> first_;            // of each slot
 };
 

@@ -13,7 +13,7 @@ namespace emax {
 namespace {
 
 constexpr double kTouch = 1e-13, kRoundings = 1e-12;  // of the area of T
-constexpr int kMostPieces = 160;                      // that one triangle may be halved into
+constexpr int kMostPieces = 160;                      // pieces that one triangle may be halved into
 
 }  // namespace
 
@@ -96,7 +96,7 @@ Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near) co
   Faces faces(*this);
   std::uint32_t start = walk_->under_centroid(plane, near, faces);
   if (start == kNoIndex) {
-    // The nearest at a ridge may be across it.
+    // At a ridge the nearest triangle may lie on the other side of the ridge.
     const Point centroid =
         plane.lift({(plane.corners[1].y + plane.corners[2].y) / 3, plane.corners[2].z / 3, 0});
     near = sight(centroid, near).triangle;
@@ -132,7 +132,8 @@ Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near) co
       overlap += 0.5 * ((part[i - 1].y - part[0].y) * (part[i].z - part[0].z) -
                         (part[i - 1].z - part[0].z) * (part[i].y - part[0].y));
     }
-    // What only touches T says nothing of it, whichever way it faces; over a ridge the sheet ends.
+    // A triangle that only touches T proves nothing about T, whichever way it faces. At a triangle
+    // that faces away, over a ridge, the sheet ends.
     if (std::abs(overlap) < kTouch * plane.area || !faces_plane(r)) {
       ends = true;
       continue;
@@ -151,15 +152,15 @@ Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near) co
     }
   }
   if (sheet_.empty() || (ends && covers_itself())) return Sheet::kNoSheet;
-  // About a point of T that is r from what is covered, T scaled by r / its longest side is in T and
-  // not covered.
+  // Let p be a point of T at distance r from the covered part. T scaled about p by r / its longest
+  // side lies in T and is not covered, so the area of the rest bounds r.
   const double rest = std::max(plane.area - covered, 0.0) + kRoundings * plane.area;
   const double reach = plane.longest * std::sqrt(rest / plane.area);
   return worst + reach <= limit_ ? Sheet::kWithin : Sheet::kNoSheet;
 }
 
-// Whether two triangles of the sheet overlap in the projection. Those with a common vertex have
-// the same numbers for it, so what only touches is told exactly.
+// Whether two triangles of the sheet overlap in the projection. Triangles with a common vertex have
+// the same numbers for it, so triangles that only touch are recognised exactly.
 bool BackBound::covers_itself() const {
   using Shape = std::array<PlanarCorner, 3>;
   const auto separates = [](const Shape& s, const Shape& t) {
@@ -186,7 +187,7 @@ bool BackBound::covers_itself() const {
   return false;
 }
 
-// At most the limit, or infinite.
+// Returns at most the limit, or infinity.
 double BackBound::part_distance(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                                 std::uint32_t triangle) const {
   double height = 0;

@@ -10,21 +10,22 @@
 
 namespace emax {
 
-// Whether triangles lie within a distance of a reference surface, the inside of them included.
-// "Yes" is proven but for roundings of a few units in the last place of the coordinates, which the
-// caller takes off the limit; "no" may be the budget's.
+// Whether triangles, their insides included, lie within a distance of a reference surface. "Yes" is
+// proven except for roundings of a few units in the last place of the coordinates, which the caller
+// subtracts from the limit. "No" may also mean that the budget is spent.
 //
 // The reference near a triangle T is mostly one sheet over it. From a triangle of the reference
 // under the middle of T the sheet is followed through its edges as far as it overlaps T in T's
-// projection and faces the same way. The distance to one triangle of the reference is convex, so
-// the part of T that is covered by it is as near as the farthest corner of that part. Where the
-// sheet does not end over T, all of T is covered. At ridges and borders of the reference the parts
-// must not cover each other, as they do at a pleat or along a ramp; then what their areas leave of
-// T is as near as it allows to be from the rest. Parts beyond the limit, and all of T where that
-// does not do, are halved until each is within the limit of one triangle of the reference.
+// projection and faces the same way. The distance to one triangle of the reference is convex, so no
+// point of the part of T that this triangle covers is farther than the farthest corner of the part.
+// Where the sheet does not end over T, all of T is covered. At ridges and borders of the reference
+// the parts must not overlap each other, as they do at a pleat or along a ramp. The area of T that
+// they leave then bounds how far an uncovered point is from the covered part. Parts beyond the
+// limit, and all of T where the sheet gives no proof, are halved until each piece is within the
+// limit of one triangle of the reference.
 //
-// O(triangles of the reference over T), their square at worst where it ends. Not for concurrent
-// use.
+// O(triangles of the reference over T), or their square at worst where the sheet ends. Not for
+// concurrent use.
 class BackBound {
  public:
   // `reference` is manifold, consistently oriented and without degenerate triangles.
@@ -32,26 +33,26 @@ class BackBound {
   ~BackBound();
 
   double limit() const { return limit_; }
-  // Shares of sights seen before are of the former limit.
+  // Sights taken before keep shares of the former limit.
   void set_limit(double limit) {
     limit_ = limit;
     squared_limit_ = limit * limit;
   }
   const EditableMesh& reference() const { return reference_; }
 
-  // Where a point is seen from the reference: its nearest triangle, kNoIndex beyond twice the
-  // limit.
+  // The triangle of the reference that is nearest to a point; kNoIndex beyond twice the limit.
   struct Sight {
     std::uint32_t triangle = kNoIndex;
-    double share = 16;  // squared distance / limit^2; 16 out of sight
+    double share = 16;  // squared distance / limit^2; 16 where no triangle is near
   };
   Sight sight(const Point& p, std::uint32_t hint = kNoIndex) const;
-  // From triangle to triangle, as long as it gets nearer: perhaps not the nearest.
+  // Walks from triangle to triangle as long as the distance decreases. The result may not be the
+  // nearest triangle.
   Sight sight_from(const Point& p, std::uint32_t hint) const;
-  // From a point to its nearest in a triangle of the reference.
+  // The vector from a point to the nearest point of a triangle of the reference.
   Point toward(const Point& p, std::uint32_t triangle) const;
 
-  // `near`: the reference triangle nearest to corners[0].
+  // `near` is the triangle of the reference nearest to corners[0].
   bool holds(const std::array<Point, 3>& corners, std::uint32_t near) const;
 
  private:
@@ -66,7 +67,7 @@ class BackBound {
   EditableMesh reference_;
   SlotTree tree_;
   double limit_, squared_limit_;
-  // What following the sheet reads of a triangle, in one place.
+  // The data of a triangle that following the sheet reads, in one place.
   struct Face {
     Triangle corners;
     std::array<std::uint32_t, 3> neighbours;  // through the side that begins at each corner
@@ -77,7 +78,7 @@ class BackBound {
   mutable std::vector<std::uint32_t> front_;
   mutable std::unique_ptr<SheetWalk<Faces>> walk_;
   mutable PartOverTriangle part_;
-  mutable std::vector<std::array<PlanarCorner, 3>> sheet_;  // what was followed
+  mutable std::vector<std::array<PlanarCorner, 3>> sheet_;  // the triangles followed so far
   mutable std::vector<std::array<Point, 3>> pieces_;
   mutable int budget_ = 0;
 };

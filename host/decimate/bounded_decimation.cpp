@@ -15,11 +15,11 @@
 namespace emax {
 namespace {
 
-// The local tests round a few units in the last place of the coordinates.
+// Roundings of the local tests: a few units in the last place of the coordinates.
 constexpr double kRoundings = 0x1p-46;
 constexpr double kMargin = 1e-7;
 constexpr double kBelongs = 0.1;    // of the mesh's width
-constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference have a sample
+constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference get a sample
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -86,9 +86,10 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
   return surface;
 }
 
-// What runs share: points along a curve, the reference between them and its trees.
+// The part that runs have in common: the points along a curve, the reference between them and its
+// trees.
 struct BoundedDecimator::Prepared {
-  std::vector<std::uint32_t> order;  // of the cloud's points and, behind them, the reference's own
+  std::vector<std::uint32_t> order;  // of the cloud's points, then of the reference's own
   std::vector<Point> points;         // in that order
   std::vector<Triangle> triangles;   // of the reference, between these points
   double covered = 0;                // the limit that samples of the reference were made for
@@ -99,8 +100,8 @@ namespace {
 
 using Coordinates = std::array<double, 3>;
 
-// The vertices of the reference as points: those of the cloud at the same place, else new ones
-// behind them.
+// The vertices of the reference as points: a point of the cloud where it has one at the same place,
+// else a new point after the cloud's.
 std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<Point>& points) {
   std::vector<std::pair<Coordinates, std::uint32_t>> places;
   places.reserve(points.size());
@@ -117,15 +118,16 @@ std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<
   return point_of;
 }
 
-// The middles of the reference's edges that are much longer than the limit: between the vertices of
-// a coarse reference no point would tell the energy of the error.
+// Adds the middles of the reference's edges that are much longer than the limit. Without them a
+// coarse reference has no points between its vertices that show the error.
 void add_samples(const TriangleMesh& reference, double limit, std::vector<Point>& points) {
   for (const Triangle& t : reference.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t from = t[i], to = t[(i + 1) % 3];
       const Point &a = reference.vertices[from], &b = reference.vertices[to];
       if ((b - a).norm() <= kSampledEdge * limit) continue;
-      // Once; an edge of the border that runs down has none, which costs nothing but its weight.
+      // Only once for each edge. A border edge from a higher to a lower vertex gets no sample,
+      // which changes nothing but its weight.
       if (from < to) points.push_back(0.5 * (a + b));
     }
   }
@@ -137,7 +139,7 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
                                                              double back_limit) const {
   if (prepared_ == nullptr) prepared_ = std::make_shared<Prepared>();
   Prepared& made = *prepared_;
-  // Under a two-sided bound the vertices of the reference count as points too.
+  // Under a two-sided bound the vertices of the reference also count as points.
   const double covered = back_limit > 0 ? limit : 0;
   if (made.points.empty() || made.covered != covered) {
     made.covered = covered;

@@ -12,103 +12,106 @@
 
 namespace emax {
 
-// How a mesh becomes manifold: by manifold_part() or by cut_to_manifold().
+// How a mesh is made manifold: by manifold_part() or by cut_to_manifold().
 enum class MadeManifold { kByDropping, kByCutting };
 
-// A surface that decimation may start from and be held to: a mesh made manifold, with the far
+// A surface that decimation can start from and is bounded by: a mesh made manifold, with the far
 // points of the cloud inserted.
 struct ReferenceSurface {
   TriangleMesh mesh;
-  // What became of the mesh: counts of CutSurface, or of ManifoldPart.
+  // The changes of the mesh: counts of CutSurface or of ManifoldPart.
   std::size_t merged = 0, turned = 0, dropped = 0, split = 0, cut_edges = 0, cut_vertices = 0;
   std::size_t inserted = 0;             // points that were farther than `far`
-  std::vector<std::uint32_t> left_out;  // points that still are, and could not be inserted
+  std::vector<std::uint32_t> left_out;  // points still farther, which could not be inserted
 };
 
-// `far`: epsilon / 2 leaves decimation room at once. Throws Error for a mesh without a usable
-// triangle, a cloud without points, or one that does not belong to the mesh: most of its points
-// are farther from it than a tenth of its width. `interrupted` is polled now and then; true ends
-// the work with the mesh at hand.
+// `far`: with epsilon / 2 decimation has room from the start. Throws Error for a mesh without a
+// usable triangle, a cloud without points, or a cloud that does not belong to the mesh: most of its
+// points are farther from the mesh than a tenth of its width. `interrupted` is polled from time to
+// time; true ends the work with the mesh reached so far.
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
                                    double far, const std::function<bool()>& interrupted = nullptr,
                                    MadeManifold how = MadeManifold::kByDropping);
 
 struct DecimationSettings {
-  double epsilon = 0;  // every point of the cloud stays within this of the mesh,
+  double epsilon = 0;  // greatest distance of a point of the cloud from the mesh
   bool two_sided = true;
-  double epsilon_back = 0;  // and every point of the mesh within this of the reference; 0: epsilon
+  double epsilon_back = 0;  // the same for points of the mesh and the reference; 0: epsilon
 
   enum class Effort {
-    kSweep,     // edge collapses far below the bounds, which leave a few times the fewest triangles
-    kCollapse,  // and the others
-    kRelax,     // and vertices relocated, edges flipped, collapses that these make possible
-    kDeep,      // the same until nothing is gained, from several local minima of the energy; so
-                // does kRelax where at most 400 triangles are left
+    kSweep,     // only edge collapses far below the bounds; leaves a few times the fewest triangles
+    kCollapse,  // all collapses within the bounds
+    kRelax,     // also relocations, flips, and the collapses that these make possible
+    // Like kRelax until nothing is gained, from several local minima of the energy. kRelax does the
+    // same where at most 400 triangles are left.
+    kDeep,
   } effort = Effort::kRelax;
 
-  double normal_cosine = 0.2;  // least, between a triangle and the one that it replaces
+  double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
   double flatness = 1e-3;      // least height of a new triangle over its longest side
 
-  // In degrees; over 0, edges of the start over which its normals turn by more are features: they
-  // and the corners where they meet or end stay (VertexClass).
+  // In degrees, 0 for none. Edges of the start over which its normals turn by more are features.
+  // Features stay, and the corners where they meet or end (VertexClass).
   double feature_angle = 0;
 
   enum class Objective {
     kFewest,  // triangles
-    kHoppe,   // the least of Hoppe's energy, within the same bounds; `effort` does not matter
+    kHoppe,   // least energy of Hoppe within the same bounds; ignores `effort`
   } objective = Objective::kFewest;
   HoppeWeights hoppe;
 
-  // Polled now and then; true ends the work with the mesh at hand, which is valid and within the
-  // bounds.
+  // Polled from time to time; true ends the work with the mesh reached so far, which is valid and
+  // within the bounds.
   std::function<bool()> interrupted = nullptr;
-  // Called after each pass with its name, how many edits it made and the triangles left.
+  // Called after each pass with its name, the number of edits and the triangles left.
   std::function<void(const char*, std::size_t, std::size_t)> progress = nullptr;
-  // Called now and then with a guess at the share of the work that is done, from 0 to 1, and the
-  // triangles left; with kDeep, how long the end takes is not known.
+  // Called from time to time with an estimate of the share of the work that is done, from 0 to 1,
+  // and the triangles left. With kDeep the time of the last part is not known.
   std::function<void(double, std::size_t)> advanced = nullptr;
 };
 
 struct DecimatedMesh {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> left_out;  // points farther than epsilon from the mesh it started from
+  std::vector<std::uint32_t> left_out;  // points farther than epsilon from the start
   bool interrupted = false;
 };
 
 // Decimation under a certified bound: as few triangles as can be found such that every point of the
-// cloud, but for those that were too far at the start, lies within epsilon of the mesh and every
-// point of the mesh, the inside of its triangles included, within epsilon_back of the reference.
-// The result is manifold and consistently oriented, of the topology of the start, without
-// self-intersections or slivers. All of it holds after every edit.
+// cloud lies within epsilon of the mesh, and every point of the mesh, the insides of its triangles
+// included, within epsilon_back of the reference. Points of the cloud that were too far at the
+// start are excepted. The result is manifold and consistently oriented, has the topology of the
+// start, and no self-intersections or slivers. All of this holds after every edit.
 //
-// Under a two-sided bound every point of the reference, the inside of its triangles included, also
+// Under a two-sided bound every point of the reference, the insides of its triangles included, also
 // stays within epsilon of the mesh (ReferenceCover).
 //
-// Each triangle answers for the points of the cloud nearest to it, under a two-sided bound also for
-// the reference's vertices and the middles of its long edges. An edge collapse puts its vertex
-// where the sum over the points around it of (distance / epsilon)^4 is least, by reweighted least
-// squares from the optimum of the planes' quadrics, and is made, least increase first, if all of
-// these points stay within epsilon of the new triangles, those within epsilon_back of the reference
-// (BackBound), and nothing intersects. Vertices are then relocated and edges flipped to lower the
-// sum, and collapses that break the bound are tried and undone unless relocations and flips around
-// mend it.
+// Each triangle answers for the points of the cloud nearest to it; under a two-sided bound the
+// reference's vertices and the middles of its long edges count as points. The energy is the sum
+// over these points of (distance / epsilon)^4. An edge collapse puts its vertex where the energy is
+// least, by reweighted least squares from the optimum of the planes' quadrics. Collapses are made
+// in the order of the increase of the energy, the least first. A collapse is made if all points
+// stay within epsilon of the new triangles, the new triangles stay within epsilon_back of the
+// reference (BackBound), and nothing intersects. Vertices are then relocated and edges flipped to
+// lower the energy. At last, collapses that break the bound are tried; they are undone unless
+// relocations and flips around them restore the bound.
 //
-// While errors are far below epsilon, collapses are made in sweeps along a space-filling curve,
-// each of edges that do not touch.
+// While errors are far below epsilon, collapses are made in sweeps along a space-filling curve. The
+// edges of one sweep do not touch.
 //
-// Same input and settings, same bytes. About O(n log n) in the triangles of the start. What depends
-// on the reference and the cloud alone is kept from run to run; not for concurrent use.
+// The same input and settings give the same bytes. About O(n log n) in the triangles of the start.
+// Data that depend only on the reference and the cloud are kept from run to run. Not for concurrent
+// use.
 class BoundedDecimator {
  public:
-  // `reference` is as reference_surface() gives it; it and the cloud outlive the decimator.
+  // `reference` is as reference_surface() gives it. It and the cloud must outlive the decimator.
   BoundedDecimator(const TriangleMesh& reference, std::span<const Point> cloud)
       : reference_(reference), cloud_(cloud) {}
 
   // Throws Error for an epsilon that is not positive or within roundings of the coordinates.
   DecimatedMesh run(const DecimationSettings& settings) const { return run(reference_, settings); }
 
-  // From another mesh, as manifold_part() gives it. Where that one breaks the back bound the result
-  // may too.
+  // Starts from another mesh, as manifold_part() gives it. Where that mesh breaks the back bound,
+  // the result may break it, too.
   DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings) const;
 
  private:
@@ -116,7 +119,7 @@ class BoundedDecimator {
   struct Prepared;
 
   const Prepared& prepared(double limit, double back_limit) const;
-  // Points up to `reach` from the start, if that is more than epsilon, keep collapses off.
+  // If `reach` exceeds epsilon, points up to `reach` from the start hold collapses back, too.
   DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings,
                     double reach) const;
 

@@ -35,7 +35,7 @@ class Attempts {
       reduction = std::max(kFirstReduction, kGrowth * reduction);
       if (reduction > 0.5) break;
     }
-    // An interrupted decimator has not said what it leaves out.
+    // A decimator that was interrupted did not list the points that it left out.
     for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
       if (exact_reference_.distance(cloud_[p]).upper > epsilon_) left_out_.push_back(p);
     }
@@ -60,7 +60,7 @@ class Attempts {
     return std::move(decimated.mesh);
   }
 
-  // Judges the mesh as stored.
+  // Checks the mesh as it is stored.
   bool holds(const TriangleMesh& mesh) {
     result_.mesh = as_stored(mesh, settings_.storage);
     const MeshView view = result_.mesh.view();
@@ -76,7 +76,7 @@ class Attempts {
                                                 result_.reference_to_mesh->within(epsilon_)));
   }
 
-  // Triangles of the reference that meet each other may do so still.
+  // As many pairs of triangles may meet as in the reference.
   bool as_valid() const {
     MeshValidity validity = result_.validity;
     if (validity.self_intersections <= own_validity_.self_intersections) {
@@ -85,7 +85,7 @@ class Attempts {
     return validity.valid();
   }
 
-  // Of the points that no edit looked at, those that are too far in truth.
+  // The points left out at the start that are still too far by exact distances.
   std::vector<std::uint32_t> beyond_for_good(const ExactMesh& mesh) {
     std::ranges::sort(left_out_);
     const auto repeated = std::ranges::unique(left_out_);

@@ -14,31 +14,31 @@ namespace emax {
 
 struct CertifiedDecimationSettings {
   DecimationSettings decimation;
-  Storage storage = Storage::kExact;  // what is judged is the mesh as this keeps it
+  Storage storage = Storage::kExact;  // the mesh is checked as it is stored in this way
 };
 
-// A decimated mesh and what is proven of it. All of it is within the bounds.
+// A decimated mesh within all bounds, with its proofs.
 struct CertifiedDecimation {
   TriangleMesh mesh;      // as stored
-  CertifiedError points;  // excluded: too far at the start and farther than epsilon in the end
+  CertifiedError points;  // excluded: points too far both at the start and in the end
   MeshValidity validity;
-  std::optional<SurfaceDistance> mesh_to_reference;  // two-sided
-  std::optional<SurfaceDistance> reference_to_mesh;  // likewise
+  std::optional<SurfaceDistance> mesh_to_reference;  // if two-sided
+  std::optional<SurfaceDistance> reference_to_mesh;  // if two-sided
   bool interrupted = false;
   int repairs = 0;  // how often a result missed a bound and was made again
 };
 
-// BoundedDecimator, judged by what shares no code with it: the certificate, the certified distances
-// of surfaces in both directions and exact validity, on the mesh as stored. The decimator keeps all
-// of it with every edit, so a miss is the storage format's rounding or a defect; the mesh is then
-// decimated again under smaller bounds, and in the end the reference stands for itself. Pairs of
-// triangles that meet are permitted up to the number that the reference has. Interrupted, it gives
-// the mesh at hand, certified too.
-// Throws Error as BoundedDecimator does and where the storage cannot hold the mesh within epsilon.
+// Runs BoundedDecimator and checks its result with code that it does not share: the certificate,
+// the certified distances of the surfaces in both directions and exact validity, on the mesh as
+// stored. The decimator keeps all of these with every edit, so a miss is the storage format's
+// rounding or a defect. The mesh is then decimated again under smaller bounds; after the last
+// attempt the reference itself is the result. As many pairs of triangles may meet as in the
+// reference. After an interrupt it gives the mesh reached so far, certified too. Throws Error as
+// BoundedDecimator does, and where the storage cannot keep the mesh within epsilon.
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings);
 
-// The same by another decimator of that reference and cloud: DecimationSequence::cut.
+// The same with another decimator of that reference and cloud, such as DecimationSequence::cut.
 using Decimate = std::function<DecimatedMesh(const DecimationSettings&)>;
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
                                        const CertifiedDecimationSettings& settings,

@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kHopeless = 4;    // squared distance / limit^2 from which finer steps do not help
 constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
-constexpr double kSecondChoice = 0.5;  // squared distance / limit^2 up to which a vertex stays put
-constexpr double kNothing = 1e-8;      // an energy that a move is not worth
-constexpr double kLeastGain = 1e-3;  // the share of its energy that an edit without collapse gains
+constexpr double kSecondChoice = 0.5;  // likewise, for a collapse that keeps an end in place
+constexpr double kNothing = 1e-8;      // an energy too small to be worth a move
+constexpr double kLeastGain = 1e-3;    // least share of its energy that a move or flip gains
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
-constexpr double kLeastSwept = 0.1;  // the share of the triangles that a sweep takes
+constexpr double kLeastSwept = 0.1;  // the least share of the triangles that a sweep must remove
 
-// A triangle's edges, lower vertex first.
+// A triangle's edges, the shortest first, each with its lower vertex first.
 std::array<std::array<std::uint32_t, 2>, 3> shortest_first(const EditableMesh& mesh,
                                                            std::uint32_t slot) {
   const Triangle& t = mesh.triangle(slot);
@@ -58,7 +58,7 @@ std::vector<std::array<std::uint32_t, 2>> DecimationPasses::edges() const {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = t[i], b = t[(i + 1) % 3];
       const auto sides = mesh.slots_at_edge(a, b);
-      // Once, from the triangle of the lower slot.
+      // Each edge once, from the triangle of the lower slot.
       if (sides[1] != kNoIndex && std::min(sides[0], sides[1]) != slot) continue;
       result.push_back({std::min(a, b), std::max(a, b)});
     }
@@ -81,7 +81,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   const double before = search_.energy_before(options.power) + options_.representation;
   Fit fit;
   if (feature == FeatureEdges::Collapse::kAlong) {
-    // The planes' quadrics have it where the sides of the feature meet.
+    // The optimum of the planes' quadrics is where the sides of the feature meet.
     bool any = false;
     for (const Point& at : {search_.quadric_optimum(), pa, pb}) {
       any = any || (search_.evaluate(at, options.power, fit) && fit.worst <= 1);
@@ -109,7 +109,8 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   return true;
 }
 
-// Where the energy of the collapse prepared is least, if that may be within the limit.
+// Finds the position where the energy of the prepared collapse is least. Returns whether it may be
+// within the limit.
 bool DecimationPasses::place(const Point& pa, const Point& pb, Fit& fit) {
   LocalSearch::Options options;
   if (search_.fine()) options.steps = 0;
@@ -142,7 +143,8 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
     return search_.finish(fit, true, edit_) && state_.permits(edit_);
   };
   bool made = try_at(candidate.fit);
-  // Where the two were, little is new that could meet anything.
+  // At the position of one of the two vertices few triangles are new, so the collapse is less
+  // likely to intersect anything.
   if (!made && options_.representation == 0 &&
       options_.features.permitted(a, b) == FeatureEdges::Collapse::kAnywhere) {
     for (const Point& end : {state_.mesh().position(a), state_.mesh().position(b)}) {
@@ -178,7 +180,7 @@ std::size_t DecimationPasses::sweep() {
   for (double most = kFirstSweep;; most = std::min(kLastSweep, most * kSweepGrowth)) {
     touched_.assign(mesh.vertex_slots(), 0);
     for (std::uint32_t slot = 0; slot < slots; ++slot) {
-      // What is left falls, a share of it each time.
+      // The share of triangles that are left measures the progress.
       if (poll(1 - static_cast<double>(mesh.triangles()) / static_cast<double>(start))) break;
       if (!mesh.alive(slot)) continue;
       for (const auto& [a, b] : shortest_first(mesh, slot)) {
@@ -212,7 +214,7 @@ std::size_t DecimationPasses::collapse() {
   std::size_t collapses = 0;
   const std::size_t triangles = mesh.triangles();
   while (!queue_.empty()) {
-    // What is in the queue falls with the triangles, and then, when none can go, to nothing.
+    // The queue shrinks with the triangles. When no more of them can be removed, it empties.
     const double left = static_cast<double>(mesh.triangles()) / static_cast<double>(triangles);
     if (poll(1 - 0.5 * left)) break;
     const Candidate candidate = queue_.top();
@@ -230,7 +232,8 @@ std::size_t DecimationPasses::collapse() {
     mesh.neighbours(a, around_);
     touched_[a] = edits_;
     for (const std::uint32_t v : around_) touched_[v] = edits_;
-    // The edges that were b's; the others wait in the queue until they come up.
+    // Pushes the edges that b had. The other edges at a are judged anew when they come up in the
+    // queue.
     for (const std::uint32_t v : around_) {
       if (!std::binary_search(of_a_.begin(), of_a_.end(), v)) push(a, v);
     }
@@ -302,7 +305,7 @@ bool DecimationPasses::all_within(const std::vector<std::uint32_t>& points) cons
   });
 }
 
-// Whether a tried collapse, mended so far, breaks no limit.
+// Whether a tried collapse, after the repairs so far, keeps every limit.
 bool DecimationPasses::settled() {
   return all_within(unsettled_) && std::ranges::all_of(uncovered_, [&](std::uint32_t triangle) {
            return state_.prove(triangle);

@@ -11,35 +11,39 @@
 
 namespace emax {
 
-// The passes of bounded decimation over a state. Each keeps every point that was within the limit
-// within it, and each is a pure function of the state; ties go to the lower vertex numbers.
+// The passes of bounded decimation over a state. Each pass keeps every point within the limit that
+// was within it, and is a pure function of the state. Ties go to the lower vertex numbers.
 class DecimationPasses {
  public:
-  // Told now and then how much of the pass at hand is done, from 0 to 1; true ends the pass after
-  // the edit at hand.
+  // Called from time to time with the share of the present pass that is done, from 0 to 1. True
+  // ends the pass after the present edit.
   using Poll = std::function<bool(double)>;
   struct Options {
-    FeatureEdges features;  // which collapses and flips keep
-    // Hoppe's objective: what an edge's squared length costs, and what a vertex less is worth in
-    // units of epsilon^2. A collapse is then made only where it lowers the energy.
+    FeatureEdges features;  // kept by collapses and flips
+    // For Hoppe's objective: the cost of an edge's squared length, and the gain of one vertex less,
+    // in units of epsilon^2. A collapse is then made only where it lowers the energy.
     double spring = 0, representation = 0;
   };
   DecimationPasses(DecimationState& state, Options options, Poll poll);
 
-  // Edge collapses far below the limit in sweeps over the mesh, each of edges that do not touch,
-  // the vertex where the planes' quadrics have it; until a sweep gains little. Returns how many.
+  // Edge collapses far below the limit, in sweeps over the mesh, until a sweep gains little. The
+  // edges of a sweep do not touch. The new vertex is the optimum of the planes' quadrics. Returns
+  // the number of collapses.
   std::size_t sweep();
-  // Edge collapses, the one that adds least to the energy first, until none is left that the limit
-  // and the guards permit. Returns how many.
+  // Edge collapses, the one that adds least to the energy first, until the limit and the guards
+  // permit no more. Returns the number of collapses.
   std::size_t collapse();
-  // The same for Hoppe's energy, of power 2: collapses, flips and relocations until none lowers it.
+  // Collapses, flips and relocations until none lowers Hoppe's energy (power 2) or eight rounds are
+  // done. Returns the number of edits.
   std::size_t descend();
-  // Moves each vertex where the energy of its points is least. Returns how many moved.
+  // Moves each vertex to where the energy of its points is least. Returns the number of moved
+  // vertices.
   std::size_t relocate(int power);
-  // Turns each edge for which that lowers the energy. Returns how many.
+  // Flips each edge whose flip lowers the energy. Returns the number of flips.
   std::size_t flip(int power);
-  // Collapses that break the limit at first, where moving and turning what is around mends it; the
-  // others are undone. Returns how many stayed.
+  // Tries collapses that break the limit, and relocates vertices and flips edges around them to
+  // restore it. Collapses that still break it are undone. Returns the number of collapses that
+  // stay.
   std::size_t collapse_and_mend();
 
   bool stopped() const { return stopped_; }
@@ -50,7 +54,7 @@ class DecimationPasses {
     std::uint32_t a, b;
     std::uint64_t stamp;
     Fit fit;
-    // For a queue that gives the least first.
+    // For a queue that gives the least cost first.
     bool operator<(const Candidate& other) const {
       if (cost != other.cost) return cost > other.cost;
       return a != other.a ? a > other.a : b > other.b;
@@ -86,7 +90,7 @@ class DecimationPasses {
   std::vector<std::uint32_t> around_, of_a_, of_b_;  // scratch
   std::vector<EditUndo> undo_;
   std::vector<std::uint32_t> unsettled_;  // points beyond the limit
-  std::vector<std::uint32_t> uncovered_;  // triangles of the reference not known to be within it
+  std::vector<std::uint32_t> uncovered_;  // triangles of the reference that are not proven
 };
 
 }  // namespace emax

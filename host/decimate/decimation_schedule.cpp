@@ -7,12 +7,12 @@ namespace {
 
 using Effort = DecimationSettings::Effort;
 
-constexpr std::size_t kFew = 400;  // triangles: searching on takes next to nothing
-// Of the time that is thought to be left, what the passes take.
+constexpr std::size_t kFew = 400;  // triangles: with so few, searching on takes hardly any time
+// The passes' shares of the time that is estimated to be left.
 constexpr double kSweeps = 0.4, kOtherPass = 0.3;
-// Of distances, in the energy that places vertices.
+// Power of the distances in the energy that places vertices.
 constexpr int kPower = 4;
-// Another measure of how well points are met moves the mesh out of where the search has ended.
+// Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
 class Schedule {
@@ -39,7 +39,7 @@ class Schedule {
   }
 
  private:
-  // True ends the passes.
+  // Returning true ends the passes.
   bool advance(double done) {
     if (settings_.advanced) settings_.advanced(begun_ + weight_ * done, state_.mesh().triangles());
     return settings_.interrupted && settings_.interrupted();
@@ -55,15 +55,15 @@ class Schedule {
   void relocate(int power) { tell("relocations", passes_.relocate(power)); }
   void flip(int power) { tell("flips", passes_.flip(power)); }
 
-  // The number of collapses that flips and relocations have made possible.
+  // Returns the number of collapses that flips and relocations made possible.
   std::size_t relax() {
     flip(kPower);
     relocate(kPower);
     return tell("collapses", passes_.collapse());
   }
 
-  // Collapses that need the vertices around them moved: once, or with `deep` until nothing is
-  // gained. Whether anything was.
+  // Tries collapses that need the vertices around them moved: once, or with `deep` until nothing is
+  // gained. Returns whether anything was gained.
   bool mend(bool deep) {
     bool any = false;
     for (bool again = true; again && !passes_.stopped();) {
@@ -95,7 +95,7 @@ class Schedule {
   DecimationState& state_;
   const DecimationSettings& settings_;
   bool lowers_energy_;
-  double begun_ = 0, weight_;  // of the work: what is done, and what the present pass takes
+  double begun_ = 0, weight_;  // shares of the work: done, and of the present pass
   DecimationPasses passes_;
 };
 

@@ -6,8 +6,8 @@
 namespace emax {
 
 // Runs the passes over the mesh in the order that the settings' objective and effort ask for, and
-// tells their progress. False where the settings' `interrupted` ended them; the mesh is then what
-// was reached. The time is the passes' own; with Effort::kDeep they go on until nothing is gained.
+// reports their progress. Returns false where the settings' `interrupted` ended them; the mesh is
+// then the one reached so far. With Effort::kDeep the passes go on until nothing is gained.
 bool run_passes(DecimationState& state, DecimationPasses::Options options,
                 const DecimationSettings& settings);
 

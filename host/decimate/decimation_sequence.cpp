@@ -9,9 +9,9 @@
 namespace emax {
 namespace {
 
-constexpr double kFinest = 1.0 / 32;           // of the vertices' spacing on a square of the width
+constexpr double kFinest = 1.0 / 32;  // of the width divided by the root of the number of vertices
 constexpr double kStep = std::numbers::sqrt2;  // from a mesh's bounds to the next one's
-constexpr double kShare = 0.72;  // of a cut's bounds, the most that a mesh it goes on from has
+constexpr double kShare = 0.72;  // a cut starts from a mesh with at most this share of its bounds
 constexpr double kReach = 0.1;   // of the width
 constexpr double kLeastFinest = 1e-12;  // of the greatest coordinate
 
@@ -34,8 +34,8 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
     bound = std::min(bound, settings.epsilon_back);
   }
   const TriangleMesh* start = &reference_;
-  // The features of a mesh that was made without them are not the reference's, and Hoppe's energy
-  // has vertices where no other objective leaves any.
+  // The meshes of the sequence were made without features, so a cut with features must start from
+  // the reference. Hoppe's energy keeps vertices where the other objective leaves none.
   const bool direct =
       settings.feature_angle > 0 || settings.objective != DecimationSettings::Objective::kFewest;
   std::vector<TriangleMesh>& meshes = meshes_[settings.two_sided ? 1 : 0];

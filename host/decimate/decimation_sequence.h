@@ -8,20 +8,20 @@
 
 namespace emax {
 
-// The decimation of one reference, cut at any bounds and effort: meshes under bounds that grow
-// by a factor of sqrt(2) from far below the points' spacing are made once, each by collapses from
-// the one before it, and a cut goes on from the coarsest that is well below its own bounds. What a
-// cut gives is as BoundedDecimator promises, and depends on the settings alone, not on the cuts
-// before; its bytes are not those of a direct run. Not for concurrent use.
+// Cuts the decimation of one reference at any bounds and effort. A series of meshes is made once,
+// each by collapses from the one before. Their bounds grow by a factor of sqrt(2) from far below
+// the points' spacing. A cut starts from the coarsest mesh that is well below its own bounds. A
+// cut's result is as BoundedDecimator promises. It depends on the settings alone, not on earlier
+// cuts; its bytes are not those of a direct run. Not for concurrent use.
 class DecimationSequence {
  public:
-  // Both outlive the sequence.
+  // Both must outlive the sequence.
   DecimationSequence(const TriangleMesh& reference, std::span<const Point> cloud);
 
-  // A cut that is interrupted while meshes are made gives the last one.
+  // If a cut is interrupted while meshes are made, the result is the mesh reached so far.
   DecimatedMesh cut(const DecimationSettings& settings);
 
-  // Meshes made so far, of the one- and two-sided kind.
+  // Number of meshes made so far, one-sided and two-sided ones together.
   std::size_t levels() const { return meshes_[0].size() + meshes_[1].size(); }
 
  private:

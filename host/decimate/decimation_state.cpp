@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint32_t kPollEvery = 4096;
 
-// A normal, of cross products, times a difference: each rounds a few units of 2^-53.
+// A normal, which consists of cross products, times a difference: each rounds by a few units of
+// 2^-53.
 constexpr double kPlaneRoundings = 0x1p-47;
 
 SlotTree::Box joined(SlotTree::Box a, const SlotTree::Box& b) {
@@ -59,7 +60,7 @@ bool DecimationState::reassign(const Interrupted& interrupted) {
   for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
     if (p % kPollEvery == 0 && interrupted && interrupted()) return false;
     const std::uint32_t owner = assigned_.owner(p);
-    // A little more than the distance known, so that its triangle is found again.
+    // Slightly more than the known distance, so that the point's triangle is found again.
     const double known = owner == kNoIndex ? std::max(squared_limit_, guards_.squared_reach)
                                            : assigned_.squared_distance(p);
     const SlotTree::Nearest nearest =
@@ -89,7 +90,7 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
     if (back_ != nullptr && !EMAX_FAULT(kSkipsBackBound)) {
       if (edit.vertex != kNoIndex && !(moved_.share <= 1)) return false;
       for (const Triangle& t : edit.added) {
-        // Seen from the vertex that moved, or any.
+        // Begins at the vertex that moved, or at any vertex if none did.
         std::size_t i = 0;
         if (edit.vertex != kNoIndex) {
           while (i < 2 && t[i] != edit.vertex) ++i;
@@ -116,7 +117,7 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
   return after <= crossings(removed_, edit.removed);
 }
 
-// Pairs that meet of the triangles, with each other and with those of the mesh that stay.
+// Number of pairs that meet: the triangles with each other and with those of the mesh that stay.
 std::size_t DecimationState::crossings(std::span<const Triangle> triangles,
                                        std::span<const std::uint32_t> removed) const {
   std::size_t count = 0;
@@ -166,7 +167,8 @@ bool DecimationState::meets_another(const MeshEdit& edit) {
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
       const Shape& shape = shapes_[i];
       if (!overlap(shape.box, box)) continue;
-      // What is all on one side of the triangle's plane, but for what is of both, does not meet it.
+      // A triangle does not meet this one if all of its vertices that the two do not share lie on
+      // one side of this one's plane.
       const Triangle& t = edit.added[i];
       int above = 0, below = 0, shared = 0;
       for (const std::uint32_t v : other) {

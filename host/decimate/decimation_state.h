@@ -16,7 +16,7 @@
 
 namespace emax {
 
-// What undoes an edit.
+// The data that undo() needs to undo an edit.
 struct EditUndo {
   struct Slot {
     std::uint32_t slot;
@@ -26,26 +26,26 @@ struct EditUndo {
   Point position = Point::Zero();
   BackBound::Sight sight;
   std::vector<Slot> slots;
-  std::vector<MeshEdit::Answer> answers;  // `slot` counts
+  std::vector<MeshEdit::Answer> answers;  // only `slot` is set
   ReferenceCover::Undo cover;
 };
 
-// The mesh, the points each triangle answers for, and the trees by which edits are judged; all of
-// it stays in step through apply() and undo().
+// The mesh, the points that each triangle answers for, and the trees that the tests of edits use.
+// apply() and undo() keep them consistent.
 class DecimationState {
  public:
   struct Guards {
     double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
     double flatness = 1e-3;      // least height of a triangle over its longest side
-    double squared_reach = 0;    // points up to this far have a triangle too, if it is more
+    double squared_reach = 0;    // if over the limit: points up to this far have a triangle
   };
 
-  // `mesh` is manifold and consistently oriented, without degenerate triangles; where triangles
-  // meet, edits leave no more pairs of them. `back` may be null and outlives the state. Points
-  // farther than `squared_limit` from the mesh belong to no triangle. `reference`: triangles
-  // between points of the cloud that every edit keeps within the limit of the mesh, those that it
-  // is within at first. `interrupted` is polled now and then; true leaves the rest of the points
-  // without a triangle.
+  // `mesh` is manifold and consistently oriented, without degenerate triangles. Where triangles
+  // meet, edits do not increase the number of such pairs. `back` may be null, and must outlive the
+  // state. Points farther than `squared_limit` from the mesh belong to no triangle. `reference`
+  // holds triangles between points of the cloud: every edit keeps those of them within the limit of
+  // the mesh that are within it at first. `interrupted` is polled from time to time; true leaves
+  // the other points without a triangle.
   using Interrupted = std::function<bool()>;
   DecimationState(const TriangleMesh& mesh, std::span<const Point> cloud, const BackBound* back,
                   double squared_limit, const Guards& guards,
@@ -57,27 +57,27 @@ class DecimationState {
   const SlotTree& tree() const { return tree_; }
   const Point& point(std::uint32_t i) const { return cloud_[i]; }
   std::span<const Point> cloud() const { return cloud_; }
-  // Of the triangle in a slot: its normal, as long as twice its area.
+  // The normal of the triangle in a slot; its length is twice the triangle's area.
   const Point& area_normal(std::uint32_t slot) const { return area_normals_[slot]; }
   const BackBound* back() const { return back_; }
   const BackBound::Sight& sight(std::uint32_t vertex) const { return sight_[vertex]; }
   double squared_limit() const { return squared_limit_; }
   const Guards& guards() const { return guards_; }
 
-  // Whether every point was given its triangle.
+  // Whether every point was assigned. False after an interrupt.
   bool complete() const { return complete_; }
 
-  // No sliver; false for a frame that is not finite.
+  // Whether the triangle is not a sliver; false for a frame that is not finite.
   bool well_shaped(const LocalFrame& f) const {
     const double longest = std::max({f.length12, f.edge13.length, f.edge23.length});
     return f.length12 * f.edge13.length * f.edge13.direction.y >
            guards_.flatness * longest * longest;
   }
 
-  // Whether the added triangles keep the back bound, those of the reference stay within the limit
-  // and no more pairs of triangles meet than before. Points are not looked at. With `tolerant`
-  // triangles of the reference may go beyond the limit; they are given_up() then, until prove() has
-  // them back.
+  // Whether the added triangles keep the back bound, the triangles of the reference stay within the
+  // limit, and no more pairs of triangles meet than before. Points are not checked. With
+  // `tolerant`, triangles of the reference may go beyond the limit; given_up() then lists them, and
+  // prove() can prove them again.
   bool permits(const MeshEdit& edit, bool tolerant = false);
   std::span<const std::uint32_t> given_up() const {
     return cover_ ? cover_->given_up() : std::span<const std::uint32_t>{};
@@ -85,14 +85,14 @@ class DecimationState {
   bool prove(std::uint32_t reference_triangle) {
     return cover_->prove(reference_triangle, mesh_, tree_);
   }
-  // Triangles of the reference that are not known to be within the limit.
+  // Number of triangles of the reference that are not proven to be within the limit.
   std::size_t unproven() const { return cover_ ? cover_->unproven() : 0; }
 
-  // The edit last permitted.
+  // Applies the edit that was last permitted.
   void apply(const MeshEdit& edit, EditUndo* undo = nullptr);
   void undo(const EditUndo& undo);
 
-  // Gives every point to the triangle that is nearest of all; false when interrupted.
+  // Assigns every point to its nearest triangle; returns false after an interrupt.
   bool reassign(const Interrupted& interrupted = nullptr);
 
   std::uint32_t add_vertex(const Point& at);
@@ -102,7 +102,7 @@ class DecimationState {
   struct Shape {
     SlotTree::Box box;
     Point corner, normal;
-    double roundings;  // of the normal times a distance, over that distance
+    double roundings;  // bound of the rounding of normal times distance, divided by the distance
   };
   bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
@@ -121,7 +121,7 @@ class DecimationState {
   std::vector<Point> area_normals_;  // of each slot
   bool complete_ = false;
   std::vector<BackBound::Sight> sight_;  // of each vertex
-  BackBound::Sight moved_;               // of the position of the edit last permitted
+  BackBound::Sight moved_;               // of the new position of the edit last permitted
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
   std::vector<Shape> shapes_;
   std::vector<Triangle> removed_;

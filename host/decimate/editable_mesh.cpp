@@ -75,8 +75,8 @@ std::array<std::uint32_t, 2> EditableMesh::slots_at_edge(std::uint32_t a, std::u
 }
 
 bool EditableMesh::find_boundary(std::uint32_t vertex) const {
-  // An inner vertex begins as many sides as it ends with the same other vertex: in a consistently
-  // oriented fan every neighbour comes once after it and once before it.
+  // In a consistently oriented closed fan every neighbour of the vertex comes once after it and
+  // once before it, so the sums of both are equal.
   std::uint32_t after = 0, before = 0, count = 0;
   bool boundary = false;
   for_each_slot_at(vertex, [&](std::uint32_t slot) {
@@ -87,7 +87,7 @@ bool EditableMesh::find_boundary(std::uint32_t vertex) const {
     ++count;
   });
   if (after != before || count < 3) return true;
-  // Equal sums prove nothing.
+  // Equal sums do not prove that the fan is closed.
   for_each_slot_at(vertex, [&](std::uint32_t slot) {
     const Triangle& t = triangles_[slot];
     const std::size_t i = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
@@ -105,14 +105,14 @@ bool EditableMesh::collapsible(std::uint32_t a, std::uint32_t b) const {
     apex[1] = opposite(triangles_[sides[1]], a, b);
     if (on_boundary(a) && on_boundary(b)) return false;
   }
-  // The edges from an apex to a and b are drawn together: one of them at least has another
-  // triangle.
+  // The collapse joins the edges from an apex to a and to b. At least one of the two must have
+  // another triangle.
   for (const std::uint32_t c : apex) {
     if (c == kNoIndex) continue;
     if (slots_at_edge(a, c)[1] == kNoIndex && slots_at_edge(b, c)[1] == kNoIndex) return false;
   }
   if (inner) {
-    // An edge that is in the link of both: the tetrahedron's.
+    // An edge between the apexes in the links of both a and b: the mesh is a tetrahedron there.
     std::array<bool, 2> joined = {false, false};
     std::size_t which = 0;
     for (const std::uint32_t v : {a, b}) {
@@ -124,7 +124,7 @@ bool EditableMesh::collapsible(std::uint32_t a, std::uint32_t b) const {
     }
     if (joined[0] && joined[1]) return false;
   }
-  // Neighbours of both but the apexes.
+  // Common neighbours other than the apexes.
   const std::uint32_t seen = ++search_;
   for_each_slot_at(b, [&](std::uint32_t slot) {
     for (const std::uint32_t v : triangles_[slot]) seen_[v] = seen;

@@ -11,10 +11,10 @@ namespace emax {
 
 inline constexpr std::uint32_t kNoIndex = ~0u;
 
-// A manifold triangle mesh that is edited in place: triangles live in slots, and those of a vertex
-// hang in a list through their corners. Slots and vertices keep their numbers; free ones are
-// skipped by compact(). Every operation costs O(triangles around the vertices it names). Not for
-// concurrent use.
+// A manifold triangle mesh that is edited in place. Triangles are stored in slots; those of a
+// vertex form a list through their corners. Slots and vertices keep their numbers; compact() skips
+// free ones. Every operation costs O(triangles around the vertices it names). Not for concurrent
+// use.
 class EditableMesh {
  public:
   explicit EditableMesh(const TriangleMesh& mesh);
@@ -23,7 +23,7 @@ class EditableMesh {
   std::size_t vertex_slots() const { return positions_.size(); }
   std::size_t triangles() const { return alive_; }
 
-  // Whether the mesh had no boundary at first; then it never has one, as edits keep the topology.
+  // Whether the mesh had no boundary at first. Edits keep the topology, so it never gets one then.
   bool closed() const { return closed_; }
 
   bool alive(std::uint32_t slot) const { return triangles_[slot][0] != kNoIndex; }
@@ -39,9 +39,9 @@ class EditableMesh {
 
   void move(std::uint32_t vertex, const Point& to) { positions_[vertex] = to; }
   std::uint32_t add_vertex(const Point& at);
-  std::uint32_t add_slot();                                // free
-  void set(std::uint32_t slot, const Triangle& triangle);  // into a free slot
-  void clear(std::uint32_t slot);                          // frees it
+  std::uint32_t add_slot();                                // the new slot is free
+  void set(std::uint32_t slot, const Triangle& triangle);  // the slot must be free
+  void clear(std::uint32_t slot);                          // makes the slot free
 
   template <class Visit>
   void for_each_slot_at(std::uint32_t vertex, const Visit& visit) const {
@@ -49,17 +49,17 @@ class EditableMesh {
       visit(corner / 3);
     }
   }
-  // Replace the contents.
+  // These replace the contents of the vector.
   void slots_at(std::uint32_t vertex, std::vector<std::uint32_t>& slots) const;
   void neighbours(std::uint32_t vertex, std::vector<std::uint32_t>& vertices) const;  // sorted
 
-  // The triangles with both vertices: at most two in a manifold; the rest kNoIndex.
+  // The triangles with both vertices: at most two in a manifold. Missing ones are kNoIndex.
   std::array<std::uint32_t, 2> slots_at_edge(std::uint32_t a, std::uint32_t b) const;
   // Whether the vertex lies on an edge of one triangle.
   bool on_boundary(std::uint32_t vertex) const { return !closed_ && find_boundary(vertex); }
 
-  // Whether b may be drawn into a without changing the topology: the link condition, with the
-  // boundary as one more vertex joined to all of its own, and a component never vanishes.
+  // Whether collapsing b into a keeps the topology. Tests the link condition, in which the boundary
+  // counts as one more vertex joined to all boundary vertices. A component never vanishes.
   bool collapsible(std::uint32_t a, std::uint32_t b) const;
 
   // The used vertices and triangles in the order of their slots.

@@ -7,7 +7,7 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kMostPlaces = 24;  // triangles around a point where it is tried
+constexpr std::size_t kMostPlaces = 24;  // triangles near a point where its insertion is tried
 
 class Insertion {
  public:
@@ -38,7 +38,7 @@ class Insertion {
   }
 
  private:
-  // The triangle and those around it, the nearest to the point first.
+  // The triangle and those around it, ordered by their distance from the point.
   std::vector<std::uint32_t> places(std::uint32_t slot) const {
     std::vector<std::pair<double, std::uint32_t>> near;
     for (const std::uint32_t v : state_.mesh().triangle(slot)) {
@@ -54,10 +54,10 @@ class Insertion {
     return slots;
   }
 
-  // A triangle on an edge of the boundary.
+  // Adds a triangle on an edge of the boundary.
   bool attach(std::uint32_t slot, std::uint32_t from, std::uint32_t to) {
     if (state_.mesh().slots_at_edge(from, to)[1] != kNoIndex) return false;
-    // The point is beyond the edge, not over the triangle.
+    // This is only for a point that lies beyond the edge, not over the triangle.
     const Point& a = state_.mesh().position(from);
     const Point& b = state_.mesh().position(to);
     const Point& c = state_.mesh().position(opposite(state_.mesh().triangle(slot), from, to));
@@ -142,7 +142,7 @@ FarPoints insert_far_points(DecimationState& state, double far,
     stopped = interrupted && interrupted();
     if (!stopped && insertion.insert(p)) ++result.inserted;
   }
-  // What came later may have brought the mesh within reach.
+  // Later insertions may have brought the mesh within reach of a point.
   for (std::uint32_t p = 0; p < points && !stopped; ++p) {
     if (is_far(p)) result.left_out.push_back(p);
   }

@@ -14,15 +14,15 @@ namespace emax {
 struct FarPoints {
   TriangleMesh mesh;
   std::size_t inserted = 0;
-  std::vector<std::uint32_t> left_out;  // in order: still farther than `far`
+  std::vector<std::uint32_t> left_out;  // ascending; points still farther than `far`
 };
 
-// Makes every point of the state's cloud that is farther than `far` from its mesh one of the mesh's
-// vertices: an edge of the boundary near it gets a triangle, or a triangle or edge is split there.
-// The mesh stays manifold, and free of self-intersections and slivers where it was, and no other
-// point comes to be farther than `far`; where that cannot be had the point is left out. The limit
-// of the state is no less than `far`. The mesh is left in the state. O(log n) for a point and for
-// an insertion.
+// Makes every point of the state's cloud that is farther than `far` from its mesh a vertex of the
+// mesh: either an edge of the boundary near it gets a triangle, or a triangle or edge is split
+// there. The mesh stays manifold, and free of self-intersections and slivers where it was, and no
+// other point becomes farther than `far`. A point for which this is not possible is left out. The
+// limit of the state must be at least `far`. The mesh is left in the state. O(log n) for a point
+// and for an insertion.
 FarPoints insert_far_points(DecimationState& state, double far,
                             const std::function<bool()>& interrupted = nullptr);
 

@@ -10,7 +10,8 @@
 namespace emax {
 namespace {
 
-// How many fans the triangles at a vertex make, joined through the edges that they share there.
+// Number of fans that the triangles at a vertex form. Triangles of a fan are joined through the
+// edges that they share there.
 std::size_t fans(const TriangleMesh& mesh, std::uint32_t vertex,
                  const std::vector<std::uint32_t>& around) {
   std::vector<bool> reached(around.size(), false);
@@ -89,7 +90,7 @@ FeatureEdges::Collapse FeatureEdges::permitted(std::uint32_t a, std::uint32_t b)
     if (!on(a, b) || (corner_a && corner_b)) return Collapse::kForbidden;
     return corner_a ? Collapse::kAtFirst : corner_b ? Collapse::kAtSecond : Collapse::kAlong;
   }
-  // What ends at a boundary or a complex vertex keeps its end.
+  // A feature that ends at a boundary or a complex vertex keeps its end.
   if (on(a, b)) return first ? Collapse::kAtSecond : Collapse::kAtFirst;
   return first ? Collapse::kAtFirst : Collapse::kAtSecond;
 }

@@ -15,11 +15,11 @@ enum class VertexClass : std::uint8_t {
   kComplex,       // no fan: an edge of more than two triangles, or several fans
   kBoundary,      // one open fan
   kInteriorEdge,  // a closed fan with two feature edges: the feature passes through
-  kCorner,        // with one, or more than two: it ends there or branches
+  kCorner,        // with one feature edge or more than two: the feature ends or branches
 };
 
-// Feature edges of a mesh as they go through edge collapses. The features are those of the start:
-// a surface that gets coarser turns more at its edges without getting any.
+// Feature edges of a mesh, kept through edge collapses. Only edges of the start become features: a
+// surface that gets coarser turns more at its edges, but gets no new features.
 class FeatureEdges {
  public:
   FeatureEdges() = default;  // none
@@ -33,15 +33,16 @@ class FeatureEdges {
   }
   bool on(std::uint32_t a, std::uint32_t b) const { return edges_.contains(key(a, b)); }
 
-  // How an edge collapse keeps the features: not at all, with the new vertex anywhere, along the
-  // feature that the edge is part of, or only where one of the two is. A corner stays where it is,
-  // a feature is only shortened along itself, and what is not on a feature may be drawn into it.
+  // Where an edge collapse that keeps the features may put its vertex: nowhere, anywhere, along the
+  // feature that the edge is part of, or only at one of the edge's ends. A corner stays where it
+  // is, a feature is only shortened along itself, and a vertex that is not on a feature may be
+  // drawn into it.
   enum class Collapse { kForbidden, kAnywhere, kAlong, kAtFirst, kAtSecond };
   Collapse permitted(std::uint32_t a, std::uint32_t b) const;
-  // b was drawn into a; `neighbours` of b before.
+  // Call this after b was drawn into a; `neighbours` are those of b before.
   void collapsed(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& neighbours);
 
-  // Whether the vertex stays where it is when nothing around it collapses.
+  // Whether the vertex may not be relocated.
   bool fixed(std::uint32_t vertex) const { return on_feature(vertex); }
 
  private:
@@ -53,7 +54,7 @@ class FeatureEdges {
   }
 
   std::vector<VertexClass> classes_;
-  std::unordered_set<std::uint64_t> edges_;  // asked for one at a time, never walked through
+  std::unordered_set<std::uint64_t> edges_;  // only looked up, never iterated over
 };
 
 }  // namespace emax

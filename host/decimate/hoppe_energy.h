@@ -18,7 +18,7 @@ struct HoppeEnergy {
   double total() const { return distance + representation + spring; }
 };
 
-// Of a state, its points at the distances it has for them. O(n).
+// The energy of a state, with the distances that it has for its points. O(n).
 HoppeEnergy hoppe_energy(const DecimationState& state, double width, const HoppeWeights& weights);
 
 }  // namespace emax

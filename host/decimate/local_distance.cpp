@@ -10,8 +10,9 @@ HWY_BEFORE_NAMESPACE();
 namespace emax {
 namespace HWY_NAMESPACE {
 
-// The kernel's distance up to its edges. Of those that a point sees the least square is taken,
-// where the kernel takes the least residual: the same edge but for roundings, at less cost here.
+// Like the kernel's distance except for the choice of the edge: of the edges that a point sees the
+// one with the least square is taken, where the kernel takes the least residual. Except for
+// roundings it is the same edge, at less cost here.
 template <class Real>
 HWY_INLINE Real squared_distance_of(const kernel::TriangleRecord<Real>& triangle,
                                     const kernel::Vector3<Real>& p) {
@@ -29,7 +30,7 @@ HWY_INLINE Real squared_distance_of(const kernel::TriangleRecord<Real>& triangle
   return at.x * at.x + select(outside, least, zero);
 }
 
-// Points on lanes.
+// A lane for each point.
 [[gnu::flatten]] void measure(LocalPoints& points, std::span<const LocalFrame> triangles) {
   using Real = Lanes<hn::ScalableTag<double>>;
   for (std::size_t i = 0; i < points.count; i += Real::kCount) {
@@ -126,7 +127,7 @@ Foot foot_on(const LocalFrame& f, const Point& p) {
   Foot foot;
   foot.residual = at.x * eigen(f.normal) + (at.y - foot_y) * eigen(f.in_plane) +
                   (at.z - foot_z) * eigen(f.along);
-  // Both are heights over edge 2-3: of the foot, and of the first corner.
+  // Heights over edge 2-3: of the foot (at_foot), and of the first corner (the divisor).
   const double at_foot = foot_y * e3.z - (foot_z - f.length12) * e3.y;
   foot.weight = std::clamp(at_foot / (f.length12 * e3.y), 0.0, 1.0);
   const double distance = foot.residual.norm();

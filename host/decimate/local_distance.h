@@ -10,14 +10,14 @@
 
 namespace emax {
 
-// A triangle as the kernel reads it, in binary64 and unrounded, from its first corner: the local
-// search moves that corner and wants its weight in a foot, where the record begins at the longest
-// edge. Not degenerate; no tag.
+// A triangle as the kernel reads it, but in binary64 without rounding, and beginning at its first
+// corner, where a kernel record begins at the longest edge. The local search moves the first corner
+// and needs its weight in a foot. Not degenerate; the tag is not used.
 using LocalFrame = TriangleRecord<double>;
 
 LocalFrame local_frame(const std::array<Point, 3>& corners);
 
-// Points in arrays of coordinates, each with the nearest triangle of a few.
+// Points in arrays of coordinates, each with the nearest of a few triangles.
 struct LocalPoints {
   std::vector<double> x, y, z;
   std::vector<double> squared;  // distance to the nearest
@@ -28,18 +28,18 @@ struct LocalPoints {
   void clear() { count = 0; }
   void push_back(const Point& p);
 
-  std::size_t count = 0;  // the arrays are longer, by a vector at least
+  std::size_t count = 0;  // the arrays are longer by at least a vector
 };
 
 // Sets `squared` and `nearest` for all points; of equally near triangles the first counts.
-// Rounding: a few units in the last place of the points' and the triangles' extent around their
+// Rounding: a few units in the last place of the extent of points and triangles around their
 // frames. The bits are the same on every SIMD target.
 void measure(LocalPoints& points, std::span<const LocalFrame> triangles);
 
-// The nearest point of a triangle in terms of its first corner.
+// The nearest point of a triangle, described by its first corner.
 struct Foot {
   Point residual;   // from the foot to the point
-  Point direction;  // in which the distance grows, of length 1
+  Point direction;  // the unit vector in which the distance grows
   double weight;    // of the first corner in the foot
 };
 Foot foot_on(const LocalFrame& frame, const Point& p);

@@ -11,7 +11,7 @@
 namespace emax {
 namespace {
 
-// Of the greatest squared distance: points nearer than that have no say in a step.
+// Points with less than this share of the greatest squared distance do not count in a step.
 constexpr double kNegligible = 0.01;
 
 double power_of(double squared, int power) {
@@ -89,7 +89,7 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   if (second == kNoIndex) return false;
   const Triangle s = rotated_to(mesh.triangle(first), a);
   const Triangle t = rotated_to(mesh.triangle(second), a);
-  // One of them runs from a to b.
+  // One of the two triangles runs from a to b.
   const Triangle& from = s[1] == b ? s : t;
   const std::uint32_t c = opposite(from, a, b);
   const std::uint32_t d = opposite(s[1] == b ? t : s, a, b);
@@ -97,7 +97,8 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   vertex_ = other_ = kNoIndex;
   removed_.assign({first, second});
   added_.assign({{a, d, c}, {d, b, c}});
-  // Either new triangle replaces a part of both: judged by the mean.
+  // Either new triangle replaces a part of both old ones, so it is compared with the mean of their
+  // normals.
   normals_.assign(2,
                   (state_.area_normal(first).normalized() + state_.area_normal(second).normalized())
                       .normalized());
@@ -115,7 +116,7 @@ void LocalSearch::take_edges() {
     if (v == kNoIndex) continue;
     mesh.neighbours(v, v == vertex_ ? ring_ : other_ring_);
     for (const std::uint32_t n : v == vertex_ ? ring_ : other_ring_) {
-      // The edge that is drawn together counts once.
+      // The edge that collapses counts once.
       if (v == vertex_ && n == other_) continue;
       lengths_before_ += (mesh.position(n) - mesh.position(v)).squaredNorm();
     }
@@ -179,8 +180,8 @@ Point LocalSearch::quadric_optimum() const {
   const double weight = 1e-3 * trace;
   matrix.diagonal().array() += weight;
   const Eigen::LDLT<Eigen::Matrix3d> solver(matrix);
-  // Repeated, so that planes that meet in an edge or corner are met to the last digits, while where
-  // they do not, the start decides.
+  // Repeated, so that the point lies on planes that meet in an edge or corner up to the last
+  // digits. Where the planes leave a direction free, the start decides.
   Point optimum = Point::Zero();
   for (int i = 0; i < 6; ++i) optimum = solver.solve(right + weight * optimum);
   return start + optimum;
@@ -212,7 +213,7 @@ Fit LocalSearch::measured(const Point& position, int power) {
     fit.energy += power_of(squared, power);
     fit.worst = std::max(fit.worst, squared);
   }
-  // Between two surfaces of flat pieces the greatest distances are at vertices of either.
+  // The greatest distances between two surfaces of flat pieces are at vertices of one of them.
   if (watch_back_) {
     sight_ = state_.back()->sight_from(position, sight_.triangle);
     fit.energy += power_of(sight_.share, power);
@@ -227,8 +228,8 @@ bool LocalSearch::evaluate(const Point& position, int power, Fit& result) {
   return true;
 }
 
-// One step of Gauss and Newton on the distances as they change with the vertex, weighted so that
-// the sum of squares stands for the sum of powers.
+// One step of Gauss-Newton on the distances as functions of the vertex. The weights make the sum of
+// squares approximate the sum of powers.
 bool LocalSearch::step(const Options& options, Fit& at) const {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Point right = Point::Zero();
@@ -270,7 +271,7 @@ bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
     if (!step(options, at)) break;
     Fit next;
     bool better = false;
-    // A step too far is halved once.
+    // A step that does not lower the energy is halved once.
     for (int halving = 0; halving < 2 && !better; ++halving) {
       if (halving > 0) at.position = 0.5 * (at.position + best.position);
       better = evaluate(at.position, options.power, next) && next.energy < best.energy;

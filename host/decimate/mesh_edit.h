@@ -7,17 +7,17 @@
 
 namespace emax {
 
-// One edit: the triangles of `removed` give way to `added`, in which one vertex may have moved, and
-// the points that they answered for are answered for anew.
+// One edit: it replaces the triangles `removed` by `added`, may move one vertex, and gives the
+// points of the removed triangles to others.
 struct MeshEdit {
   struct Answer {
     std::uint32_t point;
-    std::uint32_t added;  // index in `added`, or
-    std::uint32_t slot;   // where `added` is kNoIndex, a triangle that stays
+    std::uint32_t added;  // index in `added`, or kNoIndex
+    std::uint32_t slot;   // if `added` is kNoIndex: a triangle that stays
     double squared_distance;
   };
 
-  std::uint32_t vertex = kNoIndex;  // which moves
+  std::uint32_t vertex = kNoIndex;  // the one that moves
   Point position = Point::Zero();
   std::vector<std::uint32_t> removed;
   std::vector<Triangle> added;

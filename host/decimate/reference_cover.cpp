@@ -10,8 +10,8 @@
 namespace emax {
 namespace {
 
-constexpr int kMostCuts = 48;  // of one triangle of the reference
-// A cut by secants leaves this share of a side on either end.
+constexpr int kMostCuts = 48;  // for one triangle of the reference
+// A cut by secants leaves at least this share of a side at either end.
 constexpr double kLeastPart = 1.0 / 16;
 
 // A triangle of the mesh: a slot, or with this bit the index of one that an edit adds.
@@ -19,7 +19,7 @@ constexpr std::uint32_t kAdded = 1u << 31;
 
 }  // namespace
 
-// The mesh as it is or as an edit leaves it; what SheetWalk follows.
+// The mesh as it is, or as an edit leaves it. SheetWalk follows it.
 class ReferenceCover::Around {
  public:
   explicit Around(double squared_limit)
@@ -30,7 +30,7 @@ class ReferenceCover::Around {
     tree_ = &tree;
     edit_ = nullptr;
   }
-  // `mesh` has the vertex of the edit in its new place.
+  // The vertex of the edit must be in its new place in `mesh`.
   void look_at(const EditableMesh& mesh, const MeshEdit& edit) {
     mesh_ = &mesh;
     edit_ = &edit;
@@ -118,7 +118,7 @@ class ReferenceCover::Around {
     }
   }
 
-  // What the edit adds and what touches it.
+  // Collects the triangles that the edit adds and those at their vertices.
   void gather() {
     for (std::uint32_t i = 0; i < edit_->added.size(); ++i) nearby_.push_back(kAdded | i);
     for (const Triangle& t : edit_->added) {
@@ -242,7 +242,7 @@ bool ReferenceCover::prove_after(std::uint32_t triangle, const AssignedPoints& a
 }
 
 bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
-  // The triangle of two corners, if there is one.
+  // The triangle that two of the corners are near to, if there is one.
   const std::uint32_t likely = whole[1].near == whole[2].near ? whole[1].near : whole[0].near;
   if (rests_on(whole, likely, around)) {
     use(likely);
@@ -250,10 +250,10 @@ bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
   }
   const TrianglePlane plane({whole[0].at, whole[1].at, whole[2].at});
   if (follow(plane, likely, around)) return true;
-  // A corner on a crease may belong to the sheet across it.
+  // A corner on a crease may be near to the sheet on the other side of it.
   const std::uint32_t middle = around.nearest((whole[0].at + whole[1].at + whole[2].at) / 3);
   if (middle != likely && middle != kNoIndex && follow(plane, middle, around)) return true;
-  // At folds and borders.
+  // The other cases are folds and borders.
   return cover(whole, around);
 }
 
@@ -283,7 +283,7 @@ bool ReferenceCover::cover(const Piece& whole, Around& around) {
     const Piece piece = pieces_.back();
     pieces_.pop_back();
     const std::uint32_t a = piece[0].near, b = piece[1].near, c = piece[2].near;
-    // Of the triangle of two corners first.
+    // The triangle that two of the corners are near to is tried first.
     const std::array<std::uint32_t, 3> likely = {b == c ? b : a, b == c ? a : b, c};
     bool rests = false;
     for (std::size_t i = 0; i < 3 && !rests; ++i) {
@@ -297,8 +297,9 @@ bool ReferenceCover::cover(const Piece& whole, Around& around) {
   return true;
 }
 
-// Between two triangles of the mesh that its corners are near to: along the plane that halves the
-// angle between them where they share an edge, else where they are equally far.
+// Cuts the piece between two triangles of the mesh that its corners are near to. If they share an
+// edge, the cut is along the plane that halves the angle between them, else where their distances
+// are equal.
 bool ReferenceCover::cut(const Piece& piece, Around& around) {
   std::uint32_t one = kNoIndex, other = kNoIndex;
   std::array<std::uint32_t, 2> edge{};
@@ -314,7 +315,7 @@ bool ReferenceCover::cut(const Piece& piece, Around& around) {
     }
     adjacent = shared == 2;
   }
-  std::array<double, 3> side;  // positive nearer to `other`
+  std::array<double, 3> side;  // positive where nearer to `other`
   bool by_plane = false;
   if (adjacent) {
     const std::array<Point, 3> s = around.points(one), t = around.points(other);
@@ -346,7 +347,7 @@ bool ReferenceCover::cut(const Piece& piece, Around& around) {
   const auto between = [&](std::size_t i, std::size_t j, double share) {
     return Point(piece[i].at + share * (piece[j].at - piece[i].at));
   };
-  // The triangle within the limit that a new corner of a part is near to.
+  // A triangle within the limit of a new corner of a part.
   const auto labelled = [&](const Point& at, std::uint32_t first, std::uint32_t second) {
     for (const std::uint32_t id : {first, second}) {
       if (around.squared_distance_to(at, id) <= squared_limit_) return Corner{at, id};

@@ -14,56 +14,55 @@
 
 namespace emax {
 
-// Keeps every point of a reference surface, the inside of its triangles included, within a limit of
-// a mesh while that one is edited (docs/numerics.md, "The reference within ε of the mesh").
+// Keeps every point of a reference surface, the insides of its triangles included, within a limit
+// of a mesh while the mesh is edited (docs/numerics.md, "The reference within ε of the mesh").
 //
-// The distance to one triangle of the mesh is convex, so a part of a reference triangle whose
-// corners lie within the limit of one triangle of the mesh lies within it altogether. Each triangle
-// of the reference is cut into such parts: along the sides of the mesh's triangles where these lie
-// over it as a sheet, else between the triangles that its corners are near to. The triangles of the
-// mesh that it rests on are kept with it. An edit is permitted where every triangle of the
-// reference that rests on a removed one can be proven anew from the triangles around the edit.
-// "Yes" is proven but for roundings of a few units in the last place of the coordinates, which the
-// caller takes off the limit; "no" may be the budget's.
+// The distance to one triangle of the mesh is convex. A part of a reference triangle whose corners
+// lie within the limit of one triangle of the mesh therefore lies within it altogether. Each
+// triangle of the reference is cut into such parts: along the sides of the mesh's triangles where
+// these lie over it as a sheet, else between the triangles that its corners are near to. The cover
+// records the triangles of the mesh that it rests on. An edit is permitted if every triangle of the
+// reference that rests on a removed triangle can be proven again from the triangles around the
+// edit. "Yes" is proven except for roundings of a few units in the last place of the coordinates,
+// which the caller subtracts from the limit. "No" may also mean that the budget is spent.
 //
-// O(1) for most triangles of the reference that rest on what an edit removes, else about linear in
-// the triangles of the mesh that lie over them. Not for concurrent
-// use.
+// O(1) for most triangles of the reference that rest on removed triangles, else about linear in the
+// triangles of the mesh that lie over them. Not for concurrent use.
 class ReferenceCover {
  public:
-  // Corners of `triangles` are indices into `points`, which outlive the cover.
+  // Corners of `triangles` are indices into `points`. Both must outlive the cover.
   ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
                  double squared_limit);
   ~ReferenceCover();
 
-  // Proves what can be proven of the mesh as it is. O(log n) a triangle.
+  // Tries to prove every triangle of the reference for the mesh as it is. O(log n) a triangle.
   void begin(const EditableMesh& mesh, const SlotTree& tree);
 
-  // How many triangles of the reference are not proven: edits leave those alone.
+  // Number of triangles of the reference that are not proven. The test of an edit ignores them.
   std::size_t unproven() const { return unproven_; }
   bool proven(std::uint32_t triangle) const { return first_of_[triangle] != kNoIndex; }
 
-  // `mesh` has the vertex of the edit in its new place already. With `tolerant` whatever cannot be
-  // proven becomes unproven, and the edit is permitted all the same.
+  // The vertex of the edit must already be in its new place in `mesh`. With `tolerant` the edit is
+  // always permitted, and triangles that cannot be proven become unproven.
   bool permits(const EditableMesh& mesh, const AssignedPoints& assigned, const MeshEdit& edit,
                bool tolerant);
 
-  // What undoes an edit.
+  // The data that undo() needs to undo an edit.
   struct Undo {
     std::vector<std::uint32_t> triangles;                           // of the reference
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> supports;  // and what they rested on
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> supports;  // and their slots
   };
 
-  // The edit last permitted; `placed` holds the slots of its added triangles.
+  // Applies the edit last permitted; `placed` holds the slots of its added triangles.
   void apply(std::span<const std::uint32_t> placed, Undo* undo);
   void undo(const Undo& undo);
-  // Of the edit last permitted, tolerantly: the triangles that it leaves unproven.
+  // The triangles that the edit last permitted, with `tolerant`, leaves unproven.
   std::span<const std::uint32_t> given_up() const { return given_up_; }
-  // Proves a triangle of the reference again, by the whole mesh.
+  // Tries to prove a triangle of the reference again, with the whole mesh.
   bool prove(std::uint32_t triangle, const EditableMesh& mesh, const SlotTree& tree);
 
  private:
-  // That a triangle of the reference rests on one of the mesh, in the lists of both.
+  // An entry in the lists of both: a triangle of the reference rests on one of the mesh.
   struct Support {
     std::uint32_t triangle, slot;
     std::uint32_t next_of_triangle;
@@ -90,7 +89,7 @@ class ReferenceCover {
   std::span<const Point> points_;
   double squared_limit_;
   std::vector<Support> supports_;
-  std::uint32_t free_ = kNoIndex;        // a list through next_of_triangle
+  std::uint32_t free_ = kNoIndex;        // the free entries, a list through next_of_triangle
   std::vector<std::uint32_t> first_of_;  // of each triangle of the reference
   std::vector<std::uint32_t> first_at_;  // of each slot
   std::size_t unproven_ = 0;
@@ -104,7 +103,7 @@ class ReferenceCover {
   SheetWalk<Around> walk_;
   std::vector<std::uint32_t> used_;
   std::vector<Piece> pieces_;
-  std::vector<std::uint32_t> answer_of_;  // of each point, in the edit; kNoIndex
+  std::vector<std::uint32_t> answer_of_;  // of each point, in the edit; or kNoIndex
   std::vector<std::uint32_t> seen_;       // the edit that last looked at each triangle
   std::uint32_t search_ = 0;
 };

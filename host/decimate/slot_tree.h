@@ -10,32 +10,33 @@
 
 namespace emax {
 
-// A tree of boxes over the triangles of a mesh that is edited, four to a node. Its shape is that of
-// the last rebuild; a slot that changes keeps its leaf, and the boxes above it are refitted. A
-// collapse leaves its triangles where they were, so the boxes stay tight until many are gone. The
-// boxes are in binary32 about the middle of the mesh, rounded outwards; what is found is exact.
+// A tree of boxes over the triangles of a mesh that is edited, four children to a node. The last
+// rebuild decides its shape: a slot that changes keeps its leaf, and the boxes above it are
+// refitted. A collapse leaves its triangles where they were, so the boxes stay tight until many
+// triangles are gone. The boxes are in binary32 about the middle of the mesh, rounded outwards. The
+// results of searches are exact.
 class SlotTree {
  public:
   explicit SlotTree(const EditableMesh& mesh) { rebuild(mesh); }
 
-  // O(n log n). Slots that are free have empty boxes.
+  // O(n log n). Free slots have empty boxes.
   void rebuild(const EditableMesh& mesh);
-  // Whether the mesh has changed so much since that a new tree would be better.
+  // Whether the mesh has changed so much since the last rebuild that a new tree would be better.
   bool outgrown(const EditableMesh& mesh) const;
 
-  // The slot changed: O(depth) at most.
+  // Call this after the slot changed. O(depth) at most.
   void update(const EditableMesh& mesh, std::uint32_t slot);
 
-  // A box as the tree has it, which holds the one that it was rounded from.
+  // A box in the tree's numbers. It contains the box that it was rounded from.
   struct Box {
     std::array<float, 3> lower, upper;
     bool operator==(const Box&) const = default;
   };
   Box rounded(const Bounds& box) const;
 
-  // Calls visit(slot, its box) for every triangle whose box overlaps the one given (touching
-  // counts), in an order that depends on the edits alone, until it returns false; returns whether
-  // it never did.
+  // Calls visit(slot, its box) for every triangle whose box overlaps the given one (touching
+  // counts), until visit returns false. The order depends on the edits alone. Returns whether visit
+  // returned true for all.
   template <class Visit>
   bool for_each_overlap(const Box& box, const Visit& visit) const;
 
@@ -43,20 +44,20 @@ class SlotTree {
     std::uint32_t slot = kNoIndex;  // the lowest of equally near ones
     double squared_distance = 0;
   };
-  // Among the triangles closer than the bound; kNoIndex when there is none. With a `hint`, a
-  // triangle likely to be near, the search is shorter.
+  // The nearest of the triangles closer than the bound; kNoIndex if there is none. A `hint`, a
+  // triangle likely to be near, makes the search shorter.
   Nearest nearest(const EditableMesh& mesh, const Point& p, double squared_bound,
                   std::uint32_t hint = kNoIndex) const;
 
  private:
   static constexpr unsigned kPlaces = 4;
-  using Lanes = Eigen::Array4f;  // of the places
+  using Lanes = Eigen::Array4f;  // one for each place
   static constexpr std::uint32_t kLeaf = 1u << 31;
   static constexpr std::size_t kDeepest = 40;
   static constexpr std::size_t kStack = kPlaces * (kDeepest + 1);
 
   struct alignas(64) Node {
-    std::array<std::array<float, kPlaces>, 3> lower, upper;  // of each axis, of each place
+    std::array<std::array<float, kPlaces>, 3> lower, upper;  // for each axis, of each place
     std::array<std::uint32_t, kPlaces> child;  // a node, a slot with kLeaf, or kNoIndex
     std::uint32_t parent = kNoIndex;           // kPlaces * node + place
   };
@@ -73,7 +74,7 @@ class SlotTree {
   void insert(std::uint32_t slot, const Box& box);
   void refit(std::uint32_t node);
   static Lanes gap(const Node& node, const Box& box, std::size_t axis);
-  static unsigned overlapping(const Node& node, const Box& box);  // a bit for each place
+  static unsigned overlapping(const Node& node, const Box& box);  // one bit for each place
 
   std::vector<Node> nodes_;             // the root first
   std::vector<std::uint32_t> leaf_of_;  // of each slot, kPlaces * node + place

@@ -8,12 +8,12 @@
 
 namespace emax {
 
-// The points' indices along a Morton curve through their bounding box: what is near in space is
-// mostly near in memory then. Equal cells stay in their order. O(n log n).
+// The points' indices along a Morton curve through their bounding box. Points that are near in
+// space are then mostly near in memory. Points in the same cell keep their order. O(n log n).
 std::vector<std::uint32_t> spatial_order(std::span<const Point> points);
 
-// The mesh with its used vertices along the curve and its triangles in the order of their first
-// ones, each turned so that its lowest vertex leads.
+// The mesh with its used vertices along the curve. Each triangle is turned so that its lowest
+// vertex comes first, and the triangles are sorted.
 TriangleMesh spatially_ordered(const TriangleMesh& mesh);
 
 }  // namespace emax

@@ -13,7 +13,7 @@ TrianglePlane::TrianglePlane(const std::array<Point, 3>& c) : origin(c[0]) {
   for (std::size_t i = 0; i < 3; ++i) {
     const PlanarCorner& from = corners[i];
     const PlanarCorner& to = corners[(i + 1) % 3];
-    // Across, to the left of the side.
+    // The direction to the left of the side.
     const double u = to.y - from.y, v = to.z - from.z;
     const double length = std::sqrt(u * u + v * v);
     line[i] = {-v / length, u / length, 0};

@@ -9,12 +9,13 @@
 
 namespace emax {
 
-// A corner in the plane of a triangle T, and its height over it.
+// A corner in the plane of a triangle T, and its height over the plane.
 struct PlanarCorner {
   double y, z, height;
 };
 
-// The plane of a triangle T, its corners in it and its sides as lines that are positive inside.
+// The plane of a triangle T, with T's corners in it and T's sides as lines that are positive
+// inside.
 struct TrianglePlane {
   explicit TrianglePlane(const std::array<Point, 3>& c);
 
@@ -27,7 +28,7 @@ struct TrianglePlane {
   double inside(std::size_t side, const PlanarCorner& c) const {
     return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
   }
-  // The sides that a corner is beyond, a bit each.
+  // The sides that a corner is beyond, one bit each.
   unsigned beyond(const PlanarCorner& c) const {
     unsigned sides = 0;
     for (unsigned side = 0; side < 3; ++side) {
@@ -35,7 +36,7 @@ struct TrianglePlane {
     }
     return sides;
   }
-  // Whether T reaches to the right of the line from a to b.
+  // Whether a part of T lies to the right of the line from a to b.
   bool reaches_over(const PlanarCorner& a, const PlanarCorner& b) const {
     for (const PlanarCorner& c : corners) {
       if ((b.y - a.y) * (c.z - a.z) < (b.z - a.z) * (c.y - a.y)) return true;
@@ -49,8 +50,8 @@ struct TrianglePlane {
   std::array<std::array<double, 3>, 3> line;
 };
 
-// The part of a triangle r that is over T; empty where there is none. `beyond`: of each corner of
-// r.
+// The part of a triangle r that is over T; empty where there is none. `beyond` holds, for each
+// corner of r, the sides of T that it is beyond.
 class PartOverTriangle {
  public:
   void clip(const TrianglePlane& plane, const std::array<PlanarCorner, 3>& r,
@@ -64,23 +65,24 @@ class PartOverTriangle {
 // How a sheet of triangles that faces T lies over it.
 enum class Sheet { kWithin, kBeyond, kNoSheet };
 
-// Follows a sheet of triangles over T. `Faces` tells of the sheet:
+// Follows a sheet of triangles over T. `Faces` describes the sheet:
 //   corners(t): the vertices of triangle t; position(v): of a vertex
 //   neighbour(t, i): the triangle through the side that begins at corner i, or kNoIndex
-//   visit(t): whether the search comes to t for the first time
+//   visit(t): whether this is the first visit of t in this search
 //   part_within(plane, part, t): whether the part of T under `part` of t is within the limit of t
 template <class Faces>
 class SheetWalk {
  public:
-  // Over the side beyond which the middle of T lies, until the triangle is under it; kNoIndex where
-  // the sheet ends or turns before.
+  // From triangle to triangle across the side beyond which the middle of T lies, until the triangle
+  // is under the middle; kNoIndex where the sheet ends or turns before.
   static std::uint32_t under_centroid(const TrianglePlane& plane, std::uint32_t from,
                                       const Faces& faces);
 
-  // From a triangle of the sheet under T over every side that T reaches over. Where all of these
-  // face the way T does and the sheet does not end, a way in T from the first triangle to any point
-  // passes from one of them to the next, so they cover T; kNoSheet where they do not. A triangle
-  // whose corners are all at most `flat` from the plane of T needs no clipping.
+  // From a triangle of the sheet under T across every side that a part of T lies beyond. Where all
+  // of these triangles face the way T does and the sheet does not end, a path in T from the first
+  // triangle to any point passes from one of them to the next, so they cover T. Otherwise the
+  // result is kNoSheet. A triangle whose corners are all at most `flat` from the plane of T needs
+  // no clipping.
   Sheet follow_covering(const TrianglePlane& plane, std::uint32_t start, double flat, Faces& faces);
 
  private:
