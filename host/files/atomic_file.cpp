@@ -25,8 +25,8 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// The file that writing to `path` makes or replaces: links are followed, also where they lead to
-// nothing yet. Still a link where they lead in a circle.
+// The file that writing to `path` makes or replaces. Symbolic links are followed, even to a file
+// that does not exist yet. The result is still a link if the links form a circle.
 fs::path target_of(fs::path path) {
   constexpr int kMostLinks = 40;
   std::error_code failure;
@@ -38,7 +38,8 @@ fs::path target_of(fs::path path) {
   return path;
 }
 
-// Links followed; what cannot be looked at fails when it is opened.
+// The canonical path with links followed. If a part cannot be read, the path itself; opening it
+// then fails.
 fs::path place_of(const fs::path& path) {
   std::error_code failure;
   fs::path place = fs::weakly_canonical(fs::absolute(target_of(path), failure), failure);
@@ -51,14 +52,14 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(target_of(pa
   std::error_code ignored;
   if (fs::is_symlink(target_, ignored)) fail(ELOOP);
   static std::atomic<unsigned> serial{0};
-  // A leftover of a killed process may hold the name: then the next number is tried.
+  // If a leftover of a killed process has this name, the next number is tried.
   do {
     temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.tmp", target_.filename().string(),
                                                   getpid(), serial.fetch_add(1));
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) fail(errno);
-  // What is replaced keeps its permissions, where that may be.
+  // A replaced file passes its permissions on where the system permits that.
   struct stat old {};
   if (stat(target_.c_str(), &old) == 0) (void)!fchmod(descriptor_, old.st_mode & 0777);
 }
@@ -86,7 +87,8 @@ void AtomicFile::finish() {
 void AtomicFile::publish() {
   if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   published_ = true;
-  // The new name is made durable too; file systems that cannot do so are not a failure.
+  // The folder is synchronised so that the new name is durable, too. It is not an error if the file
+  // system cannot do that.
   const int folder = open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {
     fsync(folder);

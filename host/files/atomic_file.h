@@ -9,14 +9,14 @@
 
 namespace emax {
 
-// A file that appears whole under its name or not at all. It is written under a temporary name in
-// the same folder; finish() makes it durable, publish() renames it, and the destructor removes what
-// was not published. A program that is to leave nothing behind when interrupted therefore unwinds,
-// or unlinks temporary() itself.
+// A file that appears under its name either whole or not at all. It is written under a temporary
+// name in the same folder; finish() makes it durable, publish() renames it, and the destructor
+// removes it if it was not published. A program that must leave nothing behind when it is
+// interrupted therefore unwinds its stack, or unlinks temporary() itself.
 class AtomicFile {
  public:
-  // Throws Error when nothing can be created beside `path`. A symbolic link is followed, also to a
-  // file that is not there yet; a file that is replaced passes its permissions on.
+  // Throws Error when no file can be created beside `path`. A symbolic link is followed, even to a
+  // file that does not exist yet. A file that is replaced passes its permissions on.
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -25,7 +25,7 @@ class AtomicFile {
   // Throw Error, e.g. when the disk is full.
   void write(std::string_view bytes);
   void finish();
-  void publish();  // what is finished
+  void publish();  // after finish()
 
   const std::filesystem::path& temporary() const { return temporary_; }
 
@@ -40,7 +40,7 @@ class AtomicFile {
 };
 
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
-// `fill` writes in pieces; when it throws, nothing is left behind.
+// `fill` writes in pieces. If it throws, nothing is left behind.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(AtomicFile&)>& fill);
 
@@ -48,19 +48,19 @@ struct OutputFile {
   std::filesystem::path path;
   std::string bytes;
 };
-// All of them appear, in this order, or none: nothing is renamed before everything is on the disk.
-// Only a kill or a refusal between two renames leaves the first without the rest. Throws Error.
+// All files appear, in this order, or none: every file is on the disk before the first is renamed.
+// Only a kill or a refusal between two renames can leave some without the others. Throws Error.
 void write_together(std::span<const OutputFile> files);
 
-// To be asked before long work: throws Error unless `path` has one of `endings` (in lower case,
-// with the dot), is no folder, device or write-protected file, and its folder exists and lets a
-// file be created.
+// Call this before long work. Throws Error unless `path` has one of `endings` (in lower case, with
+// the dot), is not a folder, a device or a write-protected file, and its folder exists and a file
+// can be created in it.
 void check_output(const std::filesystem::path& path, std::span<const std::string_view> endings);
-// And that nothing written replaces what is read or what else is written: throws Error where an
-// output is the file of an input or of another output. Empty paths stand for none.
+// Throws Error if an output is the same file as an input or another output. Empty paths are
+// ignored.
 void check_distinct(std::initializer_list<std::filesystem::path> outputs,
                     std::initializer_list<std::filesystem::path> inputs);
-// And that none of them lies in a folder whose files come and go: throws Error.
+// Throws Error if an output lies in `folder`, whose files the program creates and removes.
 void check_outside(std::initializer_list<std::filesystem::path> outputs,
                    const std::filesystem::path& folder);
 

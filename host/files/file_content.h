@@ -20,16 +20,17 @@ inline constexpr std::string_view kTextureCoordinates = "texture coordinates";
 inline constexpr std::string_view kGroups = "groups";
 inline constexpr std::string_view kMaterials = "materials";
 
-// What a file of any format holds. Coordinates may still be NaN or infinite: the first vertex of
-// that kind is named, and clouds and meshes judge it each in their own way.
+// The content of a file of any format. Coordinates may be NaN or infinite; `first_invalid` names
+// the first such vertex, and the readers of clouds and meshes decide what follows from it.
 struct FileContent {
   std::vector<Point> vertices;
   std::vector<Point> normals;       // empty, or one per vertex
   std::vector<Triangle> triangles;  // polygons as fans around their first vertex
-  // Of the fans of more than one triangle, where each begins and how many it has.
+  // For each fan of more than one triangle: its first triangle and the number of its triangles.
   std::vector<std::pair<std::size_t, std::size_t>> fans;
   std::string first_invalid;  // "line 12" or "vertex 5"; empty when all are finite
-  // What else the file says of its mesh, each once: kColours and the like, or a name of its own.
+  // Other attributes of the mesh in the file, each once: kColours and the like, or a name from the
+  // file.
   std::vector<std::string> attributes;
 
   void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
@@ -44,8 +45,8 @@ struct FileContent {
   }
 };
 
-// Adds the fan of `polygon`. `fail(what)` is called when it has fewer than three corners or a
-// corner that is not in [0, vertex_count).
+// Adds the fan of `polygon`. Calls `fail(what)` if it has fewer than three corners or a corner that
+// is not in [0, vertex_count).
 template <class Fail>
 void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
                  std::uint64_t vertex_count, const Fail& fail) {
@@ -65,9 +66,9 @@ void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
   }
 }
 
-// Adds the triangles of strips of at least three corners each, which -1 ends and begins anew. Every
-// second triangle of a strip is turned, so that all face the same way. Triangles that repeat a
-// corner, by which strips are stitched together, are left out. `fail` as above.
+// Adds the triangles of strips of at least three corners each; -1 separates strips. Every second
+// triangle of a strip is turned, so that all face the same way. Triangles that repeat a corner only
+// connect strips and are left out. `fail` is called as above.
 template <class Fail>
 void add_strips(FileContent& content, std::span<const std::int64_t> corners,
                 std::uint64_t vertex_count, const Fail& fail) {
@@ -82,7 +83,7 @@ void add_strips(FileContent& content, std::span<const std::int64_t> corners,
       if ((i - begin) % 2 != 0) std::swap(triangle[0], triangle[1]);
       const auto& [a, b, c] = triangle;
       const bool is_stitch = a == b || b == c || c == a;
-      // The indices are checked in any case.
+      // The indices of triangles that are left out are checked, too.
       add_polygon(content, triangle, vertex_count, fail);
       if (is_stitch) content.triangles.pop_back();
     }
@@ -90,24 +91,25 @@ void add_strips(FileContent& content, std::span<const std::int64_t> corners,
   }
 }
 
-// Throws Error unless `count` items of at least `least_bytes` each fit into `bytes_left`, which is
-// asked before anything is allocated for a count that a file claims. Indices are 32 bit.
+// Throws Error unless `count` items of at least `least_bytes` each fit into `bytes_left` and 32-bit
+// indices can number them. Call this before memory is allocated for a count that a file claims.
 void check_count(const InputFile& input, std::uint64_t count, std::string_view items,
                  std::uint64_t least_bytes, std::uint64_t bytes_left);
 
-// One reader per format, strict: what the header promises is there, and nothing follows it; behind
-// the data of a PCD file there may be padding.
+// One reader for each format. The readers are strict: everything that the header promises must be
+// there, and nothing may follow it. Only after the data of a PCD file there may be padding.
 FileContent read_ply(const InputFile& input);  // ascii, binary little and big endian
 FileContent read_off(const InputFile& input);  // [C][N]OFF
-FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are passed over
+FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are ignored
 FileContent read_stl(const InputFile& input);  // ascii, binary; equal vertices merged
 FileContent read_pcd(const InputFile& input);  // ascii, binary, binary_compressed
-// Columns: x y z, then any others, as many in every row: intensity, colour, normal in any order.
-// The first three columns behind x y z that hold a unit vector in every row are the normal.
-// Separated by blanks, commas or semicolons, the same throughout; decimal commas are refused.
+// Columns: x y z, then any others (intensity, colour, normal in any order), as many in every row.
+// The first three columns after x y z that hold a unit vector in every row are the normal. Columns
+// are separated by blanks, commas or semicolons, the same throughout the file. Decimal commas are
+// refused.
 FileContent read_xyz(const InputFile& input);
-// As above, but the four columns behind x y z (intensity and colour) are never part of a normal;
-// the first line may hold the count.
+// As read_xyz, but the four columns after x y z (intensity and colour) are never part of a normal,
+// and the first line may hold the count.
 FileContent read_pts(const InputFile& input);
 
 }  // namespace emax

@@ -31,7 +31,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The ending that the first bytes speak for; empty when they speak for none.
+// The ending of the format that the first bytes indicate; empty if they indicate none.
 std::string_view ending_by_content(std::string_view bytes) {
   const std::string_view first_line = trimmed(bytes.substr(0, bytes.find('\n')));
   if (first_line == "ply") return ".ply";
@@ -64,7 +64,7 @@ InputFile read_input(const std::filesystem::path& path) {
   if (S_ISDIR(status.st_mode)) input.fail("is a folder", "name a file in it");
   if (!S_ISREG(status.st_mode)) input.fail("is not a regular file", "copy the data into a file");
 
-  // One byte more than the size, so that the end is seen without growing.
+  // One byte more than the size, so that the end of the file is found without growing the buffer.
   std::size_t used = 0;
   input.bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
   while (true) {

@@ -10,7 +10,7 @@
 
 namespace emax {
 
-// A file read whole. Every complaint about it has one form: "<name>: <what>; <remedy>".
+// A file read whole. Every error message about it has the form "<name>: <what>; <remedy>".
 struct InputFile {
   std::string name;  // as the user wrote it
   std::string bytes;
@@ -18,7 +18,7 @@ struct InputFile {
   [[noreturn]] void fail(std::string_view what, std::string_view remedy) const;
 };
 
-// The remedy where the content itself is damaged.
+// The remedy where the content is damaged.
 inline constexpr std::string_view kExportAgain =
     "the file is truncated or damaged, copy or export it again";
 
@@ -28,12 +28,12 @@ InputFile read_input(const std::filesystem::path& path);
 // The ending in lower case, with its dot; empty when there is none.
 std::string lower_case_ending(const std::filesystem::path& path);
 
-// Throws Error when the content begins like another format than the one `ending` stands for.
+// Throws Error if the content begins like that of another format than the one of `ending`.
 void check_ending_fits(const InputFile& input, std::string_view ending);
 
-// The lines of a text file that hold anything, split into fields. A field is a run of characters
-// other than blanks; with a separator set, fields are what stands between separators, and blanks
-// around them are not part of them.
+// The lines of a text file that are not empty, split into fields. A field is a run of characters
+// other than blanks. With a separator set, fields are the texts between separators, without the
+// blanks around them.
 class TextLines {
  public:
   enum class Comments { kNone, kHash, kHashOrSlashes };  // from the mark to the end of the line
@@ -42,13 +42,13 @@ class TextLines {
             std::size_t lines_before = 0)
       : input_(input), comments_(comments), offset_(offset), line_(lines_before) {}
 
-  // Moves to the next line that holds a field. False at the end of the file.
+  // Moves to the next line that has a field. Returns false at the end of the file.
   bool next();
   // As next(), but throws Error naming `wanted` at the end of the file.
   void require_next(std::string_view wanted);
-  // The same for item `index` of `count`.
+  // As require_next() for item `index` of `count`.
   void require_next(std::string_view item, std::size_t index, std::size_t count);
-  // Splits this line and all that follow at `separator`; ' ' stands for blanks.
+  // Splits this line and all later ones at `separator`; ' ' means blanks.
   void set_separator(char separator);
 
   std::size_t offset() const { return offset_; }  // of the first byte after the current line
@@ -57,13 +57,13 @@ class TextLines {
 
   std::size_t size() const { return fields_.size(); }
   std::string_view operator[](std::size_t i) const { return fields_[i]; }
-  // Throw Error when the field is not such a number.
+  // These throw Error if the field is not such a number.
   double number(std::size_t i) const;
   std::int64_t integer(std::size_t i) const;
   std::uint64_t count(std::size_t i) const;  // an integer >= 0
   Point point(std::size_t i) const;          // three numbers
 
-  // Throws the error of a comma in place of the decimal point.
+  // Throws the error for a comma in place of the decimal point.
   [[noreturn]] void fail_at_decimal_comma(std::string_view text) const;
 
   // "<name>: line <n>: <what>; <remedy>"
@@ -84,7 +84,8 @@ class TextLines {
   std::vector<std::string_view> fields_;
 };
 
-// `text` fit for a one-line message: cut at 40 characters, others than printable ASCII as '?'.
+// `text` for a one-line message: cut at 40 characters; characters other than printable ASCII become
+// '?'.
 std::string printable(std::string_view text);
 
 }  // namespace emax

@@ -99,9 +99,9 @@ FileContent read_content(const InputFile& input, const std::filesystem::path& pa
   return kReaders[format](input);
 }
 
-// Meshes of depth images hold a vertex for every pixel, NaN where nothing was seen. Such a vertex
-// belongs to no triangle: it gets the place of one that does, so that the others keep their index.
-// False where a triangle has a corner that is not finite.
+// Meshes of depth images have a vertex for every pixel, NaN where nothing was seen. Such a vertex
+// belongs to no triangle. It gets the position of one that does, so that the other vertices keep
+// their index. Returns false if a triangle has a corner that is not finite.
 bool replace_unused_invalid(FileContent& content) {
   const std::vector<bool> used = used_vertices(content.vertices.size(), content.triangles);
   const Point place = content.vertices[content.triangles.front()[0]];

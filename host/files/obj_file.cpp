@@ -1,4 +1,4 @@
-// Wavefront OBJ: one element a line, told by its first word.
+// Wavefront OBJ: one element a line. Its first word is its kind.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,8 @@
 namespace emax {
 namespace {
 
-// Elements without a say in the shape, and the attribute that each gives to it; empty: none.
+// Elements that do not change the shape, with the attribute that each adds to the mesh; empty:
+// none.
 struct PassedOver {
   std::string_view word, attribute;
 };
@@ -28,7 +29,8 @@ constexpr std::array<PassedOver, 12> kPassedOver{{{"vt", kTextureCoordinates},
                                                   {"l", "lines"},
                                                   {"p", "points"}}};
 
-// 0-based, from a 1-based index or a negative one that counts back from the last of `count`.
+// The 0-based index for a 1-based index, or for a negative one that counts back from the last of
+// `count`.
 std::int64_t resolve(std::int64_t index, std::size_t count) {
   return index < 0 ? static_cast<std::int64_t>(count) + index : index - 1;
 }
@@ -63,7 +65,7 @@ Corner parse_corner(const TextLines& lines, std::size_t field, const FileContent
 FileContent read_obj(const InputFile& input) {
   FileContent content;
   TextLines lines(input, TextLines::Comments::kHash);
-  // A face may stand before its vertices: the greatest index is checked at the end.
+  // A face may come before its vertices, so the greatest index is checked at the end.
   std::int64_t greatest = -1;
   std::size_t greatest_line = 0;
   bool one_normal_per_vertex = true;

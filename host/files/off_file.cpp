@@ -16,7 +16,7 @@ FileContent read_off(const InputFile& input) {
     lines.fail("does not begin with OFF, COFF, NOFF or CNOFF",
                "it is no OFF file that emax reads, export it as a plain OFF or PLY");
   }
-  // The counts may stand on the line of the keyword.
+  // The counts may be on the line of the keyword.
   std::size_t at = 1;
   if (lines.size() == 1) {
     lines.require_next("the counts");
@@ -27,7 +27,8 @@ FileContent read_off(const InputFile& input) {
   const std::uint64_t faces = lines.count(at + 1);
   lines.count(at + 2);
 
-  // At the least, a line holds digits with one byte after each; nothing need end the last one.
+  // A line has at least a digit and one byte after it for each value; only the last may end without
+  // such a byte.
   const std::size_t columns = has_normals ? 6 : 3;
   const std::uint64_t room = input.bytes.size() - lines.offset() + 1;
   check_count(input, vertices, "vertices", 2 * columns, room);

@@ -20,8 +20,9 @@ struct Field {
   std::string name;
   std::size_t size = 4;  // bytes of one value
   char type = 'F';
-  // Values. Negative for padding "_" alone: the Point Cloud Library's writer goes back so where the
-  // fields of a type do not stand in the order of its memory, and writes no column of text for it.
+  // The number of values. It is negative only for padding "_": the Point Cloud Library's writer
+  // moves back so where the fields of a type are not in the order of its memory. It writes no
+  // column of text for such padding.
   std::int64_t count = 1;
   std::int64_t bytes() const { return static_cast<std::int64_t>(size) * count; }
 };
@@ -137,7 +138,7 @@ Header read_header(const InputFile& input) {
   return header;
 }
 
-// Where a coordinate stands: the field, its column in a text line, its byte offset in a point.
+// The position of a coordinate: the field, its column in a text line, its byte offset in a point.
 struct Place {
   const Field* field;
   std::size_t column;
@@ -197,7 +198,7 @@ std::string decompress(const InputFile& input, const Header& header, std::uint64
                            room - sizeof sizes),
                kExportAgain);
   }
-  // LZF makes at most 264 bytes out of 3.
+  // LZF makes at most 264 bytes from 3.
   if (sizes[1] != wanted || wanted > 88 * std::uint64_t{sizes[0]}) {
     input.fail(
         fmt::format("{} bytes of data cannot be the promised {} points", sizes[1], header.points),
@@ -221,9 +222,9 @@ bool is_point(const TextLines& lines, std::size_t columns) {
 
 }  // namespace
 
-// Writers pad the data to whole pages of memory, so what follows the last point is ignored, as the
-// Point Cloud Library's own reader does. A line of text that is one more point is refused: the
-// header contradicts it.
+// Writers pad the data to whole pages of memory. Bytes after the last point are therefore ignored,
+// as the Point Cloud Library's reader ignores them. A further line of text that is a point is
+// refused, because it contradicts the header.
 FileContent read_pcd(const InputFile& input) {
   const Header header = read_header(input);
   const auto coordinates = find_three(header, {"x", "y", "z"});
@@ -283,7 +284,7 @@ FileContent read_pcd(const InputFile& input) {
     return content;
   }
 
-  // The sizes in the file are 32 bit.
+  // The format itself has 32-bit sizes here.
   check_count(input, header.points, "points", point_bytes,
               std::numeric_limits<std::uint32_t>::max());
   const std::string body = decompress(input, header, header.points * point_bytes);

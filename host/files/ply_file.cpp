@@ -120,12 +120,12 @@ Header read_header(const InputFile& input) {
   return header;
 }
 
-// The values of a text body: one line per item, every value of the line used.
+// The values of a text body: one line for each item, without spare values.
 class TextValues {
  public:
   static constexpr std::string_view kPlace = "line";
-  static std::size_t least_bytes(Type) { return 2; }  // a digit and what ends it
-  static std::size_t slack() { return 1; }            // nothing need end the last digit
+  static std::size_t least_bytes(Type) { return 2; }  // a digit and the byte that ends it
+  static std::size_t slack() { return 1; }            // the last digit may end the file
 
   TextValues(const InputFile& input, const Header& header)
       : lines_(input, TextLines::Comments::kNone, header.body, header.last_line) {}
@@ -245,7 +245,7 @@ class BinaryValues {
   std::uint64_t index_ = 0;
 };
 
-// What a property says of a vertex or a face beside its place: one of the common attributes, or the
+// The attribute that a property gives to a vertex or face: one of the common ones, or the
 // property's own name in quotes.
 std::string attribute_of(std::string_view property) {
   struct Known {
@@ -297,7 +297,7 @@ void note_attributes(const Header& header, FileContent& content) {
   }
 }
 
-// Positions among the properties of the three scalars named `names`; empty when one is missing.
+// Positions of the three scalars named `names` among the properties; nothing if one is missing.
 std::optional<std::array<std::size_t, 3>> find_three(const Element& element,
                                                      const std::array<std::string_view, 3>& names) {
   std::array<std::size_t, 3> positions{};

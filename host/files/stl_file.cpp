@@ -42,7 +42,7 @@ FileContent read_binary(const InputFile& input) {
                   sizeof xyz);
       add_corner(content, Point(xyz[0], xyz[1], xyz[2]), "triangle", t);
     }
-    // Some programs keep a colour in the two bytes that the format leaves without a meaning.
+    // Some programs store a colour in the two bytes that the format leaves unused.
     const char* const end = input.bytes.data() + kHeaderBytes + (t + 1) * kTriangleBytes;
     if (end[-2] != 0 || end[-1] != 0) content.note_attribute(kColours);
   }
@@ -88,7 +88,7 @@ FileContent read_text(const InputFile& input) {
 }  // namespace
 
 FileContent read_stl(const InputFile& input) {
-  // Binary files may begin with "solid" too, so the size decides first.
+  // Binary files may also begin with "solid", so the size decides first.
   const std::size_t size = input.bytes.size();
   const bool is_binary = size >= kHeaderBytes &&
                          size == kHeaderBytes + std::size_t{binary_count(input)} * kTriangleBytes;

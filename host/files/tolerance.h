@@ -18,7 +18,7 @@ struct Tolerance {
 // "N" or "N%", nothing else, N > 0 and finite. Throws Error naming the option.
 Tolerance parse_tolerance(std::string_view text, std::string_view option = "--max-error");
 
-// In both, to six digits: "0.5 (0.321% of the width 155.7)".
+// In both units, with six digits: "0.5 (0.321% of the width 155.7)".
 std::string to_text(const Tolerance& tolerance, double width);
 
 }  // namespace emax

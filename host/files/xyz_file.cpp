@@ -11,7 +11,7 @@
 namespace emax {
 namespace {
 
-// Whether commas stand inside the numbers of this line: "1,5 2,5 3,5" or "1,5, 2,5, 3,5".
+// Whether the numbers of this line have decimal commas: "1,5 2,5 3,5" or "1,5, 2,5, 3,5".
 bool has_decimal_commas(const TextLines& lines) {
   std::size_t with_comma = 0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -24,8 +24,8 @@ bool has_decimal_commas(const TextLines& lines) {
   return lines.size() >= 3 && with_comma > 0;
 }
 
-// What stands between two fields, judged by the first line of points, which is split at blanks.
-// Throws Error where the numbers of that line have decimal commas.
+// The separator of fields, found from the first line of points, which is split at blanks. Throws
+// Error where the numbers of that line have decimal commas.
 char separator_of(const TextLines& lines) {
   if (lines.text().find(';') != std::string_view::npos) return ';';
   if (has_decimal_commas(lines)) lines.fail_at_decimal_comma(lines.text());
@@ -34,14 +34,14 @@ char separator_of(const TextLines& lines) {
 
 bool is_unit(const Point& vector) { return std::abs(vector.squaredNorm() - 1) < 0.01; }
 
-// Three columns that may hold normals: those of every row so far.
+// Three columns that may be normals, with their values of every row so far.
 struct NormalColumns {
   std::size_t first;
   std::vector<Point> normals;
 };
 
-// Reads rows from the current line of `lines` on. Normals stand nowhere before the column
-// `first_normal`.
+// Reads rows from the current line of `lines` on. No column before `first_normal` is part of a
+// normal.
 FileContent read_rows(const InputFile& input, TextLines& lines, std::size_t first_normal,
                       std::optional<std::uint64_t> count) {
   FileContent content;
@@ -62,7 +62,7 @@ FileContent read_rows(const InputFile& input, TextLines& lines, std::size_t firs
     }
     content.add_vertex(lines.point(0), "line", lines.line());
     for (std::size_t k = 3; k < columns; ++k) lines.number(k);
-    // The row of an invalid point may hold an invalid normal; the point is judged, not the normal.
+    // The row of an invalid point may have an invalid normal. It does not exclude these columns.
     std::erase_if(candidates, [&](NormalColumns& candidate) {
       candidate.normals.push_back(lines.point(candidate.first));
       return !is_unit(candidate.normals.back()) && content.vertices.back().allFinite();
