@@ -42,7 +42,7 @@ std::uint32_t checksum(std::span<const std::uint8_t> content) {
   return crc32(checked);
 }
 
-// Whether the path still leads to the open file: a run that ended may have removed it meanwhile.
+// Whether the path still leads to the open file: a run that ended may have removed the file.
 bool is_same_file(int descriptor, const std::filesystem::path& path) {
   struct stat open_one, named_one;
   return fstat(descriptor, &open_one) == 0 && stat(path.c_str(), &named_one) == 0 &&
@@ -71,7 +71,7 @@ RecordScan scan_records(std::span<const std::uint8_t> bytes) {
         length <= RecordFile::kMaximumContent && length <= rest.size() - RecordFile::kRecordBytes;
     const auto content = fits ? rest.subspan(RecordFile::kRecordBytes, length) : rest.first(0);
     if (!fits || number_at(rest.subspan(4)) != checksum(content)) {
-      ++at;  // hunts for the next whole record
+      ++at;  // search for the next whole record
       continue;
     }
     scan.damaged += at - scan.end;
@@ -149,13 +149,13 @@ void RecordFile::write_at_end(std::span<const std::uint8_t> bytes) {
       error = errno;
     }
   }
-  // A file system that cannot flush is no failure, one that lost what was written is.
+  // It is an error if the file system lost the data, but not if it cannot flush.
   if (error == 0 && fdatasync(descriptor_) != 0 &&
       (errno == EIO || errno == ENOSPC || errno == EDQUOT)) {
     error = errno;
   }
   if (error != 0) {
-    // What cannot be cut now is cut as a torn tail when the file is read.
+    // If the file cannot be cut now, the torn tail is cut when the file is read.
     [[maybe_unused]] const int ignored = ftruncate(descriptor_, static_cast<off_t>(size_));
     fail(error);
   }

@@ -48,8 +48,8 @@ std::optional<std::uint64_t> index_of_mesh(const fs::path& path) {
   return is_mesh ? std::optional(index) : std::nullopt;
 }
 
-constexpr const char* kNotSaid = "not said";
-constexpr const char* kBudgets = "budgets";  // "20 40": what may grow, so it is not compared
+constexpr const char* kNotSaid = "(none)";
+constexpr const char* kBudgets = "budgets";  // "20 40": may grow, so it is not compared
 
 ordered_json settings_in(const fs::path& folder) {
   const fs::path path = folder / kSettingsName;
@@ -121,7 +121,8 @@ RunLog::RunLog(fs::path folder, const RunSettings& settings) : folder_(std::move
   try {
     open(settings);
   } catch (...) {
-    // As the destructor would; without the lock another process may have begun there.
+    // Removes the folder as the destructor would. Without the lock another process may have begun
+    // there.
     if (created_ && log_) remove();
     throw;
   }
@@ -134,10 +135,10 @@ void RunLog::open(const RunSettings& settings) {
     records.emplace_back(content.begin(), content.end());
   });
   if (!records.empty()) {
-    compare(settings);  // first: another version may have written other records
+    compare(settings);  // before the records: another version may have written them in another form
     enter(records);
   } else {
-    // Settings first: a log that holds anything always has them beside it.
+    // The settings are written first, so that a log with records always has settings.
     ordered_json json;
     for (const auto& [name, value] : settings) json[name] = value;
     write_settings(folder_, json);
@@ -171,7 +172,7 @@ void RunLog::enter(std::span<const std::vector<std::uint8_t>> records) {
     try {
       LoggedEvaluation evaluation = decode_evaluation(content);
       const std::uint64_t index = evaluation.index;
-      evaluations_.insert_or_assign(index, std::move(evaluation));  // the last word counts
+      evaluations_.insert_or_assign(index, std::move(evaluation));  // the last record counts
     } catch (const Error& error) {
       throw Error(fmt::format("{}: holds a record that is {}; name another folder",
                               log_->path().string(), error.what()));
@@ -224,7 +225,8 @@ std::vector<std::size_t> RunLog::give_budget(std::size_t budget) {
   return budgets;
 }
 
-// Those without an evaluation were cut off from it by a kill.
+// Meshes without an evaluation are left from a run that was killed before the evaluation was
+// written.
 void RunLog::find_meshes() {
   std::vector<fs::path> leftovers;
   for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -270,13 +272,13 @@ void RunLog::drop_mesh(std::uint64_t index) {
   fs::remove(mesh_path(index), ignored);
 }
 
-// In an order that leaves a fresh or a whole run wherever it is cut short.
+// The order leaves either a new or a complete run if it is interrupted.
 void RunLog::remove() {
   removed_ = true;
   evaluations_.clear();
   try {
     log_->clear();
-  } catch (const Error&) {  // an empty log is a fresh run's too
+  } catch (const Error&) {  // a new run has an empty log, too
   }
   std::error_code ignored;
   for (const std::uint64_t index : meshes_) fs::remove(mesh_path(index), ignored);

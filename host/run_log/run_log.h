@@ -14,68 +14,70 @@
 
 namespace emax {
 
-// Everything that the results of a run depend on, by name, in the order in which differences are
-// looked for. An empty value is not known yet: settle() tells it.
+// All settings that the results of a run depend on, by name, in the order in which they are
+// compared. An empty value is not known yet; settle() sets it later.
 using RunSettings = std::vector<std::pair<std::string, std::string>>;
 
 struct LoggedEvaluation {
   std::uint64_t index = 0;  // of the candidate
   std::vector<double> genes;
 
-  std::string failure;  // its reason; empty for one that was measured
+  std::string failure;  // the reason; empty for a candidate that was measured
   std::string message;  // one line
 
-  std::optional<double> walked;  // the value of the gene that the evaluation looked for itself
+  std::optional<double> walked;  // the value of the gene that the evaluation searched for itself
   std::uint64_t triangles = 0;
   double violation = 0;            // as MeasuredError has it; at most 0 when feasible
-  std::uint32_t squared_bits = 0;  // the kernel's e_max^2 over the points that are kept
+  std::uint32_t squared_bits = 0;  // the kernel's e_max^2 over the points that are not excluded
   std::uint64_t reconstruction_triangles = 0, unmeshed_points = 0;
-  bool stopped = false;  // before its end: good for a mesh, but no result of the candidate
-  std::optional<std::uint32_t> mesh_crc;  // CRC-32 of the mesh's file, where that was kept
+  bool stopped = false;  // before its end: gives a mesh, but no result of the candidate
+  std::optional<std::uint32_t> mesh_crc;  // CRC-32 of the mesh's file, if it was kept
 
   bool operator==(const LoggedEvaluation&) const = default;
 };
 
-// A run's folder (docs/run_folder.md): its settings, a log of its evaluations that is cache and
-// checkpoint at once, and the meshes that may become the result. Held by one process at a time.
+// A run's folder (docs/run_folder.md): its settings, a log of its evaluations that serves as cache
+// and checkpoint, and the meshes that may become the result. Only one process at a time may use it.
 class RunLog {
  public:
-  // Creates the folder, or continues what is there. Throws Error when another process holds it,
-  // when it was made with other settings (the message names the first that differs) or is no run's,
-  // and when it cannot be written.
+  // Creates the folder, or continues the run in it. Throws Error if another process uses it, if it
+  // was made with other settings (the message names the first that differs), if it is not the
+  // folder of a run, and if it cannot be written.
   RunLog(std::filesystem::path folder, const RunSettings& settings);
-  // Removes the folder if it holds no evaluation and was made here.
+  // Removes the folder if it holds no evaluation and this object created it.
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  // What is found out only after the folder was opened. Throws Error as the constructor does.
+  // Sets a value that is known only after the folder was opened. Throws Error as the constructor
+  // does.
   void settle(const std::string& name, const std::string& value);
 
-  // The budgets that the search here has been given, ascending, this one among them if it is larger
-  // than those before. A folder without evaluations has had none. Throws Error when it cannot be
-  // written.
+  // Adds `budget` to the budgets of the search in this folder if it is larger than the earlier
+  // ones, and returns them all, ascending. A folder without evaluations has no earlier budgets.
+  // Throws Error if it cannot be written.
   std::vector<std::size_t> give_budget(std::size_t budget);
 
   const std::filesystem::path& folder() const { return folder_; }
   std::size_t size() const { return evaluations_.size(); }  // evaluations
   RecordFile::Loss loss() const { return loss_; }           // when it was opened
 
-  // What candidate `index` came to; nullptr when that is not known.
+  // The evaluation of candidate `index`; nullptr if there is none.
   const LoggedEvaluation* find(std::uint64_t index) const;
 
   const std::map<std::uint64_t, LoggedEvaluation>& evaluations() const { return evaluations_; }
 
-  // As RecordFile::append. Throws Error, e.g. when the disk is full; what was there stays.
+  // As RecordFile::append. Throws Error, for example when the disk is full; earlier evaluations
+  // stay.
   void append(LoggedEvaluation evaluation);
-  // The mesh is kept too, until it is dropped.
+  // Also keeps the mesh until drop_mesh().
   void append(LoggedEvaluation evaluation, const TriangleMesh& mesh);
 
-  // The mesh that was kept with it; nothing when it is gone or damaged.
+  // The mesh that was kept with the evaluation; nothing if it is missing or damaged.
   std::optional<TriangleMesh> mesh(const LoggedEvaluation& evaluation) const;
   void drop_mesh(std::uint64_t index);
 
-  // Removes the folder with all that is its own in it.
+  // Removes the folder with all of the run's files.
   void remove();
 
  private:
@@ -98,7 +100,7 @@ class RunLog {
 
 // A record's content: one CBOR map.
 std::vector<std::uint8_t> encode(const LoggedEvaluation& evaluation);
-// Throws Error when it is none.
+// Throws Error if the content is not an evaluation.
 LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content);
 
 }  // namespace emax

@@ -25,10 +25,12 @@
 namespace emax {
 namespace {
 
-// Static objects of the libraries are left alone: PCL's Poisson does not survive their destruction.
+// Leaves without destroying the static objects of libraries: PCL's Poisson crashes when they are
+// destroyed.
 [[noreturn]] void leave(int code) { _exit(code); }
 
-// The program is gone, even while a library calculates: nobody waits for the answer.
+// Leaves as soon as the program that started the worker has ended, even while a library calculates:
+// nobody waits for the answer.
 void leave_on_hangup() {
   std::thread([] {
     pollfd channel{kChannelFd, 0, 0};
@@ -70,7 +72,7 @@ Message receive() {
   return decode(body);
 }
 
-// The file is shared with other workers, its position too: it is read by offset.
+// The file and its position are shared with other workers, so it is read by offset.
 PointsMessage read_points() {
   struct stat status;
   if (fstat(kPointsFd, &status) != 0) throw Error(std::string("no points: ") + strerror(errno));
@@ -85,7 +87,7 @@ PointsMessage read_points() {
   return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes)));
 }
 
-// Whether the program asks for the mesh at hand. Nothing else can arrive during a run.
+// Whether the program asks for the mesh reached so far. No other message can arrive during a run.
 bool asked_to_stop() {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kBetween{5};
@@ -98,7 +100,7 @@ bool asked_to_stop() {
   return false;
 }
 
-// The next run. What asks to stop one that has been answered comes too late.
+// Waits for the next run. A stop message that arrives here came after the answer and is ignored.
 RunMessage next_run() {
   while (true) {
     Message message = receive();
@@ -107,7 +109,7 @@ RunMessage next_run() {
   }
 }
 
-// The answer's bytes, which take memory too.
+// Returns the answer's bytes. Making them also takes memory, so they are made here.
 Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
   try {
     if (before) before(run.settings);
@@ -119,7 +121,8 @@ Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
   }
 }
 
-// What lacks memory between evaluations costs one of them, as a crash does.
+// If memory runs out between evaluations, the worker leaves. That costs one evaluation, as a crash
+// does.
 [[noreturn]] void answer_requests(Chain& chain, const BeforeRun& before) {
   try {
     for (bool first = true;; first = false) {
@@ -153,8 +156,8 @@ int run_worker(std::span<char*> arguments, const BeforeRun& before) {
   std::from_chars(memory.data(), memory.data() + memory.size(), memory_limit);
   if (memory_limit != 0) limit(RLIMIT_AS, memory_limit);
   limit(RLIMIT_CORE, 0);
-  // Whoever stops the program may signal its workers too; they end when it does, and not before, as
-  // if their evaluation had failed.
+  // A signal that stops the program may also reach its workers. They ignore it and end when the
+  // program ends: if they ended before, their evaluations would count as failed.
   for (const int signal_number : {SIGHUP, SIGINT, SIGTERM}) std::signal(signal_number, SIG_IGN);
   leave_on_hangup();
   try {

@@ -7,12 +7,12 @@
 
 namespace emax {
 
-// Called with each candidate before it is run; what it throws is the candidate's failure.
+// Called with each candidate before it is run. If it throws, the candidate fails with that error.
 using BeforeRun = std::function<void(const ChainSettings&)>;
 
-// One worker process: holds a cloud and runs the chain on it, request by request
-// (host/worker_pool/message.h), and leaves the process when the program that started it does. The
-// arguments are those of main. Returns an exit code where there is no such program.
+// One worker process. It holds a cloud and runs the chain on it for one request after another
+// (host/worker_pool/message.h). It leaves the process when the program that started it ends. The
+// arguments are those of main. Returns an exit code if emax did not start this process.
 int run_worker(std::span<char*> arguments, const BeforeRun& before = nullptr);
 
 }  // namespace emax

@@ -133,13 +133,13 @@ Message mesh_from_json(const json& j) {
   return m;
 }
 
-// Whether these are items of CBOR as encode() writes them: of known lengths, without tags, nothing
-// in more than the message's map and a map or list in that. The parser calls itself for everything
-// else, so rubbish could exhaust the stack.
+// Whether the items are CBOR as encode() writes it: with known lengths and without tags, and with
+// no nesting deeper than a map or list in the message's map. The parser recurses for anything else,
+// so invalid bytes could exhaust the stack.
 bool is_shallow(std::span<const std::uint8_t> body) {
   constexpr std::size_t kDeepest = 2;
   constexpr unsigned kBytes = 2, kText = 3, kList = 4, kMap = 5, kTag = 6;
-  std::vector<std::uint64_t> left = {1};  // items, of what encloses
+  std::vector<std::uint64_t> left = {1};  // items that are left in each enclosing item
   for (std::size_t at = 0; !left.empty();) {
     if (at == body.size()) return false;
     const unsigned kind = body[at] >> 5, size = body[at] & 31;

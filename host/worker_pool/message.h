@@ -10,7 +10,7 @@
 #include "host/parameters/decimation_bound.h"
 #include "sw_model/base/mesh_view.h"
 
-// What a program and its workers say to each other, over any stream of bytes.
+// The messages between a program and its workers, over any stream of bytes.
 //
 // A message is its length (8 bytes, little-endian, not counting themselves) and one CBOR map:
 //   {"kind": "points", "points": P, "epsilon": number, "epsilon_back": number,
@@ -27,8 +27,8 @@
 //   {"kind": "unusable", "message": s}                               no evaluation can be made here
 // P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
 // indices a triangle. I: byte string of such indices. A worker answers one "run" before it reads
-// the next. "stop" says nothing to a worker that has answered; one that decimates ends it and
-// answers with the mesh that it has.
+// the next. A worker that decimates ends the decimation on "stop" and answers with the mesh that it
+// has. A worker that has answered ignores "stop".
 
 namespace emax {
 
@@ -69,17 +69,17 @@ using Message = std::variant<PointsMessage, RunMessage, StopMessage, ReadyMessag
 using Bytes = std::vector<std::uint8_t>;
 
 inline constexpr std::size_t kLengthBytes = 8;
-// A longer message is rubbish: 2^32 bytes hold 180 million vertices.
+// A longer message is invalid: 2^32 bytes hold 180 million vertices.
 inline constexpr std::uint64_t kMaximumLength = std::uint64_t{1} << 32;
 
-// The message with its length.
+// The bytes of a message, its length first.
 Bytes encode(const Message& message);
 
 // The length that eight bytes announce.
 std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes);
 
-// A message without its length. Throws Error when it is not one of the above, when a coordinate is
-// not finite, a distance none, or an index has no vertex.
+// Decodes a message without its length. Throws Error if it is not one of the above, a coordinate or
+// distance is not finite, a distance is negative, or an index has no vertex.
 Message decode(std::span<const std::uint8_t> body);
 
 }  // namespace emax

@@ -18,19 +18,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// An answer that is arriving is let in although its time is over: the program may have been away
-// for long, and the worker waited for it to read. So after each of its bytes, but in all no longer
-// than an evaluation may take.
+// An answer that is arriving is accepted although its time is over: the program may have been
+// suspended while the worker waited for it to read. This much time is added after each piece of the
+// answer. From its first piece on, an answer may take at most the time limit of an evaluation and
+// this grace.
 constexpr std::chrono::seconds kArrivalGrace{2};
 
 struct Worker {
   std::unique_ptr<WorkerProcess> process;
   bool ready = false;
   bool fresh = true;                           // has answered nothing yet
-  std::optional<RunMessage> run;               // what it works on
+  std::optional<RunMessage> run;               // the evaluation it works on
   std::optional<Clock::time_point> answering;  // since the first bytes of the answer
-  std::set<StageKey> made;                     // reconstructions that it may have kept
-  bool spent = false;  // it may reconstruct no more: the last one is all that it has
+  std::set<StageKey> made;                     // reconstructions that it may still hold
+  bool spent = false;  // it cannot reconstruct again: it holds only its last reconstruction
   Clock::time_point deadline;
 };
 
@@ -126,7 +127,7 @@ class WorkerPool::Implementation {
     const Bytes message = encode(run);
     if (!worker.process->send(message)) {
       if (!worker.ready) throw not_ready(worker);
-      replace(worker);  // it died while it was idle; a fresh one takes a message always
+      replace(worker);  // the worker died while idle; a new one always takes a message
       if (!worker.process->send(message)) throw not_ready(worker);
     }
     worker.run = std::move(run);
@@ -134,7 +135,8 @@ class WorkerPool::Implementation {
     worker.deadline = Clock::now() + time_limit_;
   }
 
-  // What it has made the reconstruction for, else what no other has, else the first.
+  // An evaluation whose reconstruction this worker has, else one whose reconstruction no other
+  // worker has, else the first.
   std::deque<RunMessage>::iterator best_for(const Worker& worker) {
     const auto made_by = [](const Worker& by, const RunMessage& run) {
       return by.made.contains(reconstruction_of(run)) ||
@@ -156,7 +158,7 @@ class WorkerPool::Implementation {
     return known ? reconstruction_key(run.settings) : StageKey{run.settings.method, {}};
   }
 
-  // Waits until something happens and deals with it. False when `end` or a signal comes first.
+  // Waits for an event and handles it. Returns false if `end` or a signal comes first.
   bool poll_once(std::optional<Clock::time_point> end) {
     std::vector<pollfd> polled;
     Clock::time_point until = end.value_or(Clock::time_point::max());
@@ -164,7 +166,7 @@ class WorkerPool::Implementation {
       polled.push_back({worker.process->channel(), POLLIN, 0});
       if (worker.run) until = std::min(until, worker.deadline);
     }
-    // Rounded up, so that the wait never ends just short of a deadline.
+    // Rounded up, so that the wait does not end just before a deadline.
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
     const int timeout = static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
     const int events = poll(polled.data(), polled.size(), timeout);
@@ -199,7 +201,8 @@ class WorkerPool::Implementation {
     }
   }
 
-  // Nothing also where what has arrived is no message: the worker is replaced then.
+  // Returns nothing if no whole message has arrived, or if the bytes are not a message; then the
+  // worker is replaced.
   std::optional<Message> next_message(Worker& worker) {
     Failure garbled{FailureReason::kGarbled, {}};
     try {
@@ -211,7 +214,7 @@ class WorkerPool::Implementation {
     return std::nullopt;
   }
 
-  // False when the worker was replaced and has nothing more to say.
+  // Returns false if the worker was replaced.
   bool take(Worker& worker, Message message) {
     if (const auto* unusable = std::get_if<UnusableMessage>(&message)) {
       throw Error("a worker cannot work: " + unusable->message);
@@ -257,7 +260,7 @@ class WorkerPool::Implementation {
     worker.run.reset();
   }
 
-  // Libraries that get no memory may also crash, so a crash too may be for want of it.
+  // A library that gets no memory may crash, so a crash may also mean a lack of memory.
   void give_up(Worker& worker, const Failure& failure) {
     const bool may_lack_memory =
         failure.reason == FailureReason::kOutOfMemory || failure.reason == FailureReason::kCrashed;

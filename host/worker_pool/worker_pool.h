@@ -25,43 +25,44 @@ struct Completed {
   std::variant<ChainResult, Failure> outcome;
 };
 
-// Evaluations in worker processes that hold one cloud. A worker that crashes, hangs, outgrows its
-// memory or answers rubbish costs its evaluation, which completes as a Failure with the reason, and
-// is replaced. One that outgrows its memory or crashes where the worker has others behind it, whose
-// stages it keeps, is tried once more in a fresh one: what an evaluation yields depends neither on
-// the number of workers nor on what they did before. The order in which evaluations complete does.
-// Used by one thread at a time.
+// Evaluations in worker processes that hold one cloud. If a worker crashes, hangs, exceeds its
+// memory or answers with invalid bytes, its evaluation completes as a Failure with the reason, and
+// the worker is replaced. A worker keeps stages of earlier evaluations. If such a worker exceeds
+// its memory or crashes, the evaluation is tried once more in a new worker. The result of an
+// evaluation therefore does not depend on the number of workers or on their earlier work. The order
+// in which evaluations complete does. Used by one thread at a time.
 class WorkerPool {
  public:
   // Starts the workers. Throws Error when the program cannot be started.
   WorkerPool(std::span<const Point> points, const WorkerPoolOptions& options)
       : WorkerPool(points, {}, options) {}
-  // `bound`: what the bounded decimator is held to.
+  // `bound`: the bound of the bounded decimator.
   WorkerPool(std::span<const Point> points, const DecimationBound& bound,
              const WorkerPoolOptions& options);
-  ~WorkerPool();  // kills what still runs
+  ~WorkerPool();  // kills running workers
 
-  // Queues an evaluation; a free worker starts it now, otherwise wait does. Tickets are the
-  // caller's.
+  // Queues an evaluation. A free worker starts it now, else a later wait() starts it. The caller
+  // chooses the tickets.
   void submit(std::uint64_t ticket, const ChainSettings& settings);
 
-  // The next evaluation to complete. At least one must be outstanding.
-  // Throws Error when workers cannot work at all: ended before they were ready, or failed the
-  // arithmetic self-test.
+  // Waits for the next evaluation to complete. At least one must be outstanding. Throws Error if
+  // workers cannot work at all: they ended before they were ready, or failed the arithmetic
+  // self-test.
   Completed wait();
 
-  // The same, but nothing when `duration` passes or a signal arrives first.
+  // As wait(), but returns nothing if `duration` passes or a signal arrives first.
   std::optional<Completed> wait_for(std::chrono::milliseconds duration);
 
-  // The worker that made what wait() returned last is free; what is submitted now for the same
-  // reconstruction goes to it. This gives it what is queued, as the next wait() would.
+  // After wait() the worker of its result is free, and an evaluation submitted now for the same
+  // reconstruction goes to it. go_on() gives queued evaluations to free workers now instead of in
+  // the next wait().
   void go_on();
 
-  // What is queued is given up, and what is decimated is to complete soon, with the mesh at hand:
-  // see ChainResult::stopped.
+  // Drops the queued evaluations and asks running decimations to complete soon with the mesh
+  // reached so far: see ChainResult::stopped.
   void stop();
 
-  // Submitted and not yet returned.
+  // Number of evaluations submitted and not yet returned.
   std::size_t outstanding() const;
 
  private:

@@ -24,14 +24,14 @@ namespace {
 
 constexpr std::chrono::milliseconds kEndGrace{1000};
 constexpr std::size_t kReceiveBlock = std::size_t{1} << 18;
-constexpr int kMostBlocks = 64;  // at once, so that a worker that never ends is looked at
+constexpr int kMostBlocks = 64;  // at once, so that deadlines are checked in between
 
 [[noreturn]] void fail(const std::string& what, int error) {
   throw Error(what + ": " + std::strerror(error));
 }
 
-// Out of the way of the numbers that a worker gets: dup2 onto itself would keep close-on-exec off
-// one of them or overwrite the other.
+// Moves a descriptor out of the range of the numbers that a worker gets. There, dup2 onto itself
+// may leave close-on-exec set, and one descriptor may overwrite another.
 FileDescriptor moved_up(FileDescriptor low) {
   const int fd = fcntl(low.get(), F_DUPFD_CLOEXEC, 16);
   if (fd < 0) fail("cannot open a channel to a worker", errno);
@@ -94,7 +94,7 @@ FileDescriptor sealed_file(std::span<const std::uint8_t> bytes) {
   return moved_up(std::move(file));
 }
 
-// A message lay in the worker's memory.
+// A message was in the worker's memory, so it cannot be longer than the memory limit.
 WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& points)
     : longest_message_(command.memory_limit != 0 ? std::min(command.memory_limit, kMaximumLength)
                                                  : kMaximumLength) {
@@ -113,8 +113,8 @@ WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& point
   posix_spawn_file_actions_adddup2(&files.actions, points.get(), kPointsFd);
   posix_spawn_file_actions_addclosefrom_np(&files.actions, kPointsFd + 1);
 
-  // A group of its own, so that the terminal's Ctrl-C reaches the program alone, and signals as
-  // they are for a fresh program.
+  // A process group of its own, so that the terminal's Ctrl-C reaches only the program. Signals are
+  // set as in a new program.
   SpawnAttributes attributes;
   sigset_t none, all;
   sigemptyset(&none);
@@ -168,7 +168,7 @@ WorkerProcess::Received WorkerProcess::receive() {
     if (n < 0 && (error == EAGAIN || error == EWOULDBLOCK)) {
       return some ? Received::kSome : Received::kNothing;
     }
-    return some ? Received::kSome : Received::kEnd;  // an end is seen again at the next call
+    return some ? Received::kSome : Received::kEnd;  // the next call finds the end again
   }
   return Received::kSome;
 }
@@ -188,7 +188,8 @@ std::optional<Message> WorkerProcess::next_message() {
 }
 
 Failure WorkerProcess::end() {
-  // The channel closes a moment before the process is gone; killing it now would hide its reason.
+  // The channel closes a moment before the process ends. Killing it at once would hide why it
+  // ended.
   const auto deadline = std::chrono::steady_clock::now() + kEndGrace;
   std::optional<int> status = reap(false);
   while (!status && std::chrono::steady_clock::now() < deadline) {
@@ -216,7 +217,7 @@ std::optional<int> WorkerProcess::reap(bool wait) {
   } while (reaped < 0 && errno == EINTR);
   if (reaped == 0) return std::nullopt;
   if (reaped == pid_) {
-    kill(-pid_, SIGKILL);  // what it may have started itself
+    kill(-pid_, SIGKILL);  // the processes that it may have started
     pid_ = -1;
   }
   return status;

@@ -12,9 +12,9 @@
 
 namespace emax {
 
-// File descriptors a worker finds open when it starts.
+// File descriptors that are open when a worker starts.
 inline constexpr int kChannelFd = 3;  // stream socket: requests in, answers out
-inline constexpr int kPointsFd = 4;   // file that holds the "points" message
+inline constexpr int kPointsFd = 4;   // a file with the "points" message
 
 // Owns one descriptor.
 class FileDescriptor {
@@ -29,11 +29,11 @@ class FileDescriptor {
   int fd_;
 };
 
-// A file in memory that holds these bytes and cannot be changed any more.
+// A file in memory that holds these bytes and can no longer be changed.
 FileDescriptor sealed_file(std::span<const std::uint8_t> bytes);
 
-// One worker process in a process group of its own, killed with its group and reaped when this
-// goes. What it prints is discarded. It ends by itself when the program that spawned it ends,
+// One worker process in its own process group. The destructor kills the group and reaps the
+// process. Its output is discarded. It ends by itself when the program that started it ends,
 // because its channel hangs up.
 class WorkerProcess {
  public:
@@ -51,16 +51,16 @@ class WorkerProcess {
   int channel() const { return channel_.get(); }
   pid_t pid() const { return pid_; }
 
-  // False when the worker does not take the message at once: it is gone or stuck.
+  // Returns false if the worker does not take the message at once: it has ended or is stuck.
   bool send(const Bytes& message) const;
 
   enum class Received { kNothing, kSome, kEnd };
-  // Takes of what has arrived at most 16 MiB, without waiting.
+  // Takes at most 16 MiB of the bytes that have arrived, without waiting.
   Received receive();
-  // The next whole message. Throws Error when what arrived is none.
+  // The next whole message, if it has arrived. Throws Error if the bytes are not a message.
   std::optional<Message> next_message();
 
-  // How the process ended, in words, after its channel did.
+  // Describes how the process ended. Call this after its channel closed.
   Failure end();
 
  private:

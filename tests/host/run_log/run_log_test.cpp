@@ -124,9 +124,9 @@ TEST_F(RunLogTest, NamesTheFirstSettingThatDiffers) {
   expect_clear(refusal(other), path_.string(), "seed 7, this one has 8", "--resume");
   RunSettings more = kSettings, fewer = kSettings;
   more.emplace_back("method", "gp3");
-  expect_clear(refusal(more), path_.string(), "method not said, this one has gp3", "--resume");
+  expect_clear(refusal(more), path_.string(), "method (none), this one has gp3", "--resume");
   fewer.pop_back();
-  expect_clear(refusal(fewer), path_.string(), "seed 7, this one has not said", "--resume");
+  expect_clear(refusal(fewer), path_.string(), "seed 7, this one has (none)", "--resume");
   EXPECT_EQ(bytes_of(path_ / "evaluations.log"), before);
   EXPECT_EQ(RunLog(path_, kSettings).size(), 1u);
   for (const char* unreadable : {"{", "[]", "7", "{\"seed\": 7}", "{\"seed\": null}"}) {
