@@ -47,7 +47,7 @@ std::optional<std::uint32_t> ErrorConstraint::threshold(MeshView mesh) const {
 
 double ErrorConstraint::provable_distance() const {
   const double epsilon = cloud_.normalization().length(epsilon_);
-  // Normalized, the cloud's box is within [-1, 1]^3.
+  // In normalised units the cloud's box is within [-1, 1]^3.
   const double corner = std::sqrt(3.0) * (1 + epsilon);
   const std::optional<std::uint32_t> bits =
       largest_feasible_bits(epsilon, epsilon + 2 * 2 * corner + corner);
@@ -111,7 +111,8 @@ MeasuredError ErrorConstraint::judge(
   return measured;
 }
 
-// Leaves out the farthest points beyond `allowed`, as many as may be; of equals, the higher index.
+// Excludes the farthest points beyond `allowed`, up to the permitted number. Of equal distances the
+// higher index is excluded first.
 void ErrorConstraint::exclude(std::span<const std::uint32_t> bits, std::uint32_t allowed,
                               MeasuredError& measured) const {
   measured.all = worst_of(bits);
@@ -126,7 +127,8 @@ void ErrorConstraint::exclude(std::span<const std::uint32_t> bits, std::uint32_t
   }
   measured.excluded.assign(order.begin(), kept);
   std::ranges::sort(measured.excluded);
-  // The last of those that equal the worst kept point has the lowest index.
+  // Of the points with the same distance as the worst kept one, the last in the order has the
+  // lowest index.
   auto worst = kept;
   while (worst + 1 != order.end() && bits[*(worst + 1)] == bits[*kept]) ++worst;
   measured.kept = {bits[*kept], *worst};

@@ -35,7 +35,8 @@ double point_distance_margin(const PreparedCloud& cloud, MeshView mesh, double d
     box.extend(vertex);
     farthest = std::max(farthest, (vertex - normalization.origin).norm());
   }
-  // No edge is longer than the diagonal. Twice, for the rounding of the point itself.
+  // No edge is longer than the diagonal. The margin is doubled for the rounding of the point
+  // itself.
   return 2 *
          kernel_distance_margin(normalization.length(distance),
                                 2 * normalization.length(box.diagonal().norm()),

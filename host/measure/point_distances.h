@@ -10,17 +10,17 @@
 
 namespace emax {
 
-// The distance that a squared one of the kernel says, in the cloud's unit.
+// The distance in the cloud's unit for a squared distance of the kernel.
 double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits);
 
-// The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the
-// square roots of what brute force gives, to the bit, with any number of threads. Throws as
-// PreparedMesh does; Interrupted when `interrupted` says so.
+// The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the square
+// roots of the values of brute force, to the bit, with any number of threads. Throws as
+// PreparedMesh does, and Interrupted when `interrupted` returns true.
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
                                     const std::function<bool()>& interrupted = nullptr,
                                     std::size_t threads = 1);
 
-// The same from an engine and a mesh that are there already. The engine is of this cloud.
+// The same with a given engine and mesh. The engine must be for this cloud.
 std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& engine,
                                     const PreparedMesh& mesh);
 

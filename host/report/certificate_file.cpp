@@ -11,7 +11,7 @@ namespace emax {
 namespace {
 
 constexpr const char* kSchema = "emax-certificate-2";
-// A two-sided bound of this schema did not hold the reference to the mesh.
+// The two-sided bound of this schema did not include the distance from the reference to the mesh.
 constexpr const char* kFormerSchema = "emax-certificate-1";
 
 std::uint32_t parse_bits(const std::string& text) {

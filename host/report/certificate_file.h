@@ -14,7 +14,7 @@
 
 namespace emax {
 
-// What is proven between the mesh and the reference. Lengths are upper bounds, in the cloud's unit.
+// The proven distances between the mesh and the reference: upper bounds, in the cloud's unit.
 struct ReferenceBound {
   std::string file, sha256;  // of the reference, without folders
   std::size_t triangles = 0;
@@ -22,23 +22,23 @@ struct ReferenceBound {
   double epsilon_back = 0;
   double mesh_to_reference = 0;    // from any point of the mesh, at most epsilon_back
   double reference_to_mesh = 0;    // from any point of the reference, at most epsilon
-  double points_to_reference = 0;  // from the kept points
+  double points_to_reference = 0;  // from the points that are not excluded
 };
 
-// What a certificate says of a mesh and its cloud, apart from how the mesh was found. It holds no
+// The claims of a certificate about a mesh and its cloud, and how the mesh was found. It holds no
 // time, host, path, job count or device: the same run gives the same bytes anywhere.
 struct Certificate {
   std::string mesh_file, mesh_sha256;  // file names without folders
   std::string cloud_file, cloud_sha256;
   bool skip_invalid = false;      // how the cloud was read
-  bool vertices_of_mesh = false;  // the cloud's file is a mesh, its points those of its triangles
+  bool vertices_of_mesh = false;  // the cloud is the vertices that the triangles of a mesh file use
   double epsilon = 0;             // in the cloud's unit
   CertifiedError error;           // indices are the file's
-  EmaxResult kernel = {};         // over the kept points; the index is the file's
+  EmaxResult kernel = {};         // over the points that are not excluded; the index is the file's
   std::size_t vertices = 0, triangles = 0;
   MeshValidity validity;
   MeshTopology topology;
-  bool claims_valid = false;  // of a certificate that was read; what is written follows validity
+  bool claims_valid = false;  // of a certificate that was read; a written one follows `validity`
   std::optional<ReferenceBound> reference;  // of a two-sided bound
   Normalization transform;
   // How it was found.
@@ -52,7 +52,7 @@ std::filesystem::path reference_path(const std::filesystem::path& mesh);
 
 std::string to_json_text(const Certificate& certificate);
 
-// Throws Error naming the file where it is not a certificate this program can check.
+// Throws Error naming the file if it is not a certificate that this program can check.
 Certificate read_certificate(const std::filesystem::path& path);
 
 }  // namespace emax

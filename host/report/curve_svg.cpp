@@ -11,8 +11,8 @@ namespace {
 constexpr double kWidth = 640, kHeight = 420;
 constexpr double kLeft = 80, kRight = 20, kTop = 20, kBottom = 60;
 
-// Where a logarithmic axis puts a value, from one power of ten, or two or five times it, to
-// another.
+// Maps values to positions on a logarithmic axis. The axis begins and ends at one, two or five
+// times a power of ten.
 class Axis {
  public:
   Axis(double least, double greatest, double from, double to)
@@ -41,7 +41,7 @@ class Axis {
     const double leading = std::round(step / power_below(step * (1 + 1e-9)));
     return step * (leading == 2 ? 2.5 : 2);
   }
-  // Above every value, so that no axis is a point.
+  // Above every value, so that the axis has a length.
   static double step_above(double value) { return next(step_below(value)); }
 
   double low_, high_, from_, to_;

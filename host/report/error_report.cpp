@@ -54,7 +54,7 @@ class Text {
     std::size_t most = 1;
     for (const ErrorStatistics::Bin& bin : s.histogram) most = std::max(most, bin.count);
     for (const ErrorStatistics::Bin& bin : s.histogram) {
-      // Something that is there shows.
+      // Rounded up, so that a bin with few distances still shows.
       const std::size_t bar = (bin.count * kBarLength + most - 1) / most;
       line("    up to {:>10.4g} |{:<40}| {}\n", bin.up_to, std::string(bar, '#'), bin.count);
     }

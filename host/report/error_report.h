@@ -10,24 +10,25 @@
 
 namespace emax {
 
-// What `emax error` says of distances, beyond their certified maximum. Lengths in the cloud's unit.
+// The distances that `emax error` reports beyond their certified maximum. Lengths are in the
+// cloud's unit.
 struct FarPoint {
   std::uint32_t point;  // the file's index
   Point position;
   double distance;         // certified
-  std::uint32_t triangle;  // the nearest
+  std::uint32_t triangle;  // the nearest triangle
 };
 
-// From every point of the cloud to the mesh, excluded ones too.
+// From every point of the cloud to the mesh, including excluded points.
 struct CloudErrors {
   ErrorStatistics statistics;
   std::vector<FarPoint> worst;  // the farthest first
 };
 
-// From all of one surface to another.
+// From the whole of one surface to another.
 struct SurfaceErrors {
   SurfaceDistance distance;    // over the whole surface, certified
-  ErrorStatistics statistics;  // over samples of equal area; of a cloud, over its points
+  ErrorStatistics statistics;  // over samples of equal area, or over the points of a cloud
 };
 
 // Between the mesh and a reference.
@@ -37,7 +38,7 @@ struct ReferenceErrors {
   std::size_t size;                      // points, or triangles
   std::optional<MeshTopology> topology;  // of a surface
   SurfaceErrors from_mesh;
-  std::optional<SurfaceErrors> to_mesh;  // unless the reference is the cloud, which CloudErrors has
+  std::optional<SurfaceErrors> to_mesh;  // nothing if the reference is the cloud
 };
 
 struct ErrorReport {

@@ -13,7 +13,7 @@ inline constexpr std::size_t kHistogramBins = 16;
 inline constexpr double kHistogramReach =
     99.9;  // percent, so that outliers do not flatten the rest
 
-// What a person asks of many distances.
+// Summary numbers of many distances.
 struct ErrorStatistics {
   struct Quantile {
     double percent, value;
@@ -25,13 +25,13 @@ struct ErrorStatistics {
 
   std::size_t count = 0;
   double maximum = 0, mean = 0, rms = 0;
-  std::vector<Quantile> quantiles;  // in the order they were asked for
-  std::vector<Bin> histogram;  // equal ones from 0 to the quantile kHistogramReach, and one beyond
+  std::vector<Quantile> quantiles;  // in the order of the request
+  std::vector<Bin> histogram;       // equal bins up to the quantile kHistogramReach, and one beyond
   std::optional<std::size_t> exceeding;  // above the limit
 };
 
-// Of finite distances >= 0, at least one; quantiles by nearest rank (nearest_rank.h). Sums are
-// taken in the order given, so equal input gives equal output. O(n log n).
+// Statistics of at least one finite distance >= 0; quantiles by nearest rank (nearest_rank.h). Sums
+// are taken in the given order, so equal input gives equal output. O(n log n).
 ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
                               std::optional<double> limit = std::nullopt);
 

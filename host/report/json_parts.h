@@ -17,10 +17,12 @@ namespace emax {
 using Json = nlohmann::ordered_json;
 
 inline constexpr const char* kBound = "one-sided";  // every cloud point within epsilon of the mesh
-// Also all of the mesh within epsilon_back of the reference, and all of that within epsilon of it.
+// Also the whole mesh within epsilon_back of the reference, and the whole reference within epsilon
+// of the mesh.
 inline constexpr const char* kTwoSidedBound = "two-sided";
 
-// A whole number that T holds; throws nlohmann's type_error otherwise, where get() would convert.
+// Reads a whole number that fits T. Throws nlohmann's type_error otherwise, where get() would
+// convert it.
 template <typename T>
 void get_count(const Json& json, T& count) {
   if (!json.is_number_unsigned() || json > std::numeric_limits<T>::max()) {
@@ -37,7 +39,7 @@ MeshValidity validity_from_json(const Json& json);
 Json to_json(const MeshTopology& topology);
 MeshTopology topology_from_json(const Json& json);
 Json to_json(const DeviceCounters& counters);
-// The points left out, each with its index in the file and its distance.
+// The excluded points, each with its index in the file and its distance.
 Json excluded_to_json(const CertifiedError& error);
 Json to_json(const ErrorReport& report);
 Json to_json(const ReferenceBound& reference);

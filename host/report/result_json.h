@@ -16,14 +16,14 @@
 
 namespace emax {
 
-// What `optimize` and `error` write to --json. The keys are stable; a thing that was not asked for
-// or not reached is null.
+// The content of --json of `optimize` and `error`. The keys are stable. A value that was not asked
+// for or not reached is null.
 struct ResultReport {
   std::optional<bool> feasible;  // null without an epsilon
   std::optional<MeshValidity> validity;
   std::optional<MeshTopology> topology;
-  std::optional<std::size_t> triangles;     // of the best mesh, or of the one with the least error
-  std::optional<double> epsilon;            // file units
+  std::optional<std::size_t> triangles;  // of the best mesh, else of the one with the least error
+  std::optional<double> epsilon;         // file units
   std::optional<CertifiedError> certified;  // indices are the file's
   std::optional<EmaxResult> kernel;         // over the kept points; the index is the file's
   std::size_t points = 0;
@@ -36,11 +36,11 @@ struct ResultReport {
   std::optional<std::vector<std::string>> lost_attributes;  // of the mesh that was decimated
   std::string device;
   std::optional<DeviceCounters> counters;
-  std::optional<BoardModel> board;    // whose time is to be predicted
-  std::optional<double> cpu_seconds;  // that the same work took on this CPU
+  std::optional<BoardModel> board;    // the board whose time is to be predicted
+  std::optional<double> cpu_seconds;  // time of the same work on this CPU
   std::optional<ErrorReport> errors;  // with a surface, the bound is two-sided
   bool two_sided = false;
-  std::optional<ReferenceBound> reference;  // of a two-sided bound that is kept
+  std::optional<ReferenceBound> reference;  // of a two-sided bound that holds
 };
 
 std::string to_json_text(const ResultReport& report);

@@ -14,7 +14,7 @@ double fraction(double x) { return x - std::floor(x); }
 Point on_triangle(const std::array<Point, 3>& corners, std::size_t i) {
   double u = fraction(kFirst * static_cast<double>(i) + 0.5);
   double v = fraction(kSecond * static_cast<double>(i) + 0.5);
-  if (u + v > 1) {  // the other half of the parallelogram
+  if (u + v > 1) {  // mirrored from the other half of the parallelogram
     u = 1 - u;
     v = 1 - v;
   }
@@ -24,7 +24,7 @@ Point on_triangle(const std::array<Point, 3>& corners, std::size_t i) {
 }  // namespace
 
 std::vector<Point> surface_samples(MeshView mesh, std::size_t count) {
-  std::vector<double> passed;  // area up to and with each triangle
+  std::vector<double> passed;  // area up to and including each triangle
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto v = mesh.corners(t);

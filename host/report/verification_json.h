@@ -8,13 +8,13 @@
 
 namespace emax {
 
-// What `verify` writes to --json. The keys are stable.
+// The content of --json of `verify`. The keys are stable.
 struct VerificationReport {
   std::string certificate_file, mesh_file, cloud_file;  // as they were found
   std::string reference_file;                           // empty: none
   const Certificate* certificate = nullptr;             // its claims
-  std::optional<double> e_max;                          // recomputed, if it came to that
-  std::vector<std::string> reasons;                     // why it does not hold; none: it holds
+  std::optional<double> e_max;                          // recomputed, if the check reached it
+  std::vector<std::string> reasons;  // why the certificate does not hold; empty: it holds
 };
 
 std::string to_json_text(const VerificationReport& report);

@@ -7,13 +7,13 @@
 
 namespace emax {
 
-// A mesh as VTK is given it: 64-bit coordinates around the origin, because VTK's tolerances take no
-// account of far-away coordinates, and every vertex's index as point data, which the filters hand
-// on. `mesh` has at least one vertex.
+// A mesh in VTK's form. Coordinates are 64-bit and moved to the origin, because VTK's tolerances do
+// not allow for coordinates far away. Every vertex has its index as point data, which the filters
+// pass on. `mesh` has at least one vertex.
 vtkSmartPointer<vtkPolyData> to_vtk(const TriangleMesh& mesh);
 
-// What a filter made of to_vtk(original), on the very vertices of the original: consistently
-// oriented, without folds, unused vertices and triangles that repeat one.
+// The result of a filter on to_vtk(original), with the exact vertices of the original: consistently
+// oriented, without folds, without unused vertices and without triangles that repeat a vertex.
 TriangleMesh from_vtk(vtkPolyData* data, const TriangleMesh& original);
 
 }  // namespace emax

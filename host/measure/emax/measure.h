@@ -1,4 +1,5 @@
-// The error of a mesh against a cloud, fast: the kernel's numbers, as the hardware gives them.
+// The error of a mesh against a cloud, measured fast with the kernel's numbers, as the hardware
+// gives them.
 //
 //   #include <emax/measure.h>
 //
@@ -6,8 +7,8 @@
 //   const emax::Measurement error = meter.e_max(mesh);
 //   std::cout << error.e_max << " at point " << error.worst_point << '\n';
 //
-// Links with emax::measure. What is promised to somebody else is proven by emax/certify.h; this is
-// for searching, plotting and comparing. Source: section 4; arithmetic: docs/numerics.md.
+// Link emax::measure. These numbers are for searching, plotting and comparing; emax/certify.h
+// proves a bound. Source: section 4; arithmetic: docs/numerics.md.
 #pragma once
 
 #include <emax/error.h>
@@ -25,33 +26,34 @@ inline namespace v1 {
 struct Measurement {
   double e_max;                // the greatest distance from a point of the cloud to the mesh
   std::size_t worst_point;     // the lowest index of a point that has it
-  std::uint32_t squared_bits;  // its square in normalised units, binary32: equal on every device
+  std::uint32_t squared_bits;  // e_max^2 in normalised units, binary32: equal on every device
 
   bool operator==(const Measurement&) const = default;
 };
 
 // Measures meshes against one cloud. The numbers are those of brute force on the kernel, bit for
-// bit, with any number of threads, and differ from the true ones by at most margin(). What settled
-// the points on one mesh is remembered and makes a like mesh faster. One caller at a time.
+// bit, with any number of threads. They differ from the true distances by at most margin(). The
+// meter remembers which triangles settled the points on one mesh, which makes a similar mesh
+// faster. One caller at a time.
 class EMAX_API ErrorMeter {
  public:
-  // Copies the cloud: O(n log^2 n) once, about 60 bytes a point. Throws Error where the coordinates
-  // are no cloud and for no threads.
+  // Copies the cloud: O(n log^2 n) once, about 60 bytes a point. Throws Error if the coordinates
+  // are not a cloud, or for no threads.
   explicit ErrorMeter(Coordinates cloud, std::size_t threads = 1);
   ~ErrorMeter();
   ErrorMeter(ErrorMeter&&) noexcept;
   ErrorMeter& operator=(ErrorMeter&&) noexcept;
 
-  // Each throws Error for an argument that is no mesh, and for vertices farther from the cloud than
-  // 2^32 times its extent. O(n log triangles) in practice.
+  // Each function throws Error for an argument that is not a mesh, and for vertices farther from
+  // the cloud than 2^32 times its extent. O(n log triangles) in practice.
 
   Measurement e_max(SurfaceSpan mesh);
-  // The distance that a share of the points is within: nearest rank, 0 < share <= 1.
+  // The distance that a share of the points does not exceed: nearest rank, 0 < share <= 1.
   double quantile(SurfaceSpan mesh, double share);
-  // Of every point, in the order of the cloud.
+  // The distance of every point, in the order of the cloud.
   std::vector<double> distances(SurfaceSpan mesh);
 
-  // The greatest difference between a distance given here and the true one. O(vertices).
+  // The greatest difference between a distance measured here and the true one. O(vertices).
   double margin(SurfaceSpan mesh, double distance) const;
 
  private:
@@ -60,7 +62,7 @@ class EMAX_API ErrorMeter {
 };
 
 // e_max of several meshes against one cloud, as many at a time as there are threads. Throws Error
-// likewise.
+// as e_max() does.
 EMAX_API std::vector<Measurement> e_max_of_each(Coordinates cloud,
                                                 std::span<const SurfaceSpan> meshes,
                                                 std::size_t threads = 1);
