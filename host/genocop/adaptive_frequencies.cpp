@@ -29,7 +29,7 @@ void AdaptiveFrequencies::reward(std::size_t entry, double amount) {
 }
 
 void AdaptiveFrequencies::update() {
-  constexpr double kLeast = 1e-3;  // nobody's quality vanishes, so the shares stay defined
+  constexpr double kLeast = 1e-3;  // no quality becomes 0, so that the shares stay defined
   double sum = 0;
   for (std::size_t i = 0; i < initial_.size(); ++i) sum += initial_[i] * (quality_[i] + kLeast);
   for (std::size_t i = 0; i < initial_.size(); ++i) {

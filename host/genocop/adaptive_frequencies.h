@@ -8,13 +8,13 @@
 
 namespace emax {
 
-// Operator frequencies that follow success (probability matching; Davis 1989, Thierens 2005): an
-// operator's quality is the mean reward of its offspring, recent ones counting more, and its
-// frequency floor/n + (1 - floor) * its share of the quality. Operators given a frequency of 0 stay
-// out. The frequencies sum to 1.
+// Operator frequencies that follow success (probability matching; Davis 1989, Thierens 2005). An
+// operator's quality is the mean reward of its offspring, in which recent offspring count more. Its
+// frequency is floor/n + (1 - floor) * its share of the quality. Operators with an initial
+// frequency of 0 are not used. The frequencies sum to 1.
 class AdaptiveFrequencies {
  public:
-  // `initial`: at least one above 0, none below; their shares are where it starts from.
+  // `initial`: the shares to start from; none negative, at least one above 0.
   AdaptiveFrequencies(std::span<const double> initial, double floor);
 
   std::size_t draw(RandomStream& random) const;

@@ -9,7 +9,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// How far v may move along dv, 1 at most, before a component reaches zero.
+// The share of dv, at most 1, by which v may move before a component reaches zero.
 double room(const Vector& v, const Vector& dv) {
   double step = 1;
   for (Eigen::Index i = 0; i < v.size(); ++i) {
@@ -18,7 +18,7 @@ double room(const Vector& v, const Vector& dv) {
   return step;
 }
 
-// Rows of length 1 and a gradient of size 1, with t as the last variable.
+// The program with rows of length 1 and an objective of size 1; t is the last variable.
 struct Scaled {
   Matrix hessian, rows;
   Vector gradient, bounds, row_scale;
@@ -100,7 +100,7 @@ ConvexSolution solve(const ConvexProgram& program) {
     direction(Vector::Constant(m, centre) - complementarity - d_slack.cwiseProduct(d_dual), dx,
               d_slack, d_dual);
     if (!dx.allFinite() || !d_dual.allFinite()) break;
-    // One length for both: a quadratic objective ties primal and dual together.
+    // One step length for both, because a quadratic objective couples primal and dual.
     const double length = 0.995 * std::min(room(slack, d_slack), room(dual, d_dual));
     x += length * dx;
     slack += length * d_slack;

@@ -5,8 +5,8 @@
 namespace emax {
 
 // min x'Hx/2 + g'x + penalty t, subject to Ax <= b + t for the first `elastic` rows, Ax <= b for
-// the others, t >= 0 (t only where elastic > 0). H is symmetric, positive semidefinite or zero; the
-// rows bound x on every side, as a trust region does, and leave room inside.
+// the other rows, t >= 0 (t only where elastic > 0). H is symmetric and positive semidefinite, or
+// zero. The rows bound x on every side, as a trust region does, and their set has an inside.
 struct ConvexProgram {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;

@@ -11,11 +11,11 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr double kLeastRadius = 1e-7;  // of the domains
-constexpr double kFine = 1e-3;         // from here on a promise below kPrecision is the end
+constexpr double kFine = 1e-3;         // below this radius a gain below kPrecision ends the search
 constexpr double kPrecision = 1e-11;   // of the objective
 constexpr double kNear = 3;            // radii within which points span the model's directions
-constexpr double kFar = 6;             // and within which they tell of curvature
-constexpr double kPoised = 0.1;        // share of a step that must be new to the others
+constexpr double kFar = 6;             // radii within which points determine the curvature
+constexpr double kPoised = 0.1;        // share of a step that must be independent of the others
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
     if (trial.reduction) {
       judge_step(trial, added);
     } else if (added == nullptr) {
-      shrink(0.5);  // nothing can be learned there
+      shrink(0.5);  // the trial gave no point for the models
     }
   }
   if (added != nullptr) choose_centre();
@@ -89,7 +89,7 @@ void Finish::judge_step(const Trial& trial, const LocalPoint* point) {
   const double length = (trial.at - points_[centre_].at).cwiseAbs().maxCoeff();
   const double gained = point == nullptr ? -1 : merit(points_[centre_]) - merit(*point);
   const double ratio = gained / *trial.reduction;
-  // Curvature carried along from farther away may be what misleads.
+  // The steps may fail because of curvature from models farther away.
   constexpr int kMisled = 3;
   failures_ = ratio < 0.1 ? failures_ + 1 : 0;
   if (failures_ % kMisled == kMisled - 1) hessians_.clear();
@@ -105,9 +105,9 @@ void Finish::shrink(double factor) {
   if (radius_ < kLeastRadius) running_ = false;
 }
 
-// The nearest points, and first of all those whose steps point into directions of their own (a
-// pivoted Gram-Schmidt process); a direction left open is answered with the point that fills it
-// best. Trials in flight count as there.
+// Selects the nearest points, first of all those whose steps have a direction of their own (a
+// pivoted Gram-Schmidt process). If a direction is not spanned, `missing` becomes the point that
+// adds most to it. Trials in flight count as evaluated.
 Finish::Selection Finish::select() const {
   const Eigen::Index n = space_->size();
   const Vector& origin = points_[centre_].at;
@@ -163,7 +163,7 @@ Finish::Selection Finish::select() const {
         Genes free = space_->moved(points_[centre_].free, sign * radius_ * direction);
         const Vector step = space_->position(free) - origin;
         const double gain = rest(step).norm();
-        // Barely enough would not be seen as enough next time.
+        // A gain that is just enough could count as too small at the next call because of rounding.
         if (gain <= 1.001 * best || gain < 1.001 * kPoised * step.norm()) continue;
         best = gain;
         selection.missing = std::move(free);
@@ -208,7 +208,7 @@ std::optional<Genes> Finish::propose() {
     }
     const LocalModel model = fit(selection.points);
     const LocalStep step = best_step(*space_, *centre(), model, radius_, penalty_);
-    // A penalty from afar would make every curved constraint a wall.
+    // A penalty that was fitted far away would make every curved constraint a wall.
     constexpr double kAmple = 10;
     if (points_[centre_].violation <= 0 && penalty_ > kAmple * step.multipliers) {
       penalty_ = std::max(penalty_ / kAmple, 0.3 * kAmple * step.multipliers);

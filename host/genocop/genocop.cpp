@@ -37,7 +37,7 @@ const Settings& checked(const Settings& settings) {
   return settings;
 }
 
-// Numbers that say nothing are those of a failed evaluation.
+// An evaluation without finite numbers counts as failed.
 Evaluation checked(Evaluation evaluation) {
   if (!std::isfinite(evaluation.objective) || std::isnan(evaluation.violation)) {
     evaluation.evaluated_ok = false;
@@ -49,7 +49,7 @@ bool fits(const Evaluation& evaluation, const Problem& problem) {
   return !evaluation.evaluated_ok || evaluation.constraints.size() == problem.nonlinear.size();
 }
 
-// The movable coordinates of continuous and, if wanted, integer genes.
+// The movable coordinates of continuous genes and, with `whole_ones`, of integer genes.
 std::vector<std::size_t> coordinates(const LinearDomain& domain, bool whole_ones) {
   std::vector<std::size_t> chosen;
   for (std::size_t k : domain.movable()) {
@@ -85,7 +85,7 @@ Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
   make_starts();
 }
 
-// Earlier results enter as if told, in their order.
+// Known results enter in their order, as if they were told.
 void Genocop::take_known() {
   for (std::size_t i = 0; i < problem_.known.size(); ++i) {
     const Genes& genes = problem_.known[i].first;
@@ -162,7 +162,7 @@ void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
     std::optional<std::size_t> bred_by;
     if (record.bred) bred_by = record.bred->entry;
     bool in_repair = false;
-    // Populations that share nothing keep their own offspring, once there are references.
+    // Separate populations keep their own offspring once there are enough references.
     const bool apart = record.bred && !settings_.share_feasible &&
                        references_.size() >= settings_.reference_population;
     const bool of_references = record.bred && record.bred->from_references;
@@ -184,8 +184,9 @@ void Genocop::reward(std::size_t entry, bool success) {
   if (settings_.adaptive_frequencies) frequencies_.reward(entry, success ? 1 : 0);
 }
 
-// Better is less. Where the monotone gene tells the price of violation, every point counts as if
-// moved along its line to the constraint; otherwise feasible and repaired points come first.
+// Sort key; a smaller key is better. If the monotone gene gives the price of violation, every point
+// counts with the objective that it would have on the constraint, moved along its line. Otherwise
+// feasible and repaired points come first.
 Genocop::SortKey Genocop::key(const Individual& individual) const {
   const Evaluation& e = individual.evaluation;
   const double price = monotone_ ? monotone_->price() : 0;
@@ -215,7 +216,7 @@ void Genocop::sort_populations() {
 }
 
 void Genocop::enter_search(Individual individual, RandomStream& random) {
-  // One point of a line stands for it; more would only narrow the population.
+  // The population holds one point of each line; more would only narrow it.
   for (Individual& member : search_) {
     if (!monotone_ || !monotone_->same_line(member.free, individual.free)) continue;
     if (key(individual) < key(member)) member = std::move(individual);
@@ -234,8 +235,9 @@ void Genocop::enter_search(Individual individual, RandomStream& random) {
   }
 }
 
-// A repaired point competes with the reference it was repaired towards, any other with the worst;
-// so does one that loses, where feasible points are shared.
+// A repaired point competes with the reference it was repaired towards; any other point competes
+// with the worst reference. A repaired point that loses also competes with the worst if feasible
+// points are shared.
 void Genocop::enter_references(Individual individual, std::optional<std::uint64_t> replaced) {
   const auto better = [&](const Individual& member) {
     return individual.evaluation.objective < member.evaluation.objective;
@@ -257,7 +259,7 @@ void Genocop::enter_references(Individual individual, std::optional<std::uint64_
   }
 }
 
-// A local search has one reference at most, or its trail would fill the population.
+// A local search keeps at most one reference, because its points would fill the population.
 void Genocop::enter_finished(Individual individual) {
   if (!individual.evaluation.feasible()) return;
   for (Individual& member : references_) {
@@ -274,7 +276,7 @@ void Genocop::enter_finished(Individual individual) {
 bool Genocop::start_repair(const Individual& individual, std::optional<std::size_t> bred_by,
                            RandomStream& random) {
   if (references_.empty() || settings_.max_repair_tries == 0) return false;
-  // With the price of violation known, the climb repairs along the monotone gene, and only those
+  // If the price of violation is known, the climb repairs along the monotone gene, and repairs only
   // points that can then beat the incumbent.
   if (monotone_ && monotone_->price() > 0) return false;
   const std::vector<double> probabilities =
@@ -307,7 +309,7 @@ void Genocop::finish_repair(RepairChain chain, const Individual& point, RandomSt
   }
 }
 
-// By the result that ended it, which may be one known before.
+// Ends a repair with its last result, which may have been known before.
 void Genocop::end_repair(const RepairChain& chain, const Evaluation& result) {
   const bool gained = result.feasible() && result.objective < chain.reference_objective;
   if (chain.bred_by) reward(*chain.bred_by, gained);

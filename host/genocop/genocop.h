@@ -24,10 +24,10 @@ struct Candidate {
   Genes genes;
   // "start", "climb", "finish", "linear_model", "repair", "sample" or the operator's name
   std::string_view origin;
-  // The earlier candidate with the same genes, when nothing new was found in a bounded number of
-  // draws; its evaluation is to be told again instead of being made again.
+  // The earlier candidate with the same genes, if a bounded number of draws found nothing new. Tell
+  // its evaluation again instead of evaluating the genes again.
   std::optional<std::uint64_t> same_as;
-  // Likewise the result that Problem::known gave for these genes.
+  // The result that Problem::known gave for these genes; tell it instead of evaluating.
   std::optional<Evaluation> known;
 };
 
@@ -37,37 +37,37 @@ inline constexpr std::uint64_t kKnownBefore = ~std::uint64_t{0};
 struct Best {
   std::uint64_t index = 0;
   Genes genes;
-  Evaluation evaluation;  // feasible, or of the least violation when nothing feasible was found
+  Evaluation evaluation;  // feasible, or of the least violation if nothing feasible was found
 };
 
 struct Individual {
-  std::uint64_t id = 0;  // index of its candidate; those of Problem::known count down from 2^64-1
+  std::uint64_t id = 0;  // index of its candidate; known results count down from 2^64-1
   Genes free;            // LinearDomain's coordinates
   Evaluation evaluation;
-  std::optional<double> repaired_objective;  // of the feasible point its repair ended in
+  std::optional<double> repaired_objective;  // of the feasible point that ended its repair
 };
 
 // Genocop III (Michalewicz & Nazhiyath 1995; paper, section 2.3) as a state machine, so that
-// evaluations may run anywhere and in any number at once. Candidate i is a pure function of
-// problem, settings, seed, i and the results 0 .. i-K (K = settings.look_ahead): ask() demands that
-// exactly these have been told, which LookAheadScheduler sees to. A run is resumed by asking and
-// telling its recorded results again.
+// evaluations may run anywhere and any number at once. Candidate i is a pure function of problem,
+// settings, seed, i and the results 0 .. i-K (K = settings.look_ahead). ask() requires that exactly
+// these results have been told; LookAheadScheduler ensures that. To resume a run, ask and tell its
+// recorded results again.
 class Genocop {
  public:
-  // Throws emax::Error for a problem without genes, an empty domain, settings out of range and
+  // Throws emax::Error for a problem without genes, an empty domain, settings out of range, and
   // known results that do not fit the problem.
   Genocop(Problem problem, Settings settings, std::uint64_t seed);
   Genocop(const Genocop&) = delete;  // the monotone step refers to its neighbours
   Genocop& operator=(const Genocop&) = delete;
 
-  // Throws std::logic_error unless told() == max(0, asked() - K + 1). O(told() * genes), with the
-  // local models also O((genes + constraints)^3).
+  // Throws std::logic_error unless told() == max(0, asked() - K + 1). O(told() * genes), and
+  // O((genes + constraints)^3) for the local models.
   Candidate ask();
-  // Results in the order of their index; throws std::logic_error otherwise. An evaluation whose
-  // objective is NaN or infinite, or whose violation is NaN, counts as failed.
+  // Takes results in the order of their index; throws std::logic_error otherwise. An evaluation
+  // whose objective is NaN or infinite, or whose violation is NaN, counts as failed.
   void tell(std::uint64_t index, Evaluation evaluation);
 
-  std::optional<Best> best() const { return best_; }  // of what has been told
+  std::optional<Best> best() const { return best_; }  // of the results told so far
   std::uint64_t asked() const { return records_.size(); }
   std::uint64_t told() const { return told_; }
   const Settings& settings() const { return settings_; }
@@ -78,7 +78,7 @@ class Genocop {
  private:
   enum class Role { kSearch, kClimb, kRepair, kLinear, kFinish };
   using SortKey = std::pair<int, double>;
-  struct Bred {  // by which operator, from what
+  struct Bred {  // the operator's entry and the better parent
     std::size_t entry;
     SortKey parent;
     bool from_references;
@@ -99,7 +99,7 @@ class Genocop {
     std::optional<Bred> bred = std::nullopt;
   };
 
-  // genocop.cpp: what is told
+  // genocop.cpp: results that are told
   void take_known();
   void learn(const Genes& free, const Evaluation& evaluation);
   bool offer_best(std::uint64_t index, const Genes& free, const Evaluation& evaluation);
@@ -114,7 +114,7 @@ class Genocop {
   void end_repair(const RepairChain& chain, const Evaluation& result);
   void reward(std::size_t entry, bool success);
 
-  // proposals.cpp: what is asked
+  // proposals.cpp: candidates that are asked for
   void make_starts();
   Proposal propose(RandomStream& random);
   std::optional<Proposal> next_repair(RandomStream& random);
@@ -122,10 +122,10 @@ class Genocop {
   std::optional<Proposal> next_finish(RandomStream& random);
   bool start_finish();
   std::optional<Proposal> offspring(RandomStream& random);
-  double remaining() const;  // share of the budget, 1 - t/T
+  double remaining() const;  // of the budget that is left: 1 - t/T
   Genes cache_key(const Genes& free) const;
   bool is_new(const Genes& free) const;
-  // The result of a point with the same key, or nothing while it is in flight.
+  // The result of a point with the same key; nothing while that point is in flight.
   std::optional<Evaluation> result_of(const Genes& cached) const;
 
   Settings settings_;
@@ -146,7 +146,7 @@ class Genocop {
   std::deque<RepairChain> repairs_;
   std::optional<Best> best_;
   std::vector<Genes> finished_;                    // where local searches started and ended
-  std::optional<std::uint64_t> finish_reference_;  // the one the running local search brought
+  std::optional<std::uint64_t> finish_reference_;  // the reference of the running local search
 };
 
 }  // namespace emax

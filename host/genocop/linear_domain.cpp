@@ -101,8 +101,9 @@ std::vector<std::size_t> LinearDomain::movable_with_meaning(const Genes& free) c
   return chosen;
 }
 
-// Gauss-Jordan elimination; each equality is solved for the continuous gene with the greatest
-// coefficient left, since a solved gene can be neither rounded nor stepped along.
+// Gauss-Jordan elimination. Each equality is solved for the continuous gene with the greatest
+// remaining coefficient. The monotone gene is not solved for: a solved gene can be neither rounded
+// nor stepped along.
 void LinearDomain::solve_equalities(const Problem& problem) {
   const std::size_t count = genes_.size();
   std::vector<Row> equalities;
@@ -244,7 +245,7 @@ Interval LinearDomain::range(const Genes& free, std::size_t k) const {
     if (weight < 0) interval.lower = std::max(interval.lower, end);
   }
   if (gene(k).is_whole()) {
-    // The slack lets a whole end survive rounding; pull_inside has the last word.
+    // The slack keeps an end that is whole except for rounding; pull_inside checks the point.
     constexpr double kSlack = 1e-9;
     interval.lower = std::ceil(interval.lower - kSlack);
     interval.upper = std::floor(interval.upper + kSlack);
@@ -275,8 +276,8 @@ Genes LinearDomain::pull_inside(const Genes& child, const Genes& anchor) const {
     }
     if (along > 0) limit = std::min(limit, std::max(room, 0.0) / along);
   }
-  // First steps of rounding size, so that a child on the boundary stays there; then halves, for
-  // integers that rounding takes outside.
+  // The first steps back have the size of roundings, so that a child on the boundary stays there.
+  // The larger ones are for integers that rounding moves outside.
   constexpr double kRetreat[] = {0,     0x1p-50, 0x1p-46, 0x1p-40, 0x1p-30, 0x1p-20, 0x1p-10,
                                  0.125, 0.25,    0.5,     0.75,    0.875,   0.9375};
   Genes point(size());
@@ -325,8 +326,8 @@ Genes LinearDomain::sample(RandomStream& random) const {
   return from_unit_cube(position, random);
 }
 
-// Relaxation (Motzkin & Schoenberg 1954): step through the most violated inequality, again and
-// again. It may converge to a boundary, so it aims a depth inside, which shrinks with the restarts.
+// Relaxation (Motzkin & Schoenberg 1954): it steps repeatedly through the most violated inequality.
+// It may converge to a boundary, so it aims a depth inside, which shrinks with the restarts.
 void LinearDomain::find_inside(const Problem& problem) {
   for (std::size_t s = 0; s < problem.starts.size(); ++s) {
     const Genes free = reduce(problem.starts[s]);
@@ -346,7 +347,7 @@ void LinearDomain::find_inside(const Problem& problem) {
   constexpr int kRestarts = 20;
   constexpr int kSteps = 2000;
   constexpr double kOvershoot = 1.5;
-  double depth = 0.05;  // in widths of the domains as the inequality sees them
+  double depth = 0.05;  // in widths of the domains, weighted by the row
   RandomStream random(0, 0, RandomStream::Purpose::kDomain);
   for (int restart = 0; restart < kRestarts; ++restart, depth /= 4) {
     Genes point(size());
@@ -376,7 +377,7 @@ void LinearDomain::find_inside(const Problem& problem) {
           worst_norm = norm;
         }
       }
-      if (worst == nullptr) break;  // only rounding to integers is in the way
+      if (worst == nullptr) break;  // only rounding to integers puts the point outside
       for (std::size_t k = 0; k < size(); ++k) {
         point[k] = std::clamp(point[k] - kOvershoot * worst_excess / worst_norm * worst->weights[k],
                               gene(k).lower, gene(k).upper);

@@ -14,44 +14,46 @@ struct Interval {
   double upper;
 };
 
-// The set the operators are closed on: gene domains, whole integers and linear constraints. As in
-// Genocop (Michalewicz & Janikow 1991), every equality is solved for one continuous gene; the
-// remaining genes are the free coordinates, and the domain of a solved gene becomes two
-// inequalities on them. All methods but complete(), reduce() take and give free coordinates.
+// The set of points that the operators stay in: gene domains, whole integers and linear
+// constraints. As in Genocop (Michalewicz & Janikow 1991), every equality is solved for one
+// continuous gene. The other genes are the free coordinates, and the domain of a solved gene
+// becomes two inequalities on them. All methods take and give free coordinates, except complete()
+// and reduce().
 class LinearDomain {
  public:
-  // Throws emax::Error when there are no genes, a domain is empty, a start lies outside, the
+  // Throws emax::Error if there are no genes, a domain is empty, a start lies outside, the
   // equalities contradict each other or leave no continuous gene to solve for, a linear constraint
-  // or the monotone gene is a categorical gene or none, Gene::only_with is not as its declaration
-  // says, or no point is found inside.
+  // or the monotone gene names a categorical or missing gene, Gene::only_with is not as its
+  // declaration requires, or no point is found inside.
   explicit LinearDomain(const Problem& problem);
 
   std::size_t size() const { return free_.size(); }
   Genes complete(const Genes& free) const;
   Genes reduce(const Genes& genes) const;
 
-  // Exact: each inequality is summed in the order of its terms in double and compared without a
-  // tolerance. Equalities hold to the rounding of their solved gene.
+  // Exact: each inequality is summed in double in the order of its terms and compared without a
+  // tolerance. Equalities hold up to the rounding of their solved gene.
   bool contains(const Genes& free) const;
 
-  // Where coordinate k may go while the others stay; never empty, holds free[k] up to rounding;
-  // whole ends for an integer. O(rows * coordinates).
+  // The interval in which coordinate k may move while the others stay. It is never empty, contains
+  // free[k] up to rounding, and has whole ends for an integer. O(rows * coordinates).
   Interval range(const Genes& free, std::size_t k) const;
 
-  // The point of the segment from anchor (inside) to child nearest to child that is inside, after
-  // integers are rounded; in the end the anchor itself.
+  // The point nearest to `child` on the segment from `anchor`, which is inside, that is inside
+  // after integers are rounded; the anchor itself if there is no other.
   Genes pull_inside(const Genes& child, const Genes& anchor) const;
 
-  // A point for each unit-cube position; outside the constraints it is replaced by a random walk.
+  // The point for a position in the unit cube. If it is outside the constraints, the point is the
+  // end of a random walk.
   Genes from_unit_cube(const std::vector<double>& position, RandomStream& random) const;
   Genes sample(RandomStream& random) const;
 
-  // Whether coordinate k means anything beside the categories of the point (Gene::only_with).
+  // Whether coordinate k has a meaning with the categories of the point (Gene::only_with).
   bool has_meaning(const Genes& free, std::size_t k) const {
     const auto& condition = conditions_[k];
     return !condition || condition->holds(free[condition->gene]);
   }
-  // Coordinates that may move and mean something there.
+  // The movable coordinates that have a meaning there.
   std::vector<std::size_t> movable_with_meaning(const Genes& free) const;
 
   const Genes& inside() const { return inside_; }  // one point that is inside
@@ -63,7 +65,7 @@ class LinearDomain {
     double bound;
   };
   const std::vector<Row>& rows() const { return rows_; }
-  // The coordinate of a gene, or size() when an equality determines it.
+  // The coordinate of a gene, or size() if an equality determines the gene.
   std::size_t coordinate(std::size_t gene) const;
 
  private:

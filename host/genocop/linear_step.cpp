@@ -12,7 +12,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kFirstRadius = 0.2;  // of the domains
 constexpr double kMostRadius = 0.5;
-constexpr double kLeastRadius = 0.01;  // then the search begins anew with the first
+constexpr double kLeastRadius = 0.01;  // below this the radius starts again at kFirstRadius
 
 }  // namespace
 

@@ -10,21 +10,22 @@
 
 namespace emax {
 
-// An operator on all genes that have an order, whole ones included: linear models of objective and
-// constraints by least squares over the evaluated points nearest to the best one, and the model's
-// best point in a trust region around it. No evaluation is spent on the models. The categories are
-// the best point's, and only points that share them count.
+// An operator on all genes with an order, including whole ones. It fits linear models of objective
+// and constraints, by least squares over the evaluated points nearest to the best one, and proposes
+// the model's best point in a trust region. The models need no evaluations of their own. The
+// categories stay those of the best point, and only points with the same categories count.
 class LinearStep {
  public:
-  // `coordinates`: movable ones that have an order, at least one. Domain and problem outlive it.
+  // `coordinates`: movable coordinates with an order, at least one. Domain and problem must outlive
+  // this.
   LinearStep(const LinearDomain& domain, const Problem& problem,
              std::vector<std::size_t> coordinates);
 
   void told(const Genes& free, const Evaluation& evaluation);
-  // A step from `centre`; none before enough points are known. O(points).
+  // A step from `centre`; nothing while too few points are known. O(points).
   std::optional<Genes> propose(const Genes& centre, const Evaluation& evaluation,
                                RandomStream& random) const;
-  // What became of a step.
+  // Takes whether a proposed step improved the best point.
   void judge(bool improved);
   double radius() const { return radius_; }
 

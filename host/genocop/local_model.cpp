@@ -17,7 +17,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Relation = LinearConstraint::Relation;
 
-// By which a step aims inside a nonlinear constraint, so that rounding does not decide.
+// A step aims inside a nonlinear constraint by this much, so that rounding does not decide.
 constexpr double kMargin = 1e-9;
 
 std::size_t row_count(const std::vector<NonlinearConstraint>& constraints) {
@@ -59,7 +59,7 @@ Vector LocalSpace::position(const Genes& free) const {
 }
 
 Genes LocalSpace::moved(const Genes& centre, const Vector& step) const {
-  constexpr double kSnap = 1e-10;  // of the width: an interior point method ends short of a bound
+  constexpr double kSnap = 1e-10;  // of the width: an interior point method ends before a bound
   Genes free = centre;
   for (Eigen::Index i = 0; i < size(); ++i) {
     const std::size_t k = coordinates_[static_cast<std::size_t>(i)];
@@ -191,13 +191,13 @@ LocalModel fit_quadratic(const Matrix& steps, const Matrix& values, const Vector
 namespace {
 
 // The linear part of the programs around a centre, in units of the radius, so that the solver's
-// tolerances are relative to it; above it room for the nonlinear rows.
+// tolerances are relative to it. The first rows are left free for the nonlinear constraints.
 ConvexProgram linear_part(const LocalSpace& space, const Genes& centre, double radius) {
   Matrix linear_rows;
   Vector linear_bounds;
   space.linear_rows(centre, radius, linear_rows, linear_bounds);
   linear_bounds /= radius;
-  constexpr double kInside = 1e-9;  // where rounding cannot make a step leave the linear domain
+  constexpr double kInside = 1e-9;  // so that rounding cannot move a step out of the linear domain
   linear_bounds.head(linear_bounds.size() - 2 * space.size()).array() -= kInside;
   ConvexProgram program;
   program.elastic = static_cast<Eigen::Index>(row_count(space.constraints()));
@@ -208,8 +208,8 @@ ConvexProgram linear_part(const LocalSpace& space, const Genes& centre, double r
   return program;
 }
 
-// The model at `at` as a convex program: its nonlinear rows and its objective, whose curvature is
-// the Lagrangian's with these multipliers.
+// Writes the model at `at` into a convex program: the nonlinear rows and the objective. The
+// objective's curvature is that of the Lagrangian with these multipliers.
 void linearize(const LocalModel& model, const std::vector<NonlinearConstraint>& constraints,
                const Vector& at, const Vector& multipliers, double radius, ConvexProgram& program) {
   const Vector responses = model.at(at);
@@ -234,15 +234,15 @@ void linearize(const LocalModel& model, const std::vector<NonlinearConstraint>& 
   program.hessian *= radius * radius;
 }
 
-// Well above what the steepest constraint asks for.
+// A penalty well above the ratio that the steepest constraint needs.
 double first_penalty(const ConvexProgram& program) {
   const double steepest = program.gradient.cwiseAbs().maxCoeff();
   const double rise = program.rows.topRows(program.elastic).rowwise().norm().maxCoeff();
   return rise > 0 ? 10 * steepest / rise : 1;
 }
 
-// The solution under a penalty that is worth it: raised until most of what can be had of
-// feasibility is taken. `violation`: before the step.
+// Raises the penalty until the solution has most of the feasibility that is possible. `violation`
+// is that before the step.
 ConvexSolution solve_steered(ConvexProgram& program, double violation, double& penalty) {
   program.penalty = penalty;
   ConvexSolution solution = solve(program);
@@ -253,7 +253,7 @@ ConvexSolution solve_steered(ConvexProgram& program, double violation, double& p
   feasibility.penalty = 1;
   const double least = solve(feasibility).excess;
   for (int raise = 0; raise < 6; ++raise) {
-    constexpr double kSolved = 1e-7;  // below it the solver's own tolerance would speak
+    constexpr double kSolved = 1e-7;  // below it the solver's own tolerance would decide
     if (solution.excess - least <= 0.1 * (violation - least) + kSolved * (1 + violation)) break;
     penalty *= 10;
     program.penalty = penalty;

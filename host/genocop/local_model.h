@@ -11,7 +11,7 @@
 
 namespace emax {
 
-// An evaluated point as a local search sees it.
+// An evaluated point in the coordinates of a local search.
 struct LocalPoint {
   Genes free;
   Eigen::VectorXd at;
@@ -19,9 +19,9 @@ struct LocalPoint {
   double violation;
 };
 
-// Some coordinates of the domain as a space of its own, each scaled by its gene's width; the other
-// coordinates stay as they are at the centre of a local search. Coordinates without a meaning
-// beside the categories of `at` are in neither.
+// Some coordinates of the domain as a space of its own, each scaled by its gene's width. The other
+// coordinates stay as they are at the centre of a local search. Coordinates that have no meaning
+// with the categories of `at` belong to neither.
 class LocalSpace {
  public:
   LocalSpace(const LinearDomain& domain, const Problem& problem,
@@ -31,13 +31,13 @@ class LocalSpace {
   Eigen::VectorXd position(const Genes& free) const;
   Genes moved(const Genes& centre, const Eigen::VectorXd& step) const;  // pulled inside
   bool same_rest(const Genes& a, const Genes& b) const;
-  // Nothing where the evaluation failed or a response is not finite. The responses are the
-  // objective, then the values of the nonlinear constraints, or the violation where they are not
-  // told one by one.
+  // Returns nothing if the evaluation failed or a response is not finite. The responses are the
+  // objective and the values of the nonlinear constraints, or only the greatest violation if the
+  // single values are not known.
   std::optional<LocalPoint> point(const Genes& free, const Evaluation& evaluation) const;
   double violation(const Eigen::VectorXd& responses) const;
 
-  // Domain and linear constraints as rows * step <= bounds, within `radius` of the centre.
+  // The domain and the linear constraints as rows * step <= bounds, within `radius` of the centre.
   void linear_rows(const Genes& centre, double radius, Eigen::MatrixXd& rows,
                    Eigen::VectorXd& bounds) const;
   const std::vector<NonlinearConstraint>& constraints() const { return constraints_; }
@@ -48,39 +48,39 @@ class LocalSpace {
   std::vector<bool> is_rest_;
   Eigen::VectorXd widths_;
   std::vector<NonlinearConstraint> constraints_;
-  bool single_;  // only the violation is told
+  bool single_;  // only the greatest violation is known
 };
 
 // Models of all responses around a centre: value + gradient' s + s' hessian s / 2.
 struct LocalModel {
   Eigen::VectorXd values;
   Eigen::MatrixXd gradients;              // a column for each response
-  std::vector<Eigen::MatrixXd> hessians;  // none: linear
+  std::vector<Eigen::MatrixXd> hessians;  // empty: linear
 
   Eigen::VectorXd at(const Eigen::VectorXd& step) const;
   Eigen::VectorXd gradient(std::size_t response, const Eigen::VectorXd& step) const;
 };
 
-// `steps` and `values` have a row for each point, relative to a centre with `centre_values`.
 // Weighted least squares with a slight preference for small gradients; exact for linear responses
-// when the steps span the space.
+// if the steps span the space. `steps` and `values` have a row for each point; steps are relative
+// to a centre with `centre_values`.
 LocalModel fit_linear(const Eigen::MatrixXd& steps, const Eigen::MatrixXd& values,
                       const Eigen::VectorXd& centre_values, const Eigen::VectorXd& weights);
-// Interpolation whose Hessians differ least, in the Frobenius norm, from the `earlier` ones (Powell
-// 2004), which may be none. O((points + coordinates)^3).
+// Interpolation. Of all Hessians that fit, it takes those that differ least, in the Frobenius norm,
+// from the `earlier` ones (Powell 2004), which may be none. O((points + coordinates)^3).
 LocalModel fit_quadratic(const Eigen::MatrixXd& steps, const Eigen::MatrixXd& values,
                          const Eigen::VectorXd& centre_values,
                          const std::vector<Eigen::MatrixXd>& earlier);
 
 struct LocalStep {
   Eigen::VectorXd step;
-  double reduction = 0;    // of the merit objective + penalty * violation, as the model has it
-  double multipliers = 0;  // sum of the nonlinear constraints': the least penalty that is exact
+  double reduction = 0;    // of the merit objective + penalty * violation, predicted by the model
+  double multipliers = 0;  // sum over the nonlinear constraints: the least exact penalty
 };
 
-// The best point of the model within `radius` of the centre and inside the linear domain: a linear
-// program for a linear model, a few steps of sequential quadratic programming on the model
-// otherwise. `penalty` is raised where the constraints need it (an exact penalty on the greatest
+// The best point of the model within `radius` of the centre and inside the linear domain. For a
+// linear model it solves a linear program, else a few steps of sequential quadratic programming on
+// the model. `penalty` is raised where the constraints need it (an exact penalty on the greatest
 // violation; Byrd, Nocedal & Waltz 2008).
 LocalStep best_step(const LocalSpace& space, const Genes& centre, const LocalModel& model,
                     double radius, double& penalty);

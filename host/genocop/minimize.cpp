@@ -76,7 +76,7 @@ Minimum minimize(const Problem& problem, const std::function<Evaluation(const Ge
   if (options.jobs == 0) throw Error("jobs: at least one");
   Settings settings;
   settings.budget = options.budget;
-  // Nobody walks along a monotone gene here.
+  // The evaluations here do not search along a monotone gene.
   settings.monotone_walk = false;
   if (options.jobs > settings.look_ahead) {
     throw Error("jobs: at most " + std::to_string(settings.look_ahead) +

@@ -41,7 +41,7 @@ Genes MonotoneStep::line_of(Genes genes) const {
   return genes;
 }
 
-// What can still be gained shrinks about as one over the number of trials.
+// The gain that is still possible shrinks about as one over the number of trials.
 double MonotoneStep::gain() const {
   constexpr double kEarly = 150;
   return gain_ * std::min(1.0, kEarly / static_cast<double>(asked_ + 1));
@@ -62,8 +62,9 @@ void MonotoneStep::told(const Genes& genes, const Evaluation& evaluation) {
   if (same_line(genes, incumbent_)) measure_slopes();
 }
 
-// Over the points around the constraint, far enough apart that the jumps of a rough violation do
-// not decide. Keeps the old slopes while the incumbent's line has too few points.
+// Measures the slopes over points around the constraint that are far enough apart, so that the
+// jumps of a rough violation do not decide. Keeps the old slopes while the incumbent's line has too
+// few points.
 void MonotoneStep::measure_slopes() {
   constexpr double kSpan = 0.15;  // of the violation, which is normalised
   const Line& line = lines_.at(line_of(incumbent_));
@@ -96,7 +97,7 @@ void MonotoneStep::measure_slopes() {
   fall_ = fall;
 }
 
-// The greatest feasible value and the least infeasible one above it.
+// The bracket between the greatest feasible value and the least infeasible value above it.
 MonotoneStep::Bracket MonotoneStep::bracket(const Genes& key, const Line& line) const {
   const Interval range = domain_.range(key, coordinate_);
   Bracket result{range.lower, range.upper, {}, {}};
@@ -115,9 +116,9 @@ MonotoneStep::Bracket MonotoneStep::bracket(const Genes& key, const Line& line) 
   return result;
 }
 
-// Where the violation should pass zero, inside the bracket.
+// The predicted root of the violation, inside the bracket.
 double MonotoneStep::root(const Bracket& b) const {
-  constexpr double kMargin = 0.25;  // a bracket always shrinks by a quarter at least
+  constexpr double kMargin = 0.25;  // a bracket shrinks at least by this share
   const double width = b.upper - b.lower;
   if (b.at_lower && b.at_upper) {
     double share = 0.5;
@@ -167,7 +168,7 @@ std::optional<Genes> MonotoneStep::trial(const Genes& key, const Line& line) con
   if (!(width > kFinest * (gene.upper - gene.lower))) return std::nullopt;
 
   const double aim = root(b);
-  // The ends of what is in question and the trials in flight between them.
+  // The ends of the interval that may hold the root, and the trials in flight between them.
   const bool open_above = !b.at_upper && rise_ > 0;
   const double end = open_above ? std::min(b.upper, aim + (aim - b.lower)) : b.upper;
   std::vector<double> marks{b.lower};
@@ -182,7 +183,7 @@ std::optional<Genes> MonotoneStep::trial(const Genes& key, const Line& line) con
 
   double value = aim;
   if (!b.at_lower && rise_ <= 0 && !line.contains(b.lower)) {
-    value = b.lower;  // if even this is infeasible the line is dead
+    value = b.lower;  // if this value is infeasible, so is the whole line
   } else if (in_flight > 0) {
     std::size_t widest = 1;
     for (std::size_t i = 2; i < marks.size(); ++i) {
@@ -204,7 +205,8 @@ Genes MonotoneStep::aim(const Genes& child, const Genes& parent,
   if (rise_ <= 0 || !incumbent_evaluation_->feasible()) return child;
   const double objective = incumbent_evaluation_->objective;
   if (objective <= 0) return child;
-  // Objectives are taken as rate * (zero - gene): one zero for all lines, each line with its rate.
+  // Every line's objective is taken as rate * (zero - gene), with one zero for all lines and a rate
+  // for each.
   const double zero = incumbent_[coordinate_] - objective / fall_;
   double rate = -fall_;
   double known_value = parent[coordinate_];

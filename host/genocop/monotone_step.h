@@ -10,13 +10,14 @@
 
 namespace emax {
 
-// The use of a gene along which, all others held, the objective falls and the violation rises. A
-// line is the set of points that differ in that gene alone, or also in genes without a meaning that
-// no linear constraint counts; the best of a line lies where its
-// violation passes zero. From the two slopes measured near the incumbent every evaluated point
-// predicts the objective its line ends in, so points at different values of the gene compare, and
-// only lines that promise to beat the incumbent are followed. Nothing is taken as proven: where the
-// violation is only nearly monotone this costs trials, never a wrong best. O(points) a call.
+// Uses a gene along which, with all others held, the objective falls and the violation rises. A
+// line is a set of points that differ only in this gene, or also in genes that have no meaning
+// there and are in no linear constraint. The best point of a line is where its violation passes
+// zero. With two slopes that are measured near the incumbent, every evaluated point predicts the
+// objective at the end of its line. So points at different values of the gene are comparable, and
+// only lines that promise to beat the incumbent are followed. The predictions are not trusted as
+// proofs: where the violation is only nearly monotone they cost trials, but never give a wrong best
+// point. O(points) a call.
 class MonotoneStep {
  public:
   MonotoneStep(const LinearDomain& domain, std::size_t coordinate, const Settings& settings);
@@ -24,16 +25,16 @@ class MonotoneStep {
   void asked(const Genes& genes);
   void told(const Genes& genes, const Evaluation& evaluation);
 
-  // The next trial on the most promising line: the predicted root of the violation, kept off the
-  // ends of a bracket; the widest gap is halved while the root is in flight. None where no line
-  // with fewer than monotone_in_flight trials out promises gain() of the best objective. While
-  // nothing is feasible, the line of the least violation is followed downwards, its lower end
-  // first.
+  // The next trial on the most promising line: the predicted root of the violation, kept away from
+  // the ends of a bracket. While trials of the line are in flight, the widest gap is halved
+  // instead. Nothing if no line with fewer than monotone_in_flight trials in flight promises gain()
+  // of the best objective. While nothing is feasible, the line of the least violation is followed
+  // downwards, its lower end first.
   std::optional<Genes> climb() const;
 
-  // The child moved along its line to where it is predicted to beat the incumbent by gain(), its
-  // objective being to the incumbent's as its parent's was. The child itself where nothing can
-  // be predicted.
+  // Moves the child along its line to where it is predicted to beat the incumbent by gain(),
+  // assuming that the child's objective relates to the incumbent's as its parent's does. Returns
+  // the child itself where nothing can be predicted.
   Genes aim(const Genes& child, const Genes& parent, const Evaluation& parent_evaluation) const;
 
   // -(d objective / d violation) near the incumbent, the price of violation; 0 while unknown.
@@ -59,7 +60,7 @@ class MonotoneStep {
 
   const LinearDomain& domain_;
   std::size_t coordinate_;
-  std::vector<std::size_t> loose_;  // coordinates of no linear constraint
+  std::vector<std::size_t> loose_;  // coordinates in no linear constraint
   std::size_t most_in_flight_;
   double gain_;
   std::size_t asked_ = 0;

@@ -12,14 +12,14 @@ bool is_category(const LinearDomain& domain, std::size_t k) {
   return domain.gene(k).kind == Gene::Kind::kCategorical;
 }
 
-// Nothing lies between two categories: a child of mixed parents has that of either.
+// Nothing lies between two categories: if the parents' categories differ, the child gets either.
 double mixed(const LinearDomain& domain, std::size_t k, double p, double q, double value,
              RandomStream& random) {
   if (!is_category(domain, k) || p == q) return is_category(domain, k) ? p : value;
   return random.chance(0.5) ? p : q;
 }
 
-// One that means something; there always is one, unless all that has a meaning is fixed.
+// A random coordinate that has a meaning; any movable one if all that have a meaning are fixed.
 std::size_t random_movable(const LinearDomain& domain, const Genes& parent, RandomStream& random) {
   std::vector<std::size_t> movable = domain.movable_with_meaning(parent);
   if (movable.empty()) movable = domain.movable();
@@ -33,7 +33,8 @@ Genes with_value(const LinearDomain& domain, const Genes& parent, std::size_t k,
   return domain.pull_inside(child, parent);
 }
 
-// Where one integer alone is mutated, not moving it would repeat the parent: it moves by one.
+// If only one integer is mutated and it did not move, the child would repeat the parent; so it
+// moves by one.
 double at_least_one_step(const LinearDomain& domain, std::size_t k, double from, double to,
                          bool upwards) {
   if (!is_integer(domain, k) || std::round(to) != from) return to;
@@ -50,7 +51,7 @@ Genes uniform_in_range(const LinearDomain& domain, const Genes& parent, std::siz
   return with_value(domain, parent, k, range.lower + static_cast<double>(random.below(count)));
 }
 
-// Any other category, each as likely.
+// Any other category, all with the same probability.
 Genes other_category(const LinearDomain& domain, const Genes& parent, std::size_t k,
                      RandomStream& random) {
   const Gene& gene = domain.gene(k);

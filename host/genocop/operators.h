@@ -10,12 +10,12 @@
 
 namespace emax {
 
-// What an operator works on. Parents are inside the domain, better ones first, and there are as
-// many as the operator's entry below says; they may repeat.
+// The input of an operator. Parents are inside the domain, better ones first. Their number is that
+// of the operator's entry below. They may repeat.
 struct OperatorInput {
   const LinearDomain& domain;
   std::span<const Genes> parents;
-  double remaining = 1;               // share of the budget not yet spent: 1 - t/T
+  double remaining = 1;               // of the budget that is not spent: 1 - t/T
   std::size_t non_uniform_power = 2;  // b of the non-uniform mutations
   double gaussian_sigma = 0.1;        // at the start, in feasible ranges of the gene
 };
@@ -23,15 +23,15 @@ struct OperatorInput {
 // A child inside domain and linear constraints (LinearDomain::pull_inside towards a parent).
 using Operator = Genes (*)(const OperatorInput& input, RandomStream& random);
 
-// Crossovers: a p0 + (1-a) p1; the same for the genes after a random cut only; p0 + a (p0 - p1).
+// Crossovers: a p0 + (1-a) p1; the same only for the genes after a random cut; p0 + a (p0 - p1).
 Genes whole_arithmetical_crossover(const OperatorInput& input, RandomStream& random);
 Genes simple_arithmetical_crossover(const OperatorInput& input, RandomStream& random);
 Genes heuristic_crossover(const OperatorInput& input, RandomStream& random);
 
-// Mutations of one gene, or of all in random order ("whole"), each within its feasible range given
-// the others: anywhere in it; at one end; a step towards one end that shrinks with the budget left,
-// (end - x) u remaining^b; a normal step
-// of deviation gaussian_sigma * remaining ranges.
+// Mutations of one gene, or of all in random order ("whole"), each within its feasible range with
+// the others held: uniform in the range; at one end; a step towards one end that shrinks with the
+// budget left, (end - x) u remaining^b; a normal step with a deviation of gaussian_sigma *
+// remaining ranges.
 Genes uniform_mutation(const OperatorInput& input, RandomStream& random);
 Genes whole_uniform_mutation(const OperatorInput& input, RandomStream& random);
 Genes boundary_mutation(const OperatorInput& input, RandomStream& random);
@@ -39,8 +39,8 @@ Genes non_uniform_mutation(const OperatorInput& input, RandomStream& random);
 Genes whole_non_uniform_mutation(const OperatorInput& input, RandomStream& random);
 Genes gaussian_mutation(const OperatorInput& input, RandomStream& random);
 
-// Many parents: each gene from a random parent; the worst parent reflected through the mean of the
-// others (a simplex step with random length).
+// Operators of many parents: each gene from a random parent; the worst parent reflected through the
+// mean of the others (a simplex step of random length).
 Genes pool_recombination(const OperatorInput& input, RandomStream& random);
 Genes scatter_search(const OperatorInput& input, RandomStream& random);
 
@@ -51,7 +51,8 @@ struct OperatorEntry {
   Operator apply;
 };
 
-// The ten of Genocop III and, first among the mutations, Genocop's uniform mutation of one gene.
+// The ten operators of Genocop III and, as the first mutation, Genocop's uniform mutation of one
+// gene.
 inline constexpr std::size_t kMostParents = 4;
 inline constexpr std::array<OperatorEntry, 11> kOperators = {{
     {"whole_arithmetical_crossover", 2, 1, whole_arithmetical_crossover},

@@ -12,13 +12,14 @@
 namespace emax {
 namespace {
 
-constexpr int kRedraws = 20;     // of a duplicate: first as offspring, then anywhere in the domain
-constexpr double kApart = 0.02;  // of the domains: less far from an earlier one no search starts
+constexpr int kRedraws = 20;     // for a duplicate: first as offspring, then anywhere in the domain
+constexpr double kApart = 0.02;  // of the domains: a search starts this far from earlier ones
 
 }  // namespace
 
-// The given starts; the first one at evenly spaced values of the monotone gene; then
-// Sobol's sequence or a Latin hypercube, one point in each of as many slices of every gene.
+// The first candidates: the given starts; the first start at evenly spaced values of the monotone
+// gene; then Sobol's sequence or a Latin hypercube, which has one point in each of as many slices
+// of every gene.
 void Genocop::make_starts() {
   for (const Genes& start : problem_.starts) starts_.push_back(domain_.reduce(start));
   if (monotone_ && !starts_.empty()) {
@@ -83,8 +84,8 @@ Candidate Genocop::ask() {
   return candidate;
 }
 
-// Two points with the same key are one: genes are rounded to the resolution, and those without a
-// meaning beside the point's categories left out.
+// Points with the same key count as one. Genes are rounded to the resolution; genes that have no
+// meaning with the point's categories are left out.
 Genes Genocop::cache_key(const Genes& free) const {
   Genes key = free;
   for (std::size_t k = 0; k < key.size(); ++k) {
@@ -162,7 +163,8 @@ std::optional<Genocop::Proposal> Genocop::next_finish(RandomStream& random) {
   return std::nullopt;
 }
 
-// From the best point of the populations that lies apart from earlier starts and ends.
+// Starts a local search at the best point of the populations that is far enough from the starts and
+// ends of earlier ones.
 bool Genocop::start_finish() {
   if (told_ < starts_.size()) return false;
   if (const Genes* end = finish_->centre()) {
@@ -198,7 +200,7 @@ std::optional<Genocop::Proposal> Genocop::next_repair(RandomStream& random) {
     repairs_.pop_front();
     Genes point = chain.next(domain_, random);
     if (is_new(point)) return Proposal{std::move(point), "repair", Role::kRepair, chain};
-    // A known result serves without being charged; one still in flight ends the repair.
+    // A known result is used without a charge. A result that is in flight ends the repair.
     const std::optional<Evaluation> evaluation = result_of(cache_key(point));
     if (!evaluation) continue;
     chain.tell(*evaluation);

@@ -7,13 +7,13 @@
 namespace emax {
 
 // Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"):
-// a keyed bijection of a 128-bit counter, so any block of any stream is reached without a state.
+// a keyed bijection of a 128-bit counter, so any block of any stream is computed without a state.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
 // The random numbers of one event: a pure function of (seed, index, purpose). The distributions are
-// our own and use only additions, multiplications and comparisons, because those of the standard
-// library differ between implementations and libm may differ in the last bit between machines.
+// our own and use only additions, multiplications and comparisons: those of the standard library
+// differ between implementations, and libm may differ in the last bit between machines.
 class RandomStream {
  public:
   enum class Purpose : std::uint32_t {

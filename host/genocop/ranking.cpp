@@ -18,7 +18,7 @@ std::size_t select(std::span<const double> weights, RandomStream& random) {
   for (double weight : weights) sum += weight;
   const double mark = random.uniform() * sum;
   double passed = 0;
-  std::size_t last = 0;  // with a positive weight; reached only through rounding of the sum
+  std::size_t last = 0;  // with a positive weight; used only if the sum is rounded
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (weights[i] <= 0) continue;
     passed += weights[i];

@@ -23,7 +23,7 @@ Genes RepairChain::next(const LinearDomain& domain, RandomStream& random) {
       share_ /= 2;
       break;
     case RepairMethod::kValueAware: {
-      constexpr double kMargin = 0.05;  // of the bracket: a trial at its end would teach nothing
+      constexpr double kMargin = 0.05;  // of the bracket: a trial at its end gives no information
       const double rise = infeasible_violation_ - feasible_violation_;
       const double root = rise > 0 ? -feasible_violation_ / rise : 0.5;
       share_ = feasible_share_ +
@@ -48,7 +48,7 @@ void RepairChain::tell(const Evaluation& evaluation) {
   }
   infeasible_share_ = share_;
   if (evaluation.evaluated_ok) infeasible_violation_ = evaluation.violation;
-  // The Illinois rule: an end that stays counts half, so the bracket shrinks from both sides.
+  // The Illinois rule: an end that stays counts half, so that the bracket shrinks from both sides.
   feasible_violation_ /= 2;
 }
 

@@ -9,9 +9,9 @@
 
 namespace emax {
 
-// The repair of one infeasible search point s towards a feasible reference point r: trials
-// z = a s + (1-a) r (Michalewicz & Nazhiyath 1995), one after another, until one is feasible. A
-// category is that of the nearer one.
+// The repair of one infeasible search point s towards a feasible reference point r. It makes trials
+// z = a s + (1-a) r (Michalewicz & Nazhiyath 1995) one after another, until one is feasible. A
+// category is that of the nearer of the two points.
 class RepairChain {
  public:
   RepairChain(RepairMethod method, Genes search, double search_violation, Genes reference,
@@ -21,7 +21,7 @@ class RepairChain {
   void tell(const Evaluation& evaluation);                       // of the last next()
   std::size_t tries() const { return tries_; }
 
-  std::uint64_t search_id = 0;  // for the caller
+  std::uint64_t search_id = 0;  // used by the caller
   std::uint64_t reference_id = 0;
   double reference_objective = 0;
   std::optional<std::size_t> bred_by;  // operator of the search point

@@ -18,67 +18,67 @@ enum class RepairMethod {
   kValueAware      // regula falsi on the violation along the segment
 };
 
-// Everything the search depends on besides problem and seed. The strategies that are not in
+// All settings that the search depends on besides problem and seed. The strategies that are not in
 // Genocop III are monotone_step, linear_model, finish, adaptive_frequencies, sobol_starts,
 // first_phase, cache, replace_worse_only with share_feasible, repair_only_promising, the
-// value-aware repair and the uniform mutation, which is Genocop's; each is switched by its own
-// setting.
+// value-aware repair and the uniform mutation (from Genocop). Each has its own setting.
 struct Settings {
   std::size_t budget = 150;  // T of the operators whose steps shrink
-  // The budgets that the search had before it was given this one, ascending: T of candidate i is
-  // the first of all of them that is greater than i. So a search that goes on with a larger budget
-  // asks for the same candidates as before as far as the smaller one went.
+  // The budgets that the search had before this one, ascending. T of candidate i is the first of
+  // all budgets that is greater than i. A search that continues with a larger budget therefore asks
+  // for the same candidates as before, up to the end of the smaller budget.
   std::vector<std::size_t> earlier_budgets = {};
-  std::size_t look_ahead = 16;  // K: candidate i knows the results up to i - K
+  std::size_t look_ahead = 16;  // K: candidate i depends on the results up to i - K
 
   std::size_t search_population = 8;
   std::size_t reference_population = 8;
   double selection_pressure = 0.1;  // q of the ranking selection, in (0, 1)
-  double reference_share = 0.5;     // of the offspring have reference points as parents
-  bool replace_worse_only = true;   // offspring take a search point's place only if better
-  bool share_feasible = true;       // feasible points become references wherever they come from
+  double reference_share = 0.5;     // share of the offspring whose parents are reference points
+  bool replace_worse_only = true;   // offspring replace a search point only if better
+  bool share_feasible = true;       // feasible points of any origin become references
 
   RepairMethod repair = RepairMethod::kValueAware;
-  std::size_t max_repair_tries = 3;       // evaluations spent on one search point; 0: no repair
-  bool repair_only_promising = true;      // only points whose objective beats their reference's
-  double replacement_probability = 0.25;  // p_r: the search point becomes its repaired point
+  std::size_t max_repair_tries = 3;   // evaluations for one search point; 0: no repair
+  bool repair_only_promising = true;  // only points whose objective beats that of their reference
+  double replacement_probability = 0.25;  // p_r: that a repaired point replaces its search point
 
   std::size_t non_uniform_power = 2;  // b of the non-uniform mutations
   double gaussian_sigma = 0.1;  // standard deviation at the start, in feasible ranges of the gene
   std::array<double, kOperators.size()> operator_frequencies = standard_frequencies();
 
-  // A gene along which the objective falls and the violation rises is no gene of the search: every
-  // evaluation looks for its best value. For whoever evaluates; the search itself does not know.
+  // A gene along which the objective falls and the violation rises is not a gene of the search;
+  // every evaluation searches its best value. This setting is for the code that evaluates; the
+  // search itself does not use it.
   bool monotone_walk = true;
-  bool monotone_step = true;           // where the problem names a monotone gene
-  double monotone_share = 0.97;        // of the offspring aim just below the incumbent
-  double monotone_gain = 0.02;         // by this share of its objective; less after 150 candidates
-  std::size_t monotone_in_flight = 3;  // trials of one line at one time
+  bool monotone_step = true;           // if the problem names a monotone gene
+  double monotone_share = 0.97;        // of the offspring: aim just below the incumbent
+  double monotone_gain = 0.02;         // how far below, of its objective; less after 150 candidates
+  std::size_t monotone_in_flight = 3;  // trials of one line at a time
   std::size_t monotone_fan = 6;        // values of the gene tried on the first start point
 
   bool linear_model = true;          // steps of local linear models around the best point
   double linear_share = 0.2;         // of the candidates that other strategies leave
   bool finish = true;                // local searches on the continuous genes
   double finish_share = 0.6;         // of the candidates while one runs
-  double finish_radius = 0.1;        // its first trust region, of the domains
-  bool first_phase = true;           // while nothing is feasible the violation is minimised
+  double finish_radius = 0.1;        // the first trust region, of the domains
+  bool first_phase = true;           // while nothing is feasible, minimise the violation
   bool adaptive_frequencies = true;  // of the operators
-  double frequency_floor = 0.3;      // share of the offspring that success does not move
-  bool sobol_starts = true;          // else a Latin hypercube
-  bool cache = true;                 // points that were evaluated are not asked for again
+  double frequency_floor = 0.3;      // of the offspring, divided equally among the operators
+  bool sobol_starts = true;          // false: a Latin hypercube
+  bool cache = true;                 // points that were evaluated are not evaluated again
   double cache_resolution = 1e-13;   // of the domains: genes are rounded to it and compared
 
-  // The entry of operator_frequencies that belongs to an operator of kOperators.
+  // The entry of operator_frequencies for an operator of kOperators.
   double& frequency_of(Operator apply);
 
   bool operator==(const Settings&) const = default;
 
   // Genocop III as published (Michalewicz & Nazhiyath 1995; Michalewicz 1996): populations of 70,
   // p_r = 0.15, its ten operators, offspring that replace whatever their value, populations that
-  // meet in repairs alone, repair at random until feasible (100 trials at most), one result after
-  // the other. Of what its sources leave open or give differently, q = 0.02 and b = 6 reach its
-  // published results. The first phase stands in for the user, whom it asks for a first feasible
-  // point.
+  // exchange points only by repairs, random repair until feasible (at most 100 trials), one result
+  // after the other. Its sources leave q and b open or give different values; q = 0.02 and b = 6
+  // reach its published results. The first phase replaces the user, whom Genocop III asks for a
+  // first feasible point.
   static Settings original();
 
   static constexpr std::array<double, kOperators.size()> standard_frequencies() {
@@ -90,15 +90,15 @@ struct Settings {
   }
 };
 
-// A setting by name, with its meaning and the values it may take: for configuration files and for
-// the check that Genocop makes.
+// A setting by name, with its meaning and its permitted values, for configuration files and for
+// Genocop's check.
 struct SettingInfo {
   using Member = std::variant<std::size_t Settings::*, double Settings::*, bool Settings::*,
                               RepairMethod Settings::*>;
 
   std::string_view name;
   Member member;
-  double least;  // both ends included; of numbers only
+  double least;  // both ends included; only for numbers
   double greatest;
   std::string_view meaning;
 };

@@ -94,7 +94,7 @@ std::vector<double> sobol_point(std::uint64_t seed, std::uint32_t index, std::si
     for (unsigned bit = 0; bit < kBits; ++bit) {
       if ((index >> bit & 1u) != 0) value ^= v[bit];
     }
-    // The middle of the cell: an end would put points onto the bounds of a domain.
+    // The middle of the cell, so that no point lies on the bounds of a domain.
     point[d] = (static_cast<double>(value) + 0.5) * 0x1p-32;
   }
   return point;

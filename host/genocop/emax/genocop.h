@@ -1,5 +1,5 @@
-// Genocop III for a function of your own: minimised where evaluations are dear, under domains,
-// linear and nonlinear constraints, with real, whole and categorical variables.
+// Genocop III for a function of your own. It minimises the function with few evaluations, under
+// domains, linear and nonlinear constraints, with real, whole and categorical variables.
 //
 //   #include <emax/genocop.h>
 //
@@ -12,8 +12,8 @@
 //                                  {1 - g[0] - g[1]});                          // x + y >= 1
 //   }, {.budget = 200, .seed = 1});
 //
-// Links with emax::genocop. Source: section 2.3; Michalewicz & Nazhiyath (1995); what differs from
-// it: docs/genocop3.md.
+// Link emax::genocop. Source: section 2.3; Michalewicz & Nazhiyath (1995). docs/genocop3.md lists
+// the differences from it.
 #pragma once
 
 #include <emax/error.h>
@@ -34,14 +34,14 @@ inline namespace v1 {
 using Genes = std::vector<double>;
 
 struct Gene {
-  // Categories are the whole numbers of the domain, without order: none is between two others.
+  // Categories are the whole numbers of the domain. They have no order: none is between two others.
   enum class Kind { kContinuous, kInteger, kCategorical };
   struct Condition {
     std::size_t gene;  // a categorical gene that is itself unconditional
     double category;
-    bool unless = false;  // with every other category instead
+    bool unless = false;  // holds with every other category instead
 
-    // Where that gene has this value.
+    // Whether the condition holds when that gene has this value.
     bool holds(double value) const { return (value == category) != unless; }
     bool operator==(const Condition&) const = default;
   };
@@ -50,7 +50,8 @@ struct Gene {
   Kind kind = Kind::kContinuous;
   double lower = 0;  // domain, both ends included; equal ends fix the gene
   double upper = 0;
-  // The gene has a meaning only with that category; elsewhere points that differ in it are equal.
+  // The gene has a meaning only where the condition holds. Elsewhere points that differ only in
+  // this gene are equal.
   std::optional<Condition> only_with = std::nullopt;
 
   bool is_whole() const { return kind != Kind::kContinuous; }
@@ -68,7 +69,7 @@ struct LinearConstraint {
   bool operator==(const LinearConstraint&) const = default;
 };
 
-// value <= 0, or |value| <= tolerance; values are normalised, so that violations compare.
+// value <= 0, or |value| <= tolerance. Values are normalised, so that violations are comparable.
 struct NonlinearConstraint {
   LinearConstraint::Relation relation = LinearConstraint::Relation::kAtMost;
   double tolerance = 0;  // of an equality
@@ -80,55 +81,56 @@ struct NonlinearConstraint {
 };
 
 struct Evaluation {
-  bool evaluated_ok = false;  // false: the evaluation crashed or was killed; worst of all
+  bool evaluated_ok = false;  // false: the evaluation crashed or was killed; ranks last
   double objective = 0;       // minimised
-  double violation = 0;  // of the most violated nonlinear constraint, normalised; <= 0 feasible
+  double violation = 0;  // of the most violated nonlinear constraint, normalised; <= 0: feasible
   std::vector<double> constraints = {};  // the values of Problem::nonlinear
 
   bool feasible() const { return evaluated_ok && violation <= 0; }
 };
 
-// What is to be minimised is known only through evaluations.
+// A problem whose objective is known only through evaluations.
 struct Problem {
   std::vector<Gene> genes;
   std::vector<LinearConstraint> linear;
-  // May stay empty where evaluations tell the greatest violation alone; local models of single
-  // values are better than one of their maximum.
+  // May stay empty where evaluations give only the greatest violation. Local models of the single
+  // values are better than one model of their maximum.
   std::vector<NonlinearConstraint> nonlinear;
   std::vector<Genes> starts;  // evaluated first, in this order; each inside domains and `linear`
-  // Results known from before (a warm start): not charged, and with the cache not asked for again.
+  // Results known from before (a warm start). They are not charged to the budget and, with the
+  // cache, not evaluated again.
   std::vector<std::pair<Genes, Evaluation>> known;
 
-  bool stepped = false;  // the objective moves in steps, so that no local search is worth it
-  // A gene along which, all others held, the objective falls and the violation rises (nearly).
+  bool stepped = false;  // the objective moves in steps, so that a local search is of no use
+  // A gene along which the objective falls and the violation rises (nearly), with all others held.
   std::optional<std::size_t> monotone_gene;
 };
 
-// An evaluation from its parts; failed when a number is not finite. Throws Error for another number
-// of constraints than the problem's.
+// Makes an evaluation from its parts; it counts as failed if a number is not finite. Throws Error
+// if the number of constraints is not the problem's.
 EMAX_API Evaluation make_evaluation(const std::vector<NonlinearConstraint>& nonlinear,
                                     double objective, std::vector<double> constraints);
 
 struct MinimizeOptions {
   std::size_t budget = 150;  // evaluations
   std::uint64_t seed = 1;
-  // How many evaluations run at a time, each in a thread; `evaluate` must permit it.
+  // Number of evaluations that run at a time, each in a thread; `evaluate` must permit it.
   std::size_t jobs = 1;
-  // Asked between evaluations; true ends the search with what it has found.
+  // Called between evaluations; true ends the search with the result so far.
   std::function<bool()> interrupted = nullptr;
 };
 
 struct Minimum {
   Genes genes;
-  Evaluation evaluation;  // feasible, or of the least violation where nothing feasible was found
+  Evaluation evaluation;        // feasible, or of the least violation if nothing feasible was found
   std::size_t evaluations = 0;  // made
 };
 
-// The same result for any number of jobs. What `evaluate` throws ends the search and comes out; an
-// evaluation that fails is Evaluation{}. Throws Error for a problem without genes, for an empty
-// domain, for constraints, starts and known results that do not fit the genes, and where nothing
-// was evaluated.
-// Beside the evaluations O(budget * (budget * genes + (genes + constraints)^3)).
+// The result is the same for any number of jobs. An exception from `evaluate` ends the search and
+// is passed on; return Evaluation{} for an evaluation that fails. Throws Error for a problem
+// without genes, for an empty domain, for constraints, starts and known results that do not fit the
+// genes, and if nothing was evaluated. Without the evaluations it takes O(budget * (budget * genes
+// + (genes + constraints)^3)).
 EMAX_API Minimum minimize(const Problem& problem,
                           const std::function<Evaluation(const Genes&)>& evaluate,
                           const MinimizeOptions& options = {});
