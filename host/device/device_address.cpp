@@ -21,10 +21,10 @@ struct Form {
 constexpr Form kForms[] = {
     {"cpu", "this processor"},
     {"sim", "the device in C++"},
-    {"sim:board=NAME", "the same, and the time that a board would take"},
+    {"sim:board=NAME", "the same, with a prediction of the time that a board would take"},
     {"rtl[:pes=N]", "the Verilated core of N elements"},
     {"tty:PATH[@BAUD]", "a board on a serial port"},
-    {"xrt:XCLBIN[@INDEX]", "an Alveo card; never run on one"},
+    {"xrt:XCLBIN[@INDEX]", "an Alveo card; not tested on a card"},
 };
 constexpr std::uint32_t kLeastBaud = 1200, kMostBaud = 12000000;
 

@@ -14,20 +14,20 @@ namespace emax {
 
 // A value of --device, in one of the forms that device_help() lists.
 struct DeviceAddress {
-  std::string kind = "cpu";              // what stands before the colon
-  std::optional<BoardModel> board = {};  // of sim: whose time is predicted
+  std::string kind = "cpu";              // the part before the colon
+  std::optional<BoardModel> board = {};  // of sim: the board whose time is predicted
   std::uint32_t elements = 1;            // of sim and rtl
   std::string place = {};                // of tty and xrt
   std::uint32_t baud = kDefaultBaud;
 
-  // Throws Error naming what is accepted.
+  // Throws Error naming the accepted forms.
   static DeviceAddress parse(std::string_view text);
 };
 
-// Every form with what it means, for people.
+// The help text of --device: every form with its meaning.
 std::string device_help();
 
-// Nothing for the CPU, whose engine needs no blocks. Throws Error where the device cannot be
+// Returns nothing for the CPU, whose engine needs no blocks. Throws Error if the device cannot be
 // reached or is not compatible.
 std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address);
 

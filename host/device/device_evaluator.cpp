@@ -24,7 +24,7 @@ std::size_t DeviceEvaluator::block_points() const { return kMaxBlockPoints; }
 
 void DeviceEvaluator::begin(std::span<const Vector3<float>> points,
                             std::span<const TriangleRecord<float>> records) {
-  while (!in_flight_.empty()) collect();  // of a search that was interrupted
+  while (!in_flight_.empty()) collect();  // blocks of a search that was interrupted
   points_ = points;
   records_ = records;
 }
@@ -63,7 +63,7 @@ DeviceCounters DeviceEvaluator::counters() const {
     try {
       ask_cycles(*device_, counters);
     } catch (const Error&) {
-      // It has answered everything and died since: only what it counted is lost.
+      // It has answered everything and failed since, so only its own counts are lost.
     }
   }
   if (device_->counters().began_again) {

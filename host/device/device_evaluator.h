@@ -8,11 +8,11 @@
 
 namespace emax {
 
-// The driver: turns blocks into commands for a device and its answers into results. Throws
-// DeviceFailure where the device throws an Error; nothing is asked of it after that.
+// The driver: it turns blocks into commands for a device, and the device's answers into results. If
+// the device throws an Error, it throws DeviceFailure and does not use the device again.
 class DeviceEvaluator : public Evaluator {
  public:
-  // Throws Error when the device is not compatible.
+  // Throws Error if the device is not compatible.
   explicit DeviceEvaluator(std::unique_ptr<Device> device);
 
   std::string name() const override { return device_->name(); }

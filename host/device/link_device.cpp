@@ -12,16 +12,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A damaged frame costs its length, a short one its header: at one damaged byte in 10,000 a frame
-// of 128 words comes through 19 times in 20, and header and CRC are 3 % of it.
+// A damaged frame costs its length, a short frame its header. At one damaged byte in 10,000, a
+// frame of 128 words arrives undamaged 19 times in 20, and header and CRC are 3 % of it.
 constexpr std::size_t kFrameWords = 128;
-// Well below half of the sequences, so that an old acknowledgement never looks like a new one.
+// Well below half of the sequence numbers, so that an old acknowledgement never looks like a new
+// one.
 constexpr std::size_t kMostFrames = 64;
-// An acknowledgement may be repeated by a status sent unasked or by an answer's frame.
+// An unrequested status or an answer's frame may repeat an acknowledgement.
 constexpr std::size_t kRepeatsBeforeResend = 2;
 
-// Differs between runs, so that frames left over from another run are known as such. It never
-// touches a result.
+// A number that differs between runs, so that frames of another run are recognised. It affects no
+// result.
 std::uint16_t first_session() {
   std::uint64_t mixed = static_cast<std::uint64_t>(getpid()) * 0x9e3779b97f4a7c15u;
   mixed ^= static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
@@ -38,8 +39,8 @@ std::string seconds(LinkLimits::Duration time) {
 }  // namespace
 
 LinkLimits LinkLimits::for_baud(std::uint32_t baud) {
-  // What the operating system may hold back, and the silence after which a device hunts anew, are
-  // 4096 bytes each.
+  // The operating system may hold back 4096 bytes, and a device hunts again after the time of 4096
+  // bytes.
   const Duration buffered = std::chrono::duration_cast<Duration>(2 * 4096 * 10 * 1.0s) / baud;
   LinkLimits limits;
   limits.repeat = std::max(limits.repeat, buffered);
@@ -60,7 +61,7 @@ LinkDevice::~LinkDevice() {
     const Duration end = channel_->now() + 3 * limits_.repeat;
     run_until([&] { return open_ || lost_ || channel_->now() >= end; });
   } catch (const Error&) {
-    // The next host resets the board anyway.
+    // The next host resets the board in any case.
   }
 }
 
@@ -72,7 +73,7 @@ void LinkDevice::send(std::span<const Word> words) {
 void LinkDevice::receive(std::span<Word> words) {
   run_until([&] { return log_.ready() >= words.size() || log_.due() == 0; });
   if (log_.ready() < words.size()) {
-    give_up("an answer was awaited that no command asked for; this is a defect of the program");
+    give_up("waiting for an answer that no command asked for; this is a defect of the program");
   }
   log_.give(words);
 }
@@ -93,7 +94,7 @@ LinkCounters LinkDevice::link_counters() const {
 template <class Done>
 void LinkDevice::run_until(const Done& done) {
   if (done()) return;
-  // What came while nobody looked is still to be read.
+  // Bytes may have arrived while nothing was read, so the times start now.
   heard_ = understood_ = moved_ = sent_ = received_ = channel_->now();
   while (!done()) step();
 }
@@ -112,7 +113,7 @@ void LinkDevice::step() {
     if (count > 0) received_ = channel_->now();
     reader_.add(std::span(bytes).first(count));
     while (const auto frame = reader_.next()) take(*frame);
-    // It may have been the frame that is awaited.
+    // The dropped frame may have been the awaited one.
     if (reader_.dropped() > damaged && on_the_way_.empty() && log_.due() > 0) poll_due_ = true;
     watch_times();
   } catch (const ChannelLost&) {
@@ -159,7 +160,7 @@ void LinkDevice::come_back() {
   }
 }
 
-// At most one frame at a time, so that what is put has the latest acknowledgement.
+// Puts at most one frame at a time, so that each has the latest acknowledgement.
 void LinkDevice::fill_output() {
   if (!output_.empty()) return;
   if (!open_) {
@@ -195,7 +196,8 @@ void LinkDevice::put(FrameKind kind, std::uint8_t sequence, const std::vector<Wo
   if (kind == FrameKind::kReset || kind == FrameKind::kPoll) asked_ = channel_->now();
 }
 
-// In the next new frame: short ones only at the end of the words, or where nothing else goes on.
+// Words for the next new frame. A frame is shorter than kFrameWords only at the end of the words,
+// or if no other frame is on the way.
 std::size_t LinkDevice::words_to_send() const {
   if (on_the_way_.size() >= kMostFrames) return 0;
   const std::size_t wanted = std::min(log_.unsent(), kFrameWords);
@@ -236,7 +238,7 @@ void LinkDevice::take(const Frame& frame) {
 void LinkDevice::take_acknowledgement(const Frame& frame) {
   const std::uint8_t first = on_the_way_.empty() ? next_sequence_ : on_the_way_.front().sequence;
   const auto passed = static_cast<std::uint8_t>(frame.expected - first);
-  if (passed > on_the_way_.size()) return;  // an old one, or of a board that was reset
+  if (passed > on_the_way_.size()) return;  // old, or from a board that was reset
   understood_ = heard_;
   if (passed > 0) {
     for (int i = 0; i < passed; ++i) {
@@ -248,7 +250,7 @@ void LinkDevice::take_acknowledgement(const Frame& frame) {
     repeats_to_react_ = kRepeatsBeforeResend;
     moved_ = sent_ = heard_;
   } else if (next_sent_ > 0 && ++repeated_acknowledgements_ >= repeats_to_react_) {
-    // Each frame sent so far may repeat it once more.
+    // Each frame sent so far may repeat the acknowledgement once more.
     repeats_to_react_ = repeated_acknowledgements_ + next_sent_ + kRepeatsBeforeResend;
     next_sent_ = 0;
   }
@@ -267,7 +269,7 @@ void LinkDevice::take_data(const Frame& frame) {
     moved_ = heard_;
     const std::size_t ready = log_.ready();
     if (!log_.add_answers(frame.payload)) {
-      give_up("the board sent an answer that nothing asked for; reset the board and run again");
+      give_up("the board sent an answer that no command asked for; reset the board and run again");
     }
     if (log_.ready() > ready) vain_recoveries_ = 0;
   } else if (ahead == 0xff) {
@@ -280,7 +282,7 @@ void LinkDevice::take_data(const Frame& frame) {
 
 void LinkDevice::watch_times() {
   const Duration now = channel_->now();
-  // The rest of a frame is not to come any more.
+  // The rest of a frame that has begun will not come.
   if (now - received_ >= limits_.repeat) reader_.abandon();
   if (now - heard_ >= limits_.silence) {
     give_up((ever_open_ ? "the board has not answered for " : "no emax board answered within ") +

@@ -44,7 +44,7 @@ void QueuedDevice::receive(std::span<Word> words) {
   if (answers_.size() < words.size()) {
     if (failure_) std::rethrow_exception(failure_);
     throw Error("device " + name() +
-                ": an answer was awaited that no command asked for; this is a defect of the "
+                ": waiting for an answer that no command asked for; this is a defect of the "
                 "program");
   }
   const auto end = answers_.begin() + static_cast<std::ptrdiff_t>(words.size());
@@ -65,7 +65,7 @@ void QueuedDevice::work() {
     while (true) {
       changed_.wait(lock, [this] { return ending_ || !queue_.empty() || may_fetch(); });
       if (ending_) return;
-      // Sending first keeps the device busy; an answer waits for as long as there is work.
+      // Sending first keeps the device busy; answers are fetched when nothing is left to send.
       if (queue_.empty()) {
         fetch_answer(lock);
       } else {
@@ -109,7 +109,7 @@ void QueuedDevice::fetch_answer(std::unique_lock<std::mutex>& lock) {
   working_ = false;
 }
 
-// Commands that end in these words and are answered.
+// Number of commands that end in these words and have an answer.
 std::size_t QueuedDevice::questions_in(std::span<const Word> words) {
   std::size_t questions = 0;
   while (!words.empty()) {

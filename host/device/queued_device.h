@@ -14,13 +14,13 @@
 
 namespace emax {
 
-// Runs another device in a thread of its own, so that the caller prepares blocks while earlier ones
-// are sent and computed. Words, their order and the counters are those of the other device.
+// Runs another device in its own thread, so that the caller prepares blocks while earlier ones are
+// sent and computed. Words, their order and the counters are those of the other device.
 //
 // send() waits only while `most_words` or more are queued. An answer is fetched when it is awaited
-// and nothing is queued: the calls of the other device, and so its counts, do not depend on timing.
-// An exception of the other device comes out of the next send() or receive() that needs
-// the device. The end waits for the call that is under way, not for the queue.
+// and nothing is queued, so the calls of the other device, and its counts, do not depend on timing.
+// An exception of the other device comes out of the next send() or receive() that needs the device.
+// The destructor waits for the call in progress, not for the queue.
 class QueuedDevice : public Device {
  public:
   static constexpr std::size_t kMostWords = std::size_t{1} << 22;
@@ -33,7 +33,7 @@ class QueuedDevice : public Device {
   std::string name() const override { return device_->name(); }
   void send(std::span<const Word> words) override;
   void receive(std::span<Word> words) override;
-  // Waits until nothing is queued, so that equal calls give equal counts.
+  // Waits until nothing is queued, so that the same calls give the same counts.
   DeviceCounters counters() const override;
 
  private:
@@ -50,14 +50,14 @@ class QueuedDevice : public Device {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::deque<Word> queue_, answers_;
-  std::size_t due_ = 0;      // answers to what was sent, not yet fetched
+  std::size_t due_ = 0;      // answers to sent commands, not yet fetched
   bool working_ = false;     // in a call of the device
-  std::size_t awaited_ = 0;  // words, by receive()
+  std::size_t awaited_ = 0;  // words that receive() waits for
   bool ending_ = false;
   std::exception_ptr failure_;
 
-  CommandCursor cursor_;  // in what was sent
-  std::thread thread_;    // last: it uses all of the above
+  CommandCursor cursor_;  // in the sent words
+  std::thread thread_;    // the last member: it uses all of the above
 };
 
 }  // namespace emax

@@ -1,6 +1,6 @@
 #include "host/device/serial_channel.h"
 
-// The kernel's termios2, which takes any speed; <termios.h> has none and clashes with it.
+// The kernel's termios2 takes any speed; <termios.h> takes only fixed ones and clashes with it.
 #include <asm/termbits.h>
 #include <fcntl.h>
 #include <linux/serial.h>
@@ -85,7 +85,7 @@ bool SerialChannel::reopen() {
 void SerialChannel::open_port() {
   port_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (port_ < 0) refuse(why_not_opened(errno));
-  // The lock holds against everybody; TIOCEXCL alone would let the superuser in.
+  // The lock excludes every process; TIOCEXCL alone would admit the superuser.
   if (flock(port_, LOCK_EX | LOCK_NB) < 0) refuse(why_not_opened(errno));
   set_up();
   ioctl(port_, TIOCEXCL);
@@ -102,13 +102,13 @@ void SerialChannel::set_up() {
   settings.c_cc[VMIN] = 1;
   settings.c_cc[VTIME] = 0;
   const bool set = ioctl(port_, TCSETS2, &settings) == 0;
-  // A receiver bears 2 % between the clocks of both sides.
+  // A receiver tolerates a difference of 2 % between the clocks of both sides.
   if (!set || ioctl(port_, TCGETS2, &settings) < 0 || settings.c_ospeed > baud_ + baud_ / 50 ||
       settings.c_ospeed < baud_ - baud_ / 50) {
     refuse("the port cannot run at " + std::to_string(baud_) + " baud; give one that it and the " +
            "board can after the path, as @115200");
   }
-  // USB adapters hold bytes back for 16 ms otherwise; a port without such a timer refuses.
+  // Otherwise USB adapters hold bytes back for 16 ms. A port without such a timer refuses the call.
   serial_struct serial = {};
   if (ioctl(port_, TIOCGSERIAL, &serial) == 0) {
     serial.flags |= ASYNC_LOW_LATENCY;

@@ -9,11 +9,13 @@ namespace emax {
 
 constexpr std::uint32_t kDefaultBaud = 3000000;
 
-// A serial port, raw, eight bits, no parity, at any speed its driver takes, and ours alone. A port
-// that goes away (a board unplugged) is ChannelLost; reopen() then looks for the same path.
+// A serial port in raw mode, eight bits, no parity, at any speed that its driver takes, for this
+// process alone. If the port disappears (the board is unplugged), calls throw ChannelLost; reopen()
+// then tries the same path again.
 class SerialChannel : public ByteChannel {
  public:
-  // Throws Error where the path is missing, not permitted, no terminal, in use or too fast for it.
+  // Throws Error if the path is missing, not permitted, not a terminal, in use, or cannot run at
+  // this speed.
   explicit SerialChannel(const std::string& path, std::uint32_t baud = kDefaultBaud);
   ~SerialChannel() override;
   SerialChannel(const SerialChannel&) = delete;
@@ -23,7 +25,7 @@ class SerialChannel : public ByteChannel {
   std::size_t write(std::span<const std::uint8_t> bytes) override;
   std::size_t read(std::span<std::uint8_t> bytes, std::chrono::microseconds wait) override;
   std::chrono::steady_clock::duration now() override;
-  bool reopen() override;  // waits 100 ms in vain
+  bool reopen() override;  // waits 100 ms if it fails
 
  private:
   void open_port();
@@ -36,7 +38,7 @@ class SerialChannel : public ByteChannel {
   int port_ = -1;
 };
 
-// What hinders the opening of a serial port, by its errno, and the remedy.
+// Why a serial port could not be opened, for its errno, with the remedy.
 std::string why_not_opened(int error);
 
 }  // namespace emax

@@ -1,4 +1,4 @@
-// The card behind the `xrt` device, over XRT's native API. Compiled and linked, never run on a
+// The card of the `xrt` device, with XRT's native API. Compiled and linked, but not tested on a
 // card.
 #include <xrt/xrt_bo.h>
 #include <xrt/xrt_device.h>
@@ -34,7 +34,7 @@ CardAddress parse(std::string_view text) {
     const auto [rest, failure] = std::from_chars(text.data() + at + 1, end, address.index);
     if (failure != std::errc{} || rest != end) {
       throw Error("device xrt:" + std::string(text) +
-                  ": what follows the @ is no number of a card");
+                  ": the text after the @ is not the number of a card");
     }
   }
   if (!std::filesystem::is_regular_file(address.xclbin)) {
@@ -44,7 +44,7 @@ CardAddress parse(std::string_view text) {
   return address;
 }
 
-// An end of a run: whether it has come. Throws when it failed.
+// Whether a run has ended. Throws if it failed.
 bool ended(const xrt::run& run, milliseconds wait) {
   const ert_cmd_state state = wait == milliseconds{0} ? run.state() : run.wait(wait);
   switch (state) {
@@ -54,7 +54,7 @@ bool ended(const xrt::run& run, milliseconds wait) {
     case ERT_CMD_STATE_QUEUED:
     case ERT_CMD_STATE_SUBMITTED:
     case ERT_CMD_STATE_RUNNING:
-    case ERT_CMD_STATE_TIMEOUT:  // of the wait, not of the run
+    case ERT_CMD_STATE_TIMEOUT:  // the wait timed out, not the run
       return false;
     default:
       throw std::runtime_error("a data mover ended with state " + std::to_string(state));
@@ -79,7 +79,7 @@ class XrtCard : public CardMovers {
   void start_write(std::size_t slot, std::span<const Word> words, bool reset) override {
     explained([&] {
       xrt::bo& buffer = buffers_[slot];
-      // Never empty: also a transfer of no words names a buffer.
+      // Never empty: a transfer without words needs a buffer, too.
       const std::size_t bytes = std::max(words.size_bytes(), sizeof(Word));
       if (!buffer || buffer.size() < bytes) {
         buffer = xrt::bo(device_, bytes, to_core_.group_id(0));

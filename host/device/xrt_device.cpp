@@ -10,10 +10,10 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kTransferWords = std::size_t{1}
-                                       << 18;  // 1 MiB: large beside a run's overhead
+                                       << 18;  // 1 MiB: large compared with a run's overhead
 constexpr milliseconds kLook{0}, kMoment{1};
-// Without a word for so long, a run of the mover from the core ends and is started anew; or the
-// core has nothing more to say after a reset.
+// kPatience: a run of the mover from the core ends after this time without a word, and is started
+// again. kQuiet: after this time without a word the core has nothing to send after a reset.
 constexpr milliseconds kPatience{1000}, kQuiet{2};
 
 }  // namespace
@@ -23,9 +23,9 @@ XrtDevice::XrtDevice(std::unique_ptr<CardMovers> movers, milliseconds silence)
   reset();
 }
 
-// A host before this one may have been killed: its runs may still be under way, its core in the
-// midst of a command or of an answer. Answers are taken and dropped until the reset, which comes
-// after those runs, is done and a whole run of the mover from the core brings no more.
+// An earlier host may have been killed, with its runs still in progress and its core in the middle
+// of a command or an answer. Answers are dropped until the reset, which waits for those runs, is
+// done and a whole run of the mover from the core brings no word.
 void XrtDevice::reset() {
   movers_->start_write(0, {}, true);
   const Clock::time_point start = Clock::now();
@@ -62,7 +62,7 @@ void XrtDevice::receive(std::span<Word> words) {
         if (answers_.size() >= words.size()) return true;
         if (due_ != AnswersDue{}) return false;
         throw Error("device " + name() +
-                    ": an answer was awaited that no command asked for; this is a defect of the "
+                    ": waiting for an answer that no command asked for; this is a defect of the "
                     "program");
       },
       "answer");
@@ -91,8 +91,8 @@ void XrtDevice::start_gathered() {
   pump(kLook);
 }
 
-// Takes what has been done and keeps the mover from the core running while answers are due. Whether
-// anything came forward; waits so long at most for it.
+// Takes finished transfers and keeps the mover from the core running while answers are due. Returns
+// whether there was any progress; waits at most `wait` for it.
 bool XrtDevice::pump(milliseconds wait) {
   bool forward = false;
   if (!reading_ && due_ != AnswersDue{}) {

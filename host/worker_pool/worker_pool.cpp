@@ -249,7 +249,7 @@ class WorkerPool::Implementation {
       }
       return sound;
     }
-    give_up(worker, {FailureReason::kGarbled, "an answer that nothing asked for"});
+    give_up(worker, {FailureReason::kGarbled, "an answer to no request"});
     return false;
   }
 

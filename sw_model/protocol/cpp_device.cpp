@@ -16,7 +16,7 @@ void CppDevice::send(std::span<const Word> words) {
 void CppDevice::receive(std::span<Word> words) {
   if (answers_.size() < words.size()) {
     throw Error(
-        "device sim: an answer was awaited that no command asked for; this is a defect of "
+        "device sim: waiting for an answer that no command asked for; this is a defect of "
         "the program");
   }
   for (Word& word : words) word = answers_.read();
