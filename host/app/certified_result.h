@@ -12,12 +12,12 @@
 
 namespace emax {
 
-// What is proven of one mesh.
+// The proofs for one mesh.
 struct ProvenMesh {
   MeshValidity validity;
   MeshTopology topology;
-  CertifiedError points;                    // indices are the cloud's
-  EmaxResult kernel = {};                   // over the kept points; the index is the file's
+  CertifiedError points;   // indices are the cloud's
+  EmaxResult kernel = {};  // over the points that are not excluded; the index is the file's
   std::optional<ReferenceBound> reference;  // of a two-sided bound
 };
 
@@ -26,10 +26,10 @@ struct ResultCloud {
   const Scan& scan;
   const std::string& sha256;      // of its file
   bool skip_invalid = false;      // see Certificate
-  bool vertices_of_mesh = false;  // likewise
+  bool vertices_of_mesh = false;  // see Certificate
 };
 
-// A mesh that a command found, with all that its certificate and the JSON say of it.
+// A mesh that a command found, with all that its certificate and the JSON report.
 struct CertifiedResult {
   ResultCloud cloud;
   double epsilon;  // in the cloud's unit
@@ -39,12 +39,12 @@ struct CertifiedResult {
   std::uint64_t seed = 0, evaluations = 0;
 };
 
-// Writes mesh and certificate and, unless it is there, the reference: all of them or none.
-// `reference`: nullptr of a one-sided bound. Throws Error when they cannot be written.
+// Writes the mesh, the certificate and, unless it exists already, the reference: all of them or
+// none. `reference` is nullptr for a one-sided bound. Throws Error if they cannot be written.
 void write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
                   ReferenceFile* reference);
 
-// What --json says of a result, whatever found it.
+// The JSON report of a result, for any command that found it.
 ResultReport report_of(const CertifiedResult& result);
 
 }  // namespace emax

@@ -35,7 +35,8 @@ void add_common(CLI::App& command, CommonOptions& options) {
   command
       .add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .txt .pts .obj .off")
       ->required();
-  command.add_option("--device", options.device, "who evaluates the kernel: " + device_help())
+  command
+      .add_option("--device", options.device, "device that evaluates the kernel: " + device_help())
       ->capture_default_str();
   add_points_and_json(command, options.excluded_share, options.skip_invalid, options.json);
   command.add_flag("--brute-force", options.brute_force,
@@ -43,8 +44,8 @@ void add_common(CLI::App& command, CommonOptions& options) {
 }
 
 constexpr const char* kClosedHelp =
-    "close every hole, so that the result is closed; exit code 2 where one cannot be, which the "
-    "output names (default: holes and borders stay)";
+    "close every hole of the surface; if a hole cannot be closed, the exit code is 2 and the "
+    "output names its place (default: holes and borders stay)";
 
 void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
   std::vector<std::string> methods = names_of(reconstruction_methods());
@@ -87,9 +88,8 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       .add_option(
           "--bound", optimize.bound,
           "one-sided: every point of the cloud lies within the tolerance of the mesh; two-sided: "
-          "also all of the mesh within the tolerance of a reference surface, and all of that "
-          "surface within the tolerance of the mesh (default: two-sided, but one-sided with "
-          "--decimator " +
+          "also the whole mesh within the tolerance of a reference surface, and the whole surface "
+          "within the tolerance of the mesh (default: two-sided, but one-sided with --decimator " +
               alternatives(one_sided) + ")")
       ->check(CLI::IsMember({"two-sided", "one-sided"}));
   command.add_option("--seed", optimize.seed, "seed of every random choice")
@@ -97,13 +97,13 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command
       .add_option("--effort", optimize.effort,
-                  "quick: one good candidate; deep: four times as many as normal")
+                  "quick: one good candidate; deep: four times as many evaluations as normal")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
   command
       .add_option("--budget", optimize.budget,
-                  "evaluations (default: by --effort; normal are those of --config, or without it "
-                  "40, with the paper's decimation 60, fewer for more than 100,000 points)")
+                  "number of evaluations (default: by --effort; for normal that of --config, else "
+                  "40, or 60 with the paper's decimation, fewer for more than 100,000 points)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   command.add_option("--time", optimize.seconds, "stop the search after this many seconds")
       ->check(positive("seconds"));
@@ -114,29 +114,29 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1u, 256u));
   command
       .add_option("--target-triangles", optimize.target_triangles,
-                  "stop at a mesh within the tolerance of at most so many triangles")
+                  "stop at a mesh within the tolerance that has at most this many triangles")
       ->check(positive("triangles"));
   command
       .add_option("--stagnation", optimize.stagnation,
-                  "stop after so many evaluations without a better mesh")
+                  "stop after this many evaluations without a better mesh")
       ->check(positive("evaluations"));
   command.add_flag("--closed", optimize.closed, kClosedHelp);
   CLI::Option& polish =
       *command.add_flag("--polish,!--no-polish", optimize.polish,
-                        "decimate the best mesh once more in the end, deep (default unless "
-                        "--effort is quick; only of the bounded decimator)");
+                        "at the end, decimate the best mesh once more with deep effort (default "
+                        "unless --effort is quick; only with the bounded decimator)");
   command.add_option("--resume", optimize.resume,
-                     "folder that keeps the run: created when missing, continued when "
-                     "there (default: MESH.run, removed when the run has ended)");
+                     "folder of the run: created if it is missing, continued if it exists "
+                     "(default: MESH.run, removed when the run has ended)");
   command
       .add_option("--evaluation-time", optimize.evaluation_seconds,
-                  "give an evaluation up after this many seconds (default: 600, or 0.002 a point "
-                  "where that is more), and --polish after ten times as many")
+                  "stop an evaluation after this many seconds (default: 600, or 0.002 a point "
+                  "if that is more), and --polish after ten times as many")
       ->check(within(0.001, 1e7));
   command
       .add_option("--evaluation-memory", optimize.evaluation_memory,
-                  "give an evaluation up that needs more: bytes, or N MB, N GB (default: 2 GB "
-                  "and 8 KB a point, at most 7/8 of the memory)")
+                  "stop an evaluation that needs more memory than this: bytes, or N MB, N GB "
+                  "(default: 2 GB and 8 KB a point, at most 7/8 of the memory)")
       ->transform(CLI::AsSizeValue(false))
       ->transform(not_negative());  // before the other
   command.add_option("--config", optimize.config,
@@ -159,13 +159,13 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command
       .add_option(
           "--max-error", decimate.max_error,
-          "tolerance: N in the unit of the points, or N% of their width; several, with commas "
-          "between, write a mesh for each, MESH-N.ply, and their curve")
+          "tolerance: N in the unit of the points, or N% of their width; several, separated by "
+          "commas, write a mesh for each, MESH-N.ply, and their curve")
       ->required();
   command
       .add_option("--bound", line.decimate_bound,
                   "one-sided: every point lies within the tolerance of the result; two-sided: also "
-                  "all of the result within the tolerance of MESH, and all of MESH within the "
+                  "the whole result within the tolerance of MESH, and the whole of MESH within the "
                   "tolerance of the result")
       ->check(CLI::IsMember({"two-sided", "one-sided"}))
       ->capture_default_str();
@@ -184,14 +184,15 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "(1993) within the bound, which spreads vertices evenly and leaves more of them")
       ->check(CLI::IsMember({"triangles", "hoppe"}))
       ->capture_default_str();
-  command.add_flag("--repair", decimate.repair,
-                   "remove triangles that intersect others or are not manifold, and close "
-                   "the holes that leaves in a closed mesh (default: kept, cut apart)");
+  command.add_flag(
+      "--repair", decimate.repair,
+      "remove triangles that intersect others or are not manifold, and close the holes "
+      "that this leaves in a closed mesh (default: keep them, cut apart)");
   command.add_flag("--closed", decimate.closed, kClosedHelp);
   command
       .add_option("--feature-angle", decimate.feature_angle,
-                  "keep edges sharp over which the surface turns by more than this many degrees, "
-                  "and their corners; 40 suits machine parts; leave it out for noisy scans")
+                  "keep edges over which the surface turns by more than this many degrees, and "
+                  "their corners; 40 suits machine parts; leave it out for noisy scans")
       ->check(within(1, 180));
   add_points_and_json(command, decimate.excluded_share, decimate.skip_invalid, decimate.json);
   command
@@ -244,7 +245,7 @@ void add_error(CLI::App& app, CommandLine& line) {
 void add_verify(CLI::App& app, CommandLine& line) {
   auto& verify = line.verify;
   CLI::App& command = *app.add_subcommand(
-      "verify", "recompute what a certificate says; exit code 0 for yes, 2 for no");
+      "verify", "check a certificate by recomputing its claims; exit code 0: it holds, 2: not");
   command
       .add_option("CERTIFICATE", verify.certificate, "MESH.certificate.json, written beside a mesh")
       ->required();

@@ -9,7 +9,7 @@
 
 namespace emax {
 
-// What the command line gives: the options of every subcommand, and what to run.
+// The parsed command line: the options of every subcommand, and the function to run.
 struct CommandLine {
   OptimizeOptions optimize;
   DecimateOptions decimate;
@@ -20,10 +20,10 @@ struct CommandLine {
   std::function<int()> chosen;  // the exit code
 };
 
-// Adds the subcommands with their options. Both arguments outlive the parsing.
+// Adds the subcommands with their options. Both arguments must outlive the parsing.
 void add_commands(CLI::App& app, CommandLine& line);
 
-// Where the subcommands write their JSON.
+// The --json options of the subcommands.
 std::array<std::string*, 4> json_options(CommandLine& line);
 
 }  // namespace emax

@@ -61,7 +61,7 @@ class OptionWords {
     const std::string name = word.substr(0, equals);
     const CLI::Option* option = command_.get_option_no_throw(name);
     if (option == nullptr && !word.starts_with("--")) {
-      // A short option may hold its value without a blank: -ox.ply.
+      // A short option may be followed by its value without a blank: -ox.ply.
       if (command_.get_option_no_throw(word.substr(0, 2)) != nullptr) return;
     }
     if (option == nullptr) {
@@ -127,7 +127,7 @@ std::string closest(std::string_view word, std::span<const std::string> candidat
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Rows of the table for the prefix of `a` that ends before i - 1, at i - 1 and at i.
+  // Rows of the table for the prefixes of `a` of the lengths i - 2, i - 1 and i.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

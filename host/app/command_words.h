@@ -8,17 +8,17 @@
 
 namespace emax {
 
-// The words of the command line behind the program's name, as the parser takes them: "-o=x" as "-o"
+// The words of the command line after the program's name, in the parser's form: "-o=x" becomes "-o"
 // and "x". Throws Error for a word that is not UTF-8, and for a command or an option that does not
-// exist, with the one that was meant where that can be told.
+// exist; the error suggests the closest one, if one is close enough.
 std::vector<std::string> checked_words(const CLI::App& app, std::span<char* const> words);
 
-// The candidate closest to a misspelt `word`; empty where none is close, which is at most a third
-// of its characters (or one) inserted, left out, replaced or exchanged with a neighbour; one that
-// begins with the word is one such step away. The first of several equally close ones.
+// The candidate closest to a misspelt `word`, the first if several are equally close. Empty if none
+// is close: at most a third of the word's characters (or one) may be inserted, left out, replaced
+// or exchanged with a neighbour. A candidate that begins with the word is one such step away.
 std::string closest(std::string_view word, std::span<const std::string> candidates);
 
-// How many such steps lead from `a` to `b` (optimal string alignment). O(|a| |b|).
+// Number of such steps from `a` to `b` (optimal string alignment). O(|a| |b|).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace emax

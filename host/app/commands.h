@@ -12,7 +12,7 @@
 namespace emax {
 
 // The subcommands. Each prints its result on standard output and returns the exit code. `json` is a
-// file, or empty where there is none and where standard output takes the JSON (json_output.h).
+// file; it is empty if there is none, and if standard output takes the JSON (json_output.h).
 
 struct OptimizeOptions {
   CommonOptions common;
@@ -20,11 +20,11 @@ struct OptimizeOptions {
   std::string output;
   std::string method = kFitMethod;
   std::string decimator{Bounded::kName};
-  std::string bound;  // empty: two-sided where the decimator can hold it
+  std::string bound;  // empty: two-sided if the decimator supports it
   std::string config;
   std::uint64_t seed = 1;
   std::string effort = "normal";        // quick or deep: see search_budget()
-  std::optional<std::uint64_t> budget;  // of the effort, if not given
+  std::optional<std::uint64_t> budget;  // nothing: that of the effort
   std::optional<double> seconds;
   unsigned jobs = 0;   // 0: one per processor
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
@@ -38,7 +38,7 @@ int run_optimize(const OptimizeOptions& options);
 
 struct DecimateOptions {
   std::string mesh;
-  std::string cloud;  // empty: the mesh's own vertices, and all of its surface
+  std::string cloud;  // empty: the mesh's vertices, and its whole surface
   std::string max_error;
   std::string back_error;  // empty: max_error
   std::string output;
@@ -49,7 +49,7 @@ struct DecimateOptions {
   std::string excluded_share = "0";
   std::optional<double> seconds;
   bool two_sided = true;
-  bool repair = false;  // what intersects is removed instead of kept
+  bool repair = false;  // remove intersecting triangles instead of keeping them
   bool closed = false;  // every hole is closed
   bool skip_invalid = false;
 };
@@ -69,7 +69,7 @@ int run_error(const ErrorOptions& options);
 
 struct VerifyOptions {
   std::string certificate;
-  std::string cloud, mesh, reference;  // empty: looked for by the names in the certificate
+  std::string cloud, mesh, reference;  // empty: found by the names in the certificate
   std::string json;
 };
 int run_verify(const VerifyOptions& options);

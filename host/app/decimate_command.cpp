@@ -61,11 +61,12 @@ class DecimateCommand {
     scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
                        : read_scan(options.cloud, options.skip_invalid);
     drop_unused_vertices(given_.vertices, given_.triangles);
-    // Of what was read: the files may change while the decimation runs.
+    // The checksums are those of the files as they were read: files may change while the decimation
+    // runs.
     mesh_sha256_ = sha256_of_file(options.mesh);
     cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_file(scan_.path);
     if (back) back_ = below_width(*back, "--back-error", scan_);
-    // The reference is the same for all of them, and has room for the smallest.
+    // All tolerances have the same reference, which is made for the smallest.
     std::ranges::sort(bounds_, {},
                       [&](const ToleratedMesh& b) { return b.tolerance.in_units(scan_.width); });
     for (const ToleratedMesh& bound : bounds_) below_width(bound.tolerance, "--max-error", scan_);
@@ -104,7 +105,7 @@ class DecimateCommand {
     }
   }
 
-  // And the file that holds it.
+  // Makes the reference and the file that holds it.
   void make_reference() {
     reference_ = emax::make_reference(given_, kept_, epsilon_ / 2,
                                       {.repair = options_.repair, .closed = options_.closed},
@@ -174,7 +175,7 @@ class DecimateCommand {
                      std::ranges::all_of(curve, &CurveRow::feasible));
   }
 
-  // Proves what the decimator made and writes it if it keeps the bounds.
+  // Proves the decimator's result, and writes it if it keeps the bounds.
   void judge() {
     progress_.begin("certifying the result", certifying_seconds(kept_.size()));
     prove();
@@ -189,9 +190,10 @@ class DecimateCommand {
 
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
-  // The vertices of triangles that were removed are no part of the surface that is left.
+  // Vertices of removed triangles are not part of the remaining surface.
   bool may_leave_out_own_vertices() const { return own_cloud_ && reference_.surface.dropped > 0; }
-  // Those that may be excluded, in order.
+  // The points to exclude, ascending: the farthest beyond the tolerance, up to the permitted
+  // number.
   std::vector<std::uint32_t> farthest_beyond() const {
     if (excludable() == 0) return {};
     const ExactMesh exact(given_.view());
@@ -248,7 +250,7 @@ class DecimateCommand {
     write_result(output_, result(), file_ ? &*file_ : nullptr);
   }
 
-  // What the decimator has proven, as the certificate says it.
+  // Collects the decimator's proofs in the form of the certificate.
   void prove() {
     proven_ = {};
     proven_.validity = result_.validity;
@@ -309,14 +311,14 @@ class DecimateCommand {
     const CertifiedError& points = result_.points;
     const double farthest = std::ranges::max(points.excluded_distances);
     fmt::print(
-        "result         infeasible: farther than {:.9g} from the mesh, out of reach of triangles "
-        "that could be added: {} of {} points, the farthest {:.9g} (point {}); nothing is "
-        "written\n",
+        "result         infeasible: {1} of {2} points are farther than {0:.9g} from the mesh, and "
+        "no triangle could be added to reach them; the farthest is at {3:.9g} (point {4}); nothing "
+        "is written\n",
         epsilon_, grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), farthest,
         scan_.cloud.index_in_file(points.excluded[static_cast<std::size_t>(
             std::ranges::max_element(points.excluded_distances) -
             points.excluded_distances.begin())]));
-    fmt::print("               raise --max-error or allow for them with --exclude-outliers\n");
+    fmt::print("               raise --max-error or exclude points with --exclude-outliers\n");
   }
 
   void print_time(std::string_view remark) const {
@@ -342,8 +344,8 @@ class DecimateCommand {
   bool own_cloud_;
   double share_;
   std::vector<ToleratedMesh> bounds_;  // ascending
-  std::filesystem::path output_;       // of the bound at hand
-  std::optional<double> back_;         // of the other direction, where it has one of its own
+  std::filesystem::path output_;       // for the present tolerance
+  std::optional<double> back_;         // --back-error, if it is given
   TriangleMesh given_;
   std::vector<std::string> lost_attributes_;
   Scan scan_;
@@ -351,9 +353,9 @@ class DecimateCommand {
   double epsilon_ = 0;
   CertifiedDecimationSettings settings_;
   MeshFormat format_ = MeshFormat::kPly;
-  std::vector<std::uint32_t> outliers_;    // points that are left out from the start, ascending
-  std::vector<Point> kept_;                // the others
-  std::vector<std::uint32_t> kept_index_;  // of the kept points in the cloud
+  std::vector<std::uint32_t> outliers_;    // points that are excluded from the start, ascending
+  std::vector<Point> kept_;                // the other points
+  std::vector<std::uint32_t> kept_index_;  // indices of the kept points in the cloud
   GivenReference reference_;
   std::optional<ReferenceFile> file_;  // of a two-sided bound
   CertifiedDecimation result_;

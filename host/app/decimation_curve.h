@@ -9,11 +9,11 @@
 
 namespace emax {
 
-// What `decimate` came to under one of several tolerances.
+// The result of `decimate` for one of several tolerances.
 struct CurveRow {
   ToleratedMesh bound;
   double epsilon;  // in the unit of the points
-  bool feasible;   // otherwise nothing was written
+  bool feasible;   // false: nothing was written
   std::size_t triangles;
   double e_max;
 };
@@ -21,13 +21,13 @@ struct CurveRow {
 // The picture of triangles over tolerances: part-curve.svg.
 std::filesystem::path curve_path(const std::filesystem::path& output);
 
-// As a table.
+// Prints the curve as a table.
 void print(std::span<const CurveRow> curve);
 
-// Draws the picture and says so, where there are two meshes to draw.
+// Draws the picture and prints its name, if there are at least two meshes to draw.
 void draw(std::span<const CurveRow> curve, const std::filesystem::path& picture);
 
-// What goes to --json. `mesh`: the file that was decimated.
+// The content of --json. `mesh`: the file that was decimated.
 std::string to_json_text(std::span<const CurveRow> curve, const std::string& mesh);
 
 }  // namespace emax

@@ -9,7 +9,7 @@
 namespace emax {
 
 double RisingShare::next(double guess) {
-  constexpr double kSmallFall = 0.05;  // that is only a better guess of the same work
+  constexpr double kSmallFall = 0.05;  // a smaller fall is only a better guess of the same work
   constexpr double kOfTheRest = 0.95;
   constexpr double kLast = 0.99;
   guess = std::clamp(guess, 0.0, kLast);

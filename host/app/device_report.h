@@ -9,17 +9,17 @@
 
 namespace emax {
 
-// "12 blocks, 3,456,789 pairs, ...": what is not measured is left out. Without a device, the
-// instructions that the CPU's search uses.
+// "12 blocks, 3,456,789 pairs, ...": values that were not measured are left out. Without a device,
+// the instructions that the CPU's search uses.
 std::string describe_counters(const std::optional<DeviceCounters>& counters);
 
-// Does a device's work once more on the CPU and takes the time.
+// Repeats a device's work on the CPU and measures the time.
 class CpuTwin {
  public:
   // The constraint must outlive this.
   explicit CpuTwin(ErrorConstraint& constraint) : constraint_(constraint) {}
 
-  // Throws Error where the CPU finds another error than the device did.
+  // Throws DeviceFailure if the CPU's error differs from the device's.
   void measure(MeshView mesh, const MeasuredError& by_device);
   double seconds() const { return seconds_; }
 
@@ -28,7 +28,7 @@ class CpuTwin {
   double seconds_ = 0;
 };
 
-// Prints what `board` would take for the work, and what it took on this CPU.
+// Prints the time that `board` would take for the work, and the time that it took on this CPU.
 void print_prediction(const BoardModel& board, const DeviceCounters& counters, double cpu_seconds);
 
 }  // namespace emax

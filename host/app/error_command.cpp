@@ -30,9 +30,9 @@ namespace emax {
 namespace {
 
 constexpr std::size_t kSurfaceSamples = 100000;
-// How closely the greatest distance of the mesh from its reference is known.
+// Relative precision of the greatest distance of the mesh from its reference.
 constexpr double kSurfacePrecision = 1e-3;
-constexpr double kFinest = 1e-6;  // and, where that is nothing, as a share of the width
+constexpr double kFinest = 1e-6;  // of the width: the precision where the distance is near 0
 constexpr double kDecisionPrecision = 1e-9;
 constexpr std::array<std::string_view, 1> kColorEndings = {".ply"};
 
@@ -45,10 +45,11 @@ void check_outputs(const ErrorOptions& options) {
                  {options.common.cloud, options.mesh, options.reference});
 }
 
-// What the mesh is measured against: a surface, or a cloud as triangles of no size.
+// The reference that the mesh is measured against: a surface, or a cloud as triangles of no size.
 struct Reference {
   std::string name;
-  enum class Kind { kScan, kCloud, kSurface } kind;  // the cloud that is measured, or another one
+  // kScan: the cloud that is measured; kCloud: another cloud.
+  enum class Kind { kScan, kCloud, kSurface } kind;
   TriangleMesh mesh;
 };
 
@@ -61,7 +62,7 @@ Reference read_reference(const ErrorOptions& options, const Scan& scan) {
   if (options.reference.empty()) {
     return cloud_reference(scan.path.string(), Reference::Kind::kScan, scan.cloud.points);
   }
-  // A file that may hold either is a surface where it has triangles.
+  // A file whose ending is used for both counts as a surface if it has triangles.
   const std::string ending = lower_case_ending(options.reference);
   const bool may_be_mesh = std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
   const bool may_be_cloud = std::ranges::find(cloud_endings(), ending) != cloud_endings().end();
@@ -76,8 +77,8 @@ void throw_if_interrupted() {
   if (was_interrupted()) throw Interrupted{};
 }
 
-// The kernel's distances, by the oracle where a person reads one or it may lie on the other side of
-// the limit.
+// The kernel's distances. A distance that is printed, or that may lie on the other side of the
+// limit, is replaced by the exact one.
 class CloudMeasurement {
  public:
   CloudMeasurement(const Scan& scan, const ExactMesh& exact, std::vector<double> distances)
@@ -95,7 +96,7 @@ class CloudMeasurement {
                      std::optional<double> limit) {
     std::vector<std::uint32_t> order(distances_.size());
     std::iota(order.begin(), order.end(), 0u);
-    // One even where none is asked for: it is the maximum.
+    // At least one, even if none is to be shown: it gives the maximum.
     const auto shown = order.begin() +
                        static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(worst, 1, order.size()));
     const auto farther = [this](std::uint32_t a, std::uint32_t b) {
@@ -160,7 +161,7 @@ ReferenceErrors measure_reference(const TriangleMesh& mesh, const ExactMesh& exa
   return errors;
 }
 
-// Distances up to the tolerance use the whole map; without one, all do.
+// The distance that gets the last colour: the tolerance, or the greatest distance without one.
 double color_range(std::span<const double> distances, std::optional<double> limit) {
   return limit ? *limit : *std::ranges::max_element(distances);
 }
@@ -180,7 +181,7 @@ struct MeshFindings {
   MeshTopology topology;
 };
 
-// Everything that is said of the mesh.
+// All results for the mesh.
 struct Findings {
   std::optional<Tolerance> tolerance;
   MeasuredError measured = {};
@@ -196,7 +197,7 @@ struct Findings {
   std::optional<MeshTopology> reference_topology() const {
     return errors.reference ? errors.reference->topology : std::nullopt;
   }
-  // What is farther than the tolerance; nothing where it is kept.
+  // Names the parts that are farther than the tolerance; empty if it is kept.
   std::string_view exceeding() const {
     const auto beyond = [this](const SurfaceErrors& surface) {
       return !surface.distance.within(*errors.limit);
@@ -267,7 +268,7 @@ int run_error(const ErrorOptions& options) {
   if (!options.max_error.empty()) f.tolerance = parse_tolerance(options.max_error);
   check_outputs(options);
   TriangleMesh mesh = read_mesh(options.mesh);
-  drop_unused_vertices(mesh.vertices, mesh.triangles);  // they have no colour either
+  drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
   const Scan scan = read_scan(options.common.cloud, options.common.skip_invalid);
   std::optional<Reference> reference;
   if (options.two_sided) reference = read_reference(options, scan);
@@ -275,12 +276,12 @@ int run_error(const ErrorOptions& options) {
   std::optional<double>& limit = f.errors.limit;
   if (f.tolerance) limit = f.tolerance->in_units(scan.width);
 
-  // What needs the mesh alone goes on beside what needs the cloud.
+  // The work that needs only the mesh runs beside the work that needs the cloud.
   auto of_mesh = std::async(std::launch::async, [&] {
     return MeshFindings{ExactMesh(mesh.view()), check_mesh(mesh.view()), topology_of(mesh.view())};
   });
   const auto start = std::chrono::steady_clock::now();
-  // Without a tolerance the farthest points are excluded whatever their distance.
+  // Without a tolerance the farthest points are excluded, whatever their distance.
   ErrorConstraint constraint(scan.cloud.points, limit.value_or(0), share,
                              options.common.brute_force, processor_threads());
   const auto device = make_evaluator(address);

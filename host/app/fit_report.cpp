@@ -29,7 +29,7 @@ void print_fit(const ReferenceFit& fit, double epsilon) {
           .c_str());
   say(fit.surface.dropped_triangles, " triangle", " triangles",
       " dropped that intersected others or were not manifold");
-  if (!mended.empty()) fmt::print("mended         {}\n", fmt::join(mended, ", "));
+  if (!mended.empty()) fmt::print("repaired       {}\n", fmt::join(mended, ", "));
   if (fit.joined + fit.left_out > 0) {
     fmt::print("far points     {} farther than {:.3g} joined to it, {} left out\n",
                grouped(fit.joined), fit.joined_beyond, grouped(fit.left_out));
@@ -46,7 +46,7 @@ void print_closed(std::size_t holes, std::span<const OpenBorder> open) {
         border.middle.z(),
         border.edges > kMostClosedEdges
             ? fmt::format("it has more than {} edges", grouped(kMostClosedEdges))
-            : "no patch goes on from the surface without meeting it");
+            : "no patch continues the surface without intersecting it");
   }
 }
 

@@ -7,11 +7,11 @@
 
 namespace emax {
 
-// What the scan is like, which surface was made of it and what was done to that; nothing where no
-// surface was made.
+// Prints the estimates of the scan, the surface that was made of it and the changes of that
+// surface; prints nothing if no surface was made.
 void print_fit(const ReferenceFit& fit, double epsilon);
 
-// What was done to make a surface closed, and where it could not be.
+// Prints how many holes were closed, and where a border could not be closed.
 void print_closed(std::size_t holes, std::span<const OpenBorder> open);
 
 }  // namespace emax

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAnyHole = 1;  // as wide as the mesh
 
-// Cut apart where it is not manifold, then closed.
+// Makes the surface by cutting the mesh apart where it is not manifold, then closes it.
 void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, double far,
                       const std::function<bool()>& interrupted, GivenReference& made) {
   CutSurface cut = cut_to_manifold(given);

@@ -10,31 +10,30 @@
 
 namespace emax {
 
-// The mesh that `decimate` was given, as the reference that its results are held to.
+// The mesh that `decimate` was given, as the reference of its results.
 struct GivenReference {
   ReferenceSurface surface;
-  std::optional<MeshTopology> before_repair;  // where that was asked for
-  std::optional<ClosedSurface> closed;        // likewise
+  std::optional<MeshTopology> before_repair;  // if `repair` was asked for
+  std::optional<ClosedSurface> closed;        // if `closed` was asked for
 
-  // The surface is the mesh as it was given, but for its order.
+  // Whether the surface is the given mesh except for the order of its parts.
   bool is_as_given() const;
-  // No hole is left that was to be closed.
+  // Whether all holes that were to be closed are closed.
   bool all_closed() const { return !closed || closed->open.empty(); }
 };
 
 struct ReferenceWishes {
-  bool repair = false;  // what intersects or is not manifold is removed instead of cut apart
-  bool closed = false;  // every hole is closed
+  bool repair = false;  // remove parts that intersect or are not manifold instead of cutting
+  bool closed = false;  // close every hole
 };
 
-// `kept`: points that become vertices of the reference where they are farther than `far` from it.
+// `kept`: points that become vertices of the reference if they are farther than `far` from it.
 // Throws Error as reference_surface() does.
 GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, double far,
                               const ReferenceWishes& wishes,
                               const std::function<bool()>& interrupted);
 
-// What was done to the mesh. `file`: where the reference is to be found; empty of a one-sided
-// bound.
+// Prints the changes of the mesh. `file`: the path of the reference; empty for a one-sided bound.
 void print(const GivenReference& reference, const std::string& file);
 
 }  // namespace emax

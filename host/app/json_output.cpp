@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kStandardOutput = "-";
 
-int json_descriptor = -1;  // standard output as it was
+int json_descriptor = -1;  // the original standard output
 
 [[noreturn]] void fail() {
   throw Error(fmt::format("standard output cannot be written: {}; name a file to --json",

@@ -5,11 +5,11 @@
 
 namespace emax {
 
-// Every command writes its JSON where --json leads: into a file, or with "-" to standard output.
-// In that case all that the command prints for people goes to standard error.
+// Every command writes its JSON to the target of --json: a file, or standard output for "-". With
+// "-" all text of the command goes to standard error.
 
-// To be called with the option's value before anything is printed. For "-" it takes standard output
-// for the JSON and empties `json`; a value that is left is a file. Throws Error where standard
+// Call this with the option's value before anything is printed. For "-" it reserves standard output
+// for the JSON and empties `json`; otherwise `json` stays and is a file. Throws Error if standard
 // output is closed.
 void direct_json(std::string& json);
 

@@ -44,14 +44,14 @@ int run(int argc, char** argv) {
     return kExitError;
   }
   try {
-    std::ranges::reverse(words);  // as the parser asks for
+    std::ranges::reverse(words);  // the order that the parser expects
     app.parse(std::move(words));
   } catch (const CLI::ParseError& parse_error) {
     return app.exit(parse_error) == 0 ? kExitOk : kExitError;
   }
   for (std::string* json : json_options(line)) direct_json(*json);
   verify_arithmetic();
-  if (!app.got_subcommand("verify")) note_interrupts();  // which has nothing to end well
+  if (!app.got_subcommand("verify")) note_interrupts();  // verify leaves nothing unfinished
   return line.chosen();
 }
 
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     complain(std::string(error.what()) + " (a defect of the program; please report it)");
   }
-  // Where it takes the JSON, what is flushed here is bound for standard error.
+  // If standard output takes the JSON, the text that is flushed here goes to standard error.
   if (std::fflush(stdout) != 0 && !emax::standard_output_is_json()) {
     complain(std::string("standard output cannot be written: ") + std::strerror(errno));
     return emax::kExitError;

@@ -27,12 +27,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Between two meshes that are written during the search: so long, and so many times what writing
-// the last one took.
+// The pause between two meshes that are written during the search: at least kLeastPause, and
+// kPauses times the time that the last writing took.
 constexpr std::chrono::seconds kLeastPause{2};
 constexpr int kPauses = 20;
 
-constexpr std::uint64_t kReferenceIndex = ~std::uint64_t{0};  // it is no evaluation's mesh
+constexpr std::uint64_t kReferenceIndex = ~std::uint64_t{0};  // not the index of an evaluation
 
 double seconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -136,7 +136,7 @@ class OptimizeCommand {
     return best != nullptr && fit_.open.empty() ? kExitOk : kExitNo;
   }
 
-  // No evaluation made a mesh.
+  // Reports that no evaluation made a mesh.
   [[noreturn]] void give_up() const {
     if (state_.interrupted) throw Interrupted{};
     if (!state_.device_failure.empty()) throw DeviceFailure(state_.device_failure);
@@ -150,8 +150,8 @@ class OptimizeCommand {
                             scan_.path.string(), state_.evaluations, describe_failures(state_)));
   }
 
-  // Writes the best mesh and says what the search came to. `best`: nullptr where no mesh keeps the
-  // bounds; then the one of the least violation is shown.
+  // Writes the best mesh and prints the result of the search. `best` is nullptr if no mesh keeps
+  // the bounds; then the mesh of the least violation is shown.
   void report(const BestMesh* best, double took) {
     phase_.begin("certifying the mesh", writing_seconds_);
     const BestMesh& shown = best != nullptr ? *best : *state_.least_error;
@@ -186,7 +186,8 @@ class OptimizeCommand {
     return reference_ ? &*reference_ : nullptr;
   }
 
-  // The best so far, for whoever looks or kills. Now and then: certifying takes time, too.
+  // Writes the best mesh so far, in case the program is killed. There are pauses, because
+  // certifying takes time.
   void write_better(const OptimizeState& state) {
     if (!state.best || state.best->mesh.triangles.empty() || state.best->index == written_) return;
     if (reference_ && reference_->triangles < state.best->triangles) return;
@@ -196,9 +197,9 @@ class OptimizeCommand {
       if (written_ || !files_->hold_fewer_than(state.best->triangles)) {
         files_->write(*state.best, state.evaluations);
       }
-    } catch (const Error& error) {  // which may have passed by then
+    } catch (const Error& error) {  // it may have another cause by the end
       to_standard_error(
-          fmt::format("emax: {}; the search goes on, and the end tries again\n", error.what()));
+          fmt::format("emax: {}; the search continues and tries again at its end\n", error.what()));
     }
     written_ = state.best->index;
     const Clock::time_point end = Clock::now();
@@ -250,7 +251,7 @@ class OptimizeCommand {
     return options_.seconds ? *options_.seconds - seconds(begun_, Clock::now()) : HUGE_VAL;
   }
 
-  // The reference is the first result, as it is, if the points allow it.
+  // If the points allow it, the unchanged reference is the first result.
   std::string write_reference() {
     BestMesh whole = {};
     whole.index = kReferenceIndex;
@@ -273,7 +274,8 @@ class OptimizeCommand {
     return fmt::format(", certified and written to {} as it is", options_.output);
   }
 
-  // A run that was cut short may go on; one that ended has left what was asked for.
+  // The folder of a run that was stopped early is kept, so that the run can be continued. A run
+  // that ended removes it, unless --resume names it.
   void end_run() {
     said_what_is_kept_ = true;
     const bool cut_short = state_.interrupted || !state_.device_failure.empty();
@@ -302,12 +304,12 @@ class OptimizeCommand {
   std::optional<RunLog> log_;
   bool said_what_is_kept_ = false;
   OptimizeState state_;
-  std::optional<CpuTwin> cpu_;         // with a board to compare with
-  std::optional<BestMesh> reference_;  // the reference as a result, where it is one
+  std::optional<CpuTwin> cpu_;         // for a board to compare with
+  std::optional<BestMesh> reference_;  // the reference as a result, if it is one
   std::optional<ResultFiles> files_;
   Clock::time_point reading_ended_;
-  double writing_seconds_ = 0;            // what certifying and writing took the last time
-  std::optional<std::uint64_t> written_;  // index of the evaluation whose mesh is there
+  double writing_seconds_ = 0;            // time that the last certifying and writing took
+  std::optional<std::uint64_t> written_;  // index of the evaluation whose mesh is written
   Clock::time_point next_write_;
 };
 

@@ -4,18 +4,18 @@
 
 namespace emax {
 
-// A number, finite and above 0; `unit` names it in the complaint.
+// A finite number above 0; `unit` names its unit in the error.
 CLI::Validator positive(const std::string& unit);
-// A number, both ends included. CLI::Range lets NaN pass.
+// A number from `least` to `greatest`, both included. Unlike CLI::Range it refuses NaN.
 CLI::Validator within(double least, double greatest);
-// A whole number of 64 bits without a sign, which conversion would wrap.
+// A whole number of 64 bits without a sign; CLI's conversion would wrap a negative one.
 CLI::Validator whole();
-// For what is converted from text with a unit.
+// For values that are converted from text with a unit.
 CLI::Validator not_negative();
-// For texts: an empty one is what a shell makes of a variable that is not set.
+// For texts. A shell passes an empty text for a variable that is not set.
 CLI::Validator not_empty();
 
-// Whether the text is UTF-8, as JSON demands of names.
+// Whether the text is UTF-8, which JSON needs.
 bool is_utf8(const std::string& text);
 
 }  // namespace emax

@@ -24,7 +24,7 @@ std::string minutes(double seconds) {
 }
 
 double expected_share(double elapsed, double expected) {
-  constexpr double kKnown = 0.9;  // what the expectation covers
+  constexpr double kKnown = 0.9;  // share of the phase that the expected time covers
   if (!(expected > 0)) return 0;
   const double part = elapsed / expected;
   if (part <= 1) return kKnown * part;
@@ -102,7 +102,7 @@ std::string PhaseProgress::line() const {
 }
 
 void PhaseProgress::speak() {
-  sigset_t all;  // signals are for whoever waits for them
+  sigset_t all;  // other threads handle signals
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
   std::unique_lock lock(mutex_);
@@ -113,7 +113,7 @@ void PhaseProgress::speak() {
     }
     if (Clock::now() < next_) {
       changed_.wait_until(lock, next_);
-      continue;  // it may be another phase now
+      continue;  // the phase may have changed
     }
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     share_ = std::max(share_, known_share_.value_or(expected_share(elapsed, expected_)));

@@ -15,20 +15,21 @@ namespace emax {
 // 75 as "1:15".
 std::string minutes(double seconds);
 
-// How a phase of so many expected seconds stands after so many: from 0 to below 1, never falling in
-// `elapsed`. Nine tenths of it when the time is over, and less and less after that.
+// The share that is done of a phase of `expected` seconds after `elapsed` seconds: from 0 to below
+// 1, never falling in `elapsed`. It is nine tenths when the expected time is over, and grows ever
+// more slowly after that.
 double expected_share(double elapsed, double expected);
 
-// What phases take, roughly, on one processor core: to be shown, and to decide nothing.
+// Rough times of phases on one processor core. They are only shown, and decide nothing.
 double reading_seconds(const std::filesystem::path& file);
-double reference_seconds(std::size_t points);   // reconstruction, far points joined
-double joining_seconds(std::size_t points);     // far points alone, or points given to triangles
+double reference_seconds(std::size_t points);  // reconstruction, and joining far points
+double joining_seconds(std::size_t points);  // joining far points, or assigning points to triangles
 double certifying_seconds(std::size_t points);  // a mesh of about twice as many triangles
 
-// Says on standard error what a command is doing, how long it has been at it and about how long it
-// will take, from the second second of a phase on: one line rewritten in place on a terminal, a
-// line every ten seconds elsewhere. It speaks from a thread of its own, so whoever works need not.
-// Shares never fall within a phase.
+// Shows on standard error what a command is doing, for how long, and about how long it will take,
+// from the second second of a phase on. On a terminal it rewrites one line; elsewhere it writes a
+// line every ten seconds. It runs in its own thread, so the working code need not call it. Shares
+// never fall within a phase.
 class PhaseProgress {
  public:
   PhaseProgress();
@@ -36,11 +37,11 @@ class PhaseProgress {
   PhaseProgress(const PhaseProgress&) = delete;
   PhaseProgress& operator=(const PhaseProgress&) = delete;
 
-  // The phase before it has ended. `seconds`: what it is expected to take; 0 where nobody knows.
+  // Begins a phase and ends the one before it. `seconds`: its expected time; 0 if it is not known.
   void begin(std::string_view what, double seconds = 0);
-  // The share of the phase that is done, where that is known, and what else is to be said.
+  // Sets the share of the phase that is done, where it is known, and a detail to show.
   void advance(double share, std::string_view detail = {});
-  // Nothing is said any more, until the next phase begins; a terminal's line is cleared.
+  // Shows nothing until the next phase begins; clears a terminal's line.
   void end();
 
  private:
@@ -57,10 +58,10 @@ class PhaseProgress {
   bool open_line_ = false;
   std::string phase_, detail_;  // no phase while empty
   double expected_ = 0;
-  double share_ = 0;  // the greatest that was said
+  double share_ = 0;  // the greatest that was shown
   std::optional<double> known_share_;
   Clock::time_point start_, next_;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // the last member: it uses the others
 };
 
 }  // namespace emax

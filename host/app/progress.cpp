@@ -14,7 +14,7 @@ namespace emax {
 namespace {
 
 constexpr std::chrono::milliseconds kOnTerminal{100};
-constexpr std::chrono::seconds kInPipe{30};  // without anything new
+constexpr std::chrono::seconds kInPipe{30};  // without news
 
 }  // namespace
 

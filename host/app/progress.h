@@ -10,12 +10,12 @@
 
 namespace emax {
 
-// Shows an optimization on standard error: one line rewritten in place on a terminal, plain lines
-// in a pipe (every improvement, every tenth of the budget and every half minute). The evaluations
-// that are shown never become fewer.
+// Shows an optimization on standard error: on a terminal one line that is rewritten, in a pipe
+// plain lines (for every improvement, every tenth of the budget and every half minute). The number
+// of evaluations that is shown never falls.
 class Progress {
  public:
-  // `seconds_left`: of limited time; infinite otherwise.
+  // `seconds_left`: of a limited time; infinite without a limit.
   Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left);
   ~Progress() { finish(); }
 
@@ -37,8 +37,8 @@ class Progress {
   bool open_line_ = false;
   std::optional<std::size_t> best_triangles_;
   std::uint64_t tenth_ = 0;
-  std::uint64_t evaluations_ = 0;               // that were shown
-  std::optional<Clock::time_point> polishing_;  // since when
+  std::uint64_t evaluations_ = 0;               // that was shown
+  std::optional<Clock::time_point> polishing_;  // start of the last decimation
 };
 
 }  // namespace emax

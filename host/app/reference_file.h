@@ -15,13 +15,13 @@
 namespace emax {
 
 // The reference surface of a two-sided bound and the file that holds it. Checksum and topology are
-// taken once, however many results refer to it, and the file is written once.
+// computed once for all results that refer to it, and the file is written once.
 class ReferenceFile {
  public:
-  // A file that is to be written. `mesh` and `points`, the cloud's, outlive this.
+  // A file that is still to be written. `mesh` and `points`, those of the cloud, must outlive this.
   ReferenceFile(std::filesystem::path path, const TriangleMesh& mesh,
                 std::span<const Point> points);
-  // A file that is there, with the checksum of its bytes.
+  // A file that exists, with the checksum of its bytes.
   ReferenceFile(std::filesystem::path path, const TriangleMesh& mesh, std::span<const Point> points,
                 std::string sha256);
 
@@ -29,12 +29,12 @@ class ReferenceFile {
   const std::string& sha256() const { return sha256_; }
   const MeshTopology& topology() const { return topology_; }
 
-  // Fills in what a bound says of the reference itself; epsilon_back and the distances between mesh
-  // and reference stay as they are. `excluded`: points that the bound leaves out. O(n log n) for n
-  // points unless `excluded` is as it was the last time.
+  // Fills in a bound's data about the reference itself; epsilon_back and the distances between mesh
+  // and reference stay unchanged. `excluded`: points that the bound excludes. O(n log n) for n
+  // points; less if `excluded` is the same as in the last call.
   void describe(ReferenceBound& bound, const std::vector<std::uint32_t>& excluded);
 
-  // What is still to be written; nullptr when the file is there.
+  // The file that is still to be written; nullptr if it exists.
   const OutputFile* unwritten() const { return file_.bytes.empty() ? nullptr : &file_; }
   void was_written() { file_.bytes = {}; }
 
@@ -44,7 +44,7 @@ class ReferenceFile {
   std::span<const Point> points_;
   std::string sha256_;
   MeshTopology topology_;
-  std::optional<CertifiedError> points_to_reference_;  // as it was asked for last
+  std::optional<CertifiedError> points_to_reference_;  // of the last call
 };
 
 }  // namespace emax

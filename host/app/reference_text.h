@@ -9,10 +9,10 @@
 
 namespace emax {
 
-// "1 component, closed, genus 0", and whether the reference has the same.
+// "1 component, closed, genus 0", with a note whether the reference has the same topology.
 std::string describe(const MeshTopology& mesh, const std::optional<MeshTopology>& reference);
 
-// What is certified between mesh and reference, two lines.
+// Prints the certified distances between mesh and reference, two lines.
 void print(const ReferenceBound& bound, double epsilon, double width,
            const std::filesystem::path& reference);
 

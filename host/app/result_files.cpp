@@ -111,7 +111,7 @@ bool ResultFiles::hold_fewer_than(std::size_t triangles) const {
                                  there.reference->epsilon_back == settings_.epsilon_back)) &&
            sha256_of_file(options_.output) == there.mesh_sha256 &&
            (!there.reference || sha256_of_file(reference_->path()) == there.reference->sha256);
-  } catch (const Error&) {  // what is there is no result
+  } catch (const Error&) {  // the existing files are not a result
     return false;
   }
 }

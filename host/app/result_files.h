@@ -12,31 +12,31 @@
 namespace emax {
 
 // The files of a search's result: mesh, certificate and, under a two-sided bound, the reference.
-// They are written as soon as there is one and again whenever there is a better one, so that a
-// program that is killed leaves the best so far.
+// They are written as soon as there is a result, and again whenever there is a better one, so that
+// a program that is killed leaves the best so far.
 class ResultFiles {
  public:
-  // All of them outlive this; the bound of `settings` is fixed.
+  // All arguments must outlive this; the bound of `settings` must be final.
   ResultFiles(const OptimizeOptions& options, const OptimizeSettings& settings, const Scan& scan,
               const std::string& cloud_sha256, const ErrorConstraint& constraint);
 
-  // Certifies the mesh, unless that of its evaluation was the last to be written, and writes the
-  // files. Throws Error when they cannot be written, and where the certificate contradicts what
-  // kernel or decimator said.
+  // Certifies the mesh, unless the mesh of this evaluation was written last, and writes the files.
+  // Throws Error if they cannot be written, and if the certificate contradicts the numbers of the
+  // kernel or the decimator.
   ProvenMesh write(const BestMesh& best, std::uint64_t evaluations);
 
-  // Of a two-sided bound: writes the reference alone, and its topology.
+  // Writes only the reference of a two-sided bound, and computes its topology.
   void write_reference();
   const MeshTopology& topology_of_reference() const { return reference_->topology(); }
 
-  // Whether the files that are there hold a mesh of fewer triangles under the same bounds, as an
-  // earlier part of the run may have left them.
+  // Whether the existing files hold a mesh of fewer triangles under the same bounds, which an
+  // earlier part of the run may have left.
   bool hold_fewer_than(std::size_t triangles) const;
 
-  // What is proven of a mesh, whether it keeps the bounds or not; nothing of the reference.
+  // The proofs for a mesh, whether it keeps the bounds or not; without those for the reference.
   ProvenMesh judge(const BestMesh& mesh) const;
 
-  // A mesh of the search as a result.
+  // The result record for a mesh of the search.
   CertifiedResult result(const BestMesh& best, const ProvenMesh& proven,
                          std::uint64_t evaluations) const;
 
@@ -50,7 +50,7 @@ class ResultFiles {
   const std::string& cloud_sha256_;
   const ErrorConstraint& constraint_;
   std::optional<ReferenceFile> reference_;  // of a two-sided bound
-  // Of what was written last, which its evaluation and these numbers tell.
+  // The evaluation and numbers that identify the mesh that was written last, and its proofs.
   std::tuple<std::uint64_t, std::size_t, std::uint32_t> proven_mesh_;
   std::optional<ProvenMesh> proven_;
 };

@@ -13,7 +13,7 @@
 namespace emax {
 namespace {
 
-// Both programs by their bytes: bytes of results are promised for one build.
+// The checksum of both programs: the same bytes of results are promised only for one build.
 std::string build() {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
   const std::string both =
@@ -21,7 +21,7 @@ std::string build() {
   return sha256(both).substr(0, 16);
 }
 
-// The C library chooses its functions by these.
+// The C library chooses its functions by these features.
 std::string processor() {
 #if defined(__x86_64__)
   std::string text = "x86-64";
@@ -53,7 +53,7 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
   };
   if (takes_bound(settings.decimator)) run.emplace_back(kBoundSetting, "");
   for (auto& value : named_values(settings.config)) {
-    if (value.first != "search.budget") run.push_back(std::move(value));  // which may grow
+    if (value.first != "search.budget") run.push_back(std::move(value));  // it may grow
   }
   run.emplace_back("emax", EMAX_VERSION);
   run.emplace_back("kernel", fmt::format("{}", kKernelVersion));
@@ -78,7 +78,7 @@ std::string describe(const RunLog& log, std::uint64_t budget) {
                                                   folder, count, budget);
   const RecordFile::Loss loss = log.loss();
   if (loss.torn > 0) text += fmt::format("; {} bytes of a torn record were cut off", loss.torn);
-  if (loss.damaged > 0) text += fmt::format("; {} damaged bytes were passed over", loss.damaged);
+  if (loss.damaged > 0) text += fmt::format("; {} damaged bytes were skipped", loss.damaged);
   return text;
 }
 

@@ -8,14 +8,15 @@
 
 namespace emax {
 
-// What the bytes of a result depend on: program, libraries and the processor's arithmetic in
-// libraries, the cloud's bytes, the problem and the search. Neither jobs nor device, which change
-// nothing, nor what ends a run, which another command may choose anew; of the budget, on which the
-// search depends too, RunLog::give_budget() keeps count.
+// The values that the bytes of a result depend on: the program, the libraries and the processor's
+// arithmetic in them, the cloud's bytes, the problem and the search. Jobs and device are left out,
+// because they change nothing. So are the limits that end a run, because another command may choose
+// new ones. The search also depends on the budget, which RunLog::give_budget() records.
 RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings& settings,
                          const std::string& cloud_sha256, double epsilon);
 
-// What run_settings() leaves open until the bound has been made: reference and outliers.
+// The setting that run_settings() leaves open until the bound has been made: reference and
+// outliers.
 inline constexpr const char* kBoundSetting = "reference.sha256";
 std::string checksum(const DecimationBound& bound);
 

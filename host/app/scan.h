@@ -29,34 +29,35 @@ struct CommonOptions {
   bool brute_force = false;
 };
 
-// A cloud that was read and found fit.
+// A cloud that was read and passed check_cloud().
 struct Scan {
   std::filesystem::path path;
   PointCloud cloud;
   double width;
 };
 
-// The vertices of the triangles of a mesh that have an area, as a scan: a mesh may be flat, or of
-// fewer points than a cloud. Other vertices are no part of its surface. Throws Error when no
+// The vertices of the triangles of a mesh that have an area, as a scan. A mesh may be flat, or have
+// fewer points than a cloud needs. Other vertices are not part of its surface. Throws Error if no
 // triangle has an area.
 Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 Scan read_scan(const std::filesystem::path& path, bool skip_invalid);
 
-// What the kernel says of the points that are not excluded; its worst point is the file's.
+// The kernel's error over the points that are not excluded; the index of its worst point is the
+// file's.
 EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded);
 
-// The tolerance in the scan's unit. Throws Error naming the option where it is no less than the
-// scan's width, as when it is given in another unit.
+// The tolerance in the scan's unit. Throws Error naming the option if the tolerance is not less
+// than the scan's width, as when it is given in another unit.
 double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan);
 
-// Mesh and certificate, and the reference where there may be one: check_output for each.
+// Calls check_output for the mesh, the certificate and, if there may be one, the reference.
 void check_mesh_outputs(const std::filesystem::path& mesh, bool with_reference);
 
 // "N" or "N%" of the points, 0 <= N < 1 (100%). Throws Error.
 double parse_share(std::string_view text);
 
-// Indices of the file instead of the cloud's, where points were skipped.
+// Replaces the cloud's indices by the file's, which differ if points were skipped.
 CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud);
 EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud);
 
@@ -66,7 +67,7 @@ std::string grouped(std::uint64_t number);
 // "valid: ..." or "not valid: 3 non-manifold edges, ..."
 std::string describe(const MeshValidity& validity);
 
-// Prints how many points were left out, where that is allowed, and e_max over all of them.
+// Prints how many points were excluded, if that is permitted, and e_max over all points.
 void print_excluded(const CertifiedError& certified, std::size_t excludable);
 
 }  // namespace emax

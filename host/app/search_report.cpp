@@ -40,7 +40,7 @@ void print_feasible(const SearchOutcome& o) {
   fmt::print("certificate    {}\n", certificate_path(output).string());
 }
 
-// With the remedy for the bound that is broken.
+// Prints the bound that is broken, with the remedy.
 void print_infeasible(const SearchOutcome& o) {
   const CertifiedError& points = o.result.proven.points;
   const double epsilon = o.result.epsilon;
@@ -72,8 +72,7 @@ void print_infeasible(const SearchOutcome& o) {
 
 void print_evaluations(const OptimizeState& state, double seconds) {
   const std::string stopped =
-      state.stopped > 0 ? fmt::format(", {} more cut short with the mesh at hand", state.stopped)
-                        : "";
+      state.stopped > 0 ? fmt::format(", {} more stopped early, with a mesh", state.stopped) : "";
   fmt::print("evaluations    {} in {:.0f} s{}{}{}\n", state.evaluations, seconds, stopped,
              describe_failures(state),
              state.interrupted      ? "; interrupted"
@@ -92,7 +91,7 @@ void print_polish(const OptimizeState& state, std::size_t triangles) {
                  : "the best mesh decimated deep has no fewer triangles");
 }
 
-// Of the time that the workers had.
+// Prints shares of the workers' time.
 void print_shares(const OptimizeState& state, double all) {
   if (!(state.stages.sum() > 0) || !(all > 0)) return;
   const auto percent = [all](double part) { return 100 * part / all; };

@@ -9,20 +9,21 @@
 
 namespace emax {
 
-// What a search came to, as the text and the JSON say it. What it refers to outlives it.
+// The result of a search for the text and the JSON. The members that are references must outlive
+// it.
 struct SearchOutcome {
   const OptimizeOptions& options;
   const OptimizeSettings& settings;
   const OptimizeState& state;
   std::size_t excludable;         // points
-  bool feasible;                  // otherwise `shown` has the least violation
-  bool is_reference;              // `shown` is the reference surface as it is
+  bool feasible;                  // false: `shown` has the least violation
+  bool is_reference;              // `shown` is the unchanged reference surface
   const BestMesh& shown;          // the mesh that the report is about
   const CertifiedResult& result;  // that mesh
-  double seconds;                 // that the search took
+  double seconds;                 // time of the search
   std::optional<DeviceCounters> counters;
-  std::optional<BoardModel> board;    // whose time is predicted
-  std::optional<double> cpu_seconds;  // that the same work took on this processor
+  std::optional<BoardModel> board;    // the board whose time is predicted
+  std::optional<double> cpu_seconds;  // time of the same work on this processor
 };
 
 // ", 3 failed (crashed); last: ...", or nothing.
@@ -30,7 +31,7 @@ std::string describe_failures(const OptimizeState& state);
 
 void print(const SearchOutcome& outcome);
 
-// What goes to --json.
+// The content of --json.
 ResultReport report_of(const SearchOutcome& outcome);
 
 }  // namespace emax

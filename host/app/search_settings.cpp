@@ -53,7 +53,7 @@ OptimizeSettings search_settings(const OptimizeOptions& options) {
   settings.seed = options.seed;
   const unsigned jobs =
       options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
-  // No more candidates than that are ever out.
+  // At most this many candidates are out at a time.
   settings.jobs =
       static_cast<unsigned>(std::min<std::size_t>(jobs, settings.config.search.look_ahead));
   settings.target_triangles = options.target_triangles;

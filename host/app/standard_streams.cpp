@@ -10,7 +10,7 @@
 namespace emax {
 
 void open_standard_streams() {
-  int lowest = 0;  // open() gives the lowest that is free
+  int lowest = 0;  // open() gives the lowest free number
   do {
     lowest = open("/dev/null", O_RDWR);
   } while (lowest >= 0 && lowest <= STDERR_FILENO);

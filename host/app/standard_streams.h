@@ -5,15 +5,16 @@
 
 namespace emax {
 
-// Those of the three that are closed lead nowhere from now on, so that no file that is opened later
-// takes their place.
+// Opens those of the three streams that are closed as empty ones, so that no file that is opened
+// later takes their place.
 void open_standard_streams();
 
-// What cannot be written there is dropped: neither a closed terminal nor a full disk ends the work.
+// Writes to standard error. Text that cannot be written is dropped: neither a closed terminal nor a
+// full disk ends the work.
 void to_standard_error(std::string_view text) noexcept;
 bool standard_error_is_terminal();
 
-// The line cut where the terminal's next one would begin.
+// The line, cut to the terminal's width.
 std::string fit_terminal(std::string line);
 
 }  // namespace emax

@@ -15,8 +15,8 @@ struct ToleratedMesh {
   std::filesystem::path output;
 };
 
-// The tolerances of --max-error, between commas. Where there are several, each has the output's
-// name with the tolerance behind its stem (part-0.1pct.ply). Throws Error.
+// The tolerances of --max-error, which commas separate. If there are several, the output's name is
+// given for each with the tolerance after its stem (part-0.1pct.ply). Throws Error.
 std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
                                             const std::filesystem::path& output);
 

@@ -20,7 +20,7 @@
 namespace emax {
 namespace {
 
-// As named, or beside the certificate, or (for a cloud) in the current folder.
+// The file as named, or beside the certificate, or (if `also_here`) in the current folder.
 std::filesystem::path locate(const std::string& named, const std::string& file, const char* option,
                              const std::filesystem::path& certificate, bool also_here) {
   if (!named.empty()) return named;
@@ -31,7 +31,7 @@ std::filesystem::path locate(const std::string& named, const std::string& file, 
                           option));
 }
 
-// Indices of the file back to those of the cloud as read.
+// Converts indices of the file to those of the cloud as read.
 std::vector<std::uint32_t> in_cloud(std::span<const std::uint32_t> in_file,
                                     const PointCloud& cloud) {
   std::vector<std::uint32_t> indices(in_file.begin(), in_file.end());
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> in_cloud(std::span<const std::uint32_t> in_file,
   return indices;
 }
 
-// Another build may round the last bit otherwise.
+// Another build may round the last bit differently.
 bool agree(double claimed, double found) {
   return std::abs(claimed - found) <= 1e-12 * std::abs(found);
 }
@@ -61,12 +61,12 @@ class Verification {
     }
   }
 
-  // Throws Error when `json` is one of the files that are read.
+  // Throws Error if `json` is one of the files that are read.
   void require_apart(const std::string& json) const {
     check_distinct({json}, {path_, mesh_path_, cloud_path_, reference_path_});
   }
 
-  // Of what run() found.
+  // The JSON of the results of run().
   std::string json_text() const {
     return to_json_text({.certificate_file = path_.string(),
                          .mesh_file = mesh_path_.string(),
@@ -140,7 +140,7 @@ class Verification {
     require(
         error.within(certificate_.epsilon),
         fmt::format("e_max is {:.9g}, more than {:.9g}", error.e_max_upper, certificate_.epsilon));
-    // Another build may round the last bit otherwise; a claim below the exact value is false.
+    // Another build may round the last bit differently, but a claim below the exact value is false.
     require(claimed.e_max_upper >= error.e_max_lower && claimed.e_max_upper <= certificate_.epsilon,
             fmt::format("the certificate claims e_max {:.9g}, but it is {:.9g}",
                         claimed.e_max_upper, error.e_max_upper));
@@ -185,7 +185,7 @@ class Verification {
                           what, limit));
       if (!(claim >= 0)) return;
       const SurfaceDistance found = decided_distance(from, ExactMesh(to.view()), claim);
-      // Roundings may leave a claim that holds undecided.
+      // A claim that holds may stay undecided because of roundings.
       require(
           found.lower <= claim && found.within(limit),
           fmt::format("the certificate claims {:.9g} for {}, which lies within {:.9g} and {:.9g}",
