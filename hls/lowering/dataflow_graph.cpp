@@ -113,14 +113,14 @@ NodeId DataflowGraph::add_operation(Operation operation, std::array<NodeId, 3> o
              nodes_[operands[0]].operation == Operation::kNegated) {
     return nodes_[operands[0]].operands[0];
   }
-  // The key is ordered, the node keeps the operands as they were written.
+  // The key's operands are sorted; the node keeps its operands in the source's order.
   std::array<NodeId, 3> key = node.operands;
   if (is_symmetric(node.operation)) std::sort(key.begin(), key.begin() + 2);
   const auto [known, is_new] = known_.try_emplace({node.operation, key, 0, of.kind}, kNoNode);
   if (is_new) {
     known->second = append(std::move(node));
   } else if (Node& shared = nodes_[known->second]; place < shared.place) {
-    // The first in the source, whatever the compiler evaluates first.
+    // The place is the first in the source, whatever the compiler evaluates first.
     shared.place = place;
     shared.operands = node.operands;
   }

@@ -1,14 +1,15 @@
-// The dataflow graph of a function of the kernel: what recorded_value.h records, schedule.h places
-// in time and systemverilog.h writes as a pipeline.
+// The dataflow graph of a function of the kernel. recorded_value.h records it, schedule.h gives
+// each node its cycle, and systemverilog.h writes it as a pipeline.
 //
-// Nodes are shared as they are recorded (hash-consing): an operation on the same operands is one
-// node. Rewrites, each keeping every bit of the numeric contract (docs/numerics.md):
+// Nodes are shared as they are recorded (hash-consing): the same operation on the same operands is
+// one node. These rewrites keep every bit of the numeric contract (docs/numerics.md):
 //   a + b = b + a, a * b = b * a     rounding, flushing, signed zeros and the one NaN are symmetric
 //   both, either                     symmetric
 //   a * a -> square(a)               the same product
 //   a < 0 -> less_zero(a), 0 < a -> greater_zero(a)   a comparison with either zero is one of sign
 //   negated(negated(a)) -> a
-// Nothing else: no reassociation, no x - 0 or x * 1 (they flush and canonicalise), no folding.
+// There are no others: no reassociation, no x - 0 or x * 1 (they flush and canonicalise), no
+// folding.
 #pragma once
 
 #include <array>
@@ -49,7 +50,7 @@ constexpr std::size_t kOperations = 16;
 
 struct OperationInfo {
   std::string_view name;    // in schedules and reports
-  std::string_view result;  // in names of nodes: what the operation gives
+  std::string_view result;  // in names of nodes: a word for the result
   std::size_t operands;
   ValueKind kind;
 };
@@ -58,7 +59,7 @@ const OperationInfo& info(Operation operation);
 // Bits of a value of the kind.
 constexpr int width(ValueKind kind) { return kind == ValueKind::kCondition ? 1 : 32; }
 
-// Where in the source an operation stands. `file` and `function` outlive the graph (literals).
+// The place of an operation in the source. `file` and `function` must outlive the graph (literals).
 struct SourcePlace {
   std::string_view file;
   std::uint32_t line = 0, column = 0;
@@ -76,14 +77,14 @@ struct Node {
   std::string name = {};
 };
 
-// How an input reaches the pipeline: with the sample, at cycle 0, or out of a memory that is read
-// at the cycle that needs it.
+// How an input reaches the pipeline: with the sample at cycle 0, or from a memory that is read at
+// the cycle in which the input is needed.
 enum class Arrival : std::uint8_t { kSample, kMemory };
 
 struct Input {
   std::string name;
   Arrival arrival;
-  std::uint32_t record_bit;  // lowest bit in the record, for memory
+  std::uint32_t record_bit;  // lowest bit in the record, if from a memory
   NodeId node;
 };
 
@@ -95,18 +96,18 @@ struct Output {
 // Every operand's id is lower than its consumer's. Recording costs O(log n) a node.
 class DataflowGraph {
  public:
-  enum class Sharing : std::uint8_t { kOn, kOff };  // off: the brute-force twin, no rewrite at all
+  enum class Sharing : std::uint8_t { kOn, kOff };  // kOff: the brute-force twin, no rewrites
   explicit DataflowGraph(Sharing sharing = Sharing::kOn) : sharing_(sharing) {}
 
   NodeId add_input(std::string name, ValueKind kind, Arrival arrival, std::uint32_t record_bit = 0);
   NodeId add_constant(ValueKind kind, std::uint32_t word);
-  // Throws std::invalid_argument where an operand is missing or of the wrong kind.
+  // Throws std::invalid_argument if an operand is missing or of the wrong kind.
   NodeId add_operation(Operation operation, std::array<NodeId, 3> operands, SourcePlace place);
   void add_output(std::string name, NodeId node);
 
-  // Keeps what the outputs need, in the order of a walk from them with operands left to right, so
-  // that the order does not depend on the order in which a compiler evaluates operands. Returns the
-  // new id of each old node (kNoNode where it is gone).
+  // Keeps only the nodes that the outputs need. Their order is that of a walk from the outputs with
+  // operands left to right, so it does not depend on the order in which a compiler evaluates
+  // operands. Returns the new id of each old node (kNoNode if it was removed).
   std::vector<NodeId> remove_dead();
 
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -114,11 +115,11 @@ class DataflowGraph {
   const std::vector<Input>& inputs() const { return inputs_; }
   const std::vector<Output>& outputs() const { return outputs_; }
   void set_name(NodeId id, std::string name) { nodes_[id].name = std::move(name); }
-  // The input's node takes the name as well.
+  // Also names the input's node.
   void set_input_name(std::size_t input, const std::string& name);
   void set_output_name(std::size_t output, std::string name);
 
-  // The operands a node has: a view of its first ones.
+  // The operands of a node, without the unused places.
   struct Operands {
     const NodeId *first, *last;
     const NodeId* begin() const { return first; }

@@ -8,7 +8,7 @@
 namespace emax {
 namespace {
 
-// What the name of an operator's instance adds to that of its node; nothing for plain logic.
+// The suffix that makes a node's name the name of its operator's instance; empty for plain logic.
 std::string_view instance_suffix(Operation operation) {
   switch (operation) {
     case Operation::kAdd:
@@ -48,7 +48,7 @@ DatapathNames::DatapathNames(const LoweredDesign& design) {
   }
   for (const Output& output : graph.outputs()) use(output.node, schedule.latency);
 
-  // First what has its name already, from name_nodes; the others make way for it.
+  // The names from name_nodes are taken first, so that new names give way to them.
   Identifiers identifiers(design.options.module);
   std::set<std::string> ports;
   for (const Input& input : graph.inputs()) identifiers.take(input.name);

@@ -1,5 +1,5 @@
-// The names of everything in the module of a datapath: signals, delayed signals, constants,
-// instances. They come out of one table, so no two are the same and none is a keyword.
+// The names in the module of a datapath: signals, delayed signals, constants and instances. One
+// table gives them all, so no two are the same and none is a keyword.
 #pragma once
 
 #include <map>
@@ -14,21 +14,21 @@ namespace emax {
 
 class DatapathNames {
  public:
-  // Reads the design while it is constructed, not later.
+  // Reads the design only during construction.
   explicit DatapathNames(const LoweredDesign& design);
 
-  // Cycles later than its ready cycle in which a node's value is used, in order. Constants are
-  // there at all times and have none.
+  // The cycles after its ready cycle in which a node's value is used, in order. A constant is
+  // available in every cycle and has none.
   const std::set<int>& taps(NodeId node) const;
 
-  // The signal that holds a node's value in a cycle: one of its taps, or its ready cycle. A
-  // constant's for any cycle.
+  // The signal that holds a node's value in a cycle, which must be one of its taps or its ready
+  // cycle. For a constant any cycle is permitted.
   const std::string& signal(NodeId node, int cycle) const;
 
-  // The constants by their words: one name a word.
+  // The constants by their words: one name for each word.
   const std::map<Word, std::string>& constants() const { return constants_; }
 
-  // The instance of the operator of a node that has one.
+  // The instance of a node's operator. The node must have one.
   const std::string& instance(NodeId node) const { return instances_.at(node); }
 
   // The delay line that drives the signal of a tap.

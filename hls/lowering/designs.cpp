@@ -29,7 +29,7 @@ constexpr FormInfo kFormInfo[] = {
     {"maximum", "maximum", "hls/kernel/reduce.h", "emax_maximum", 0},
 };
 
-// Inputs named by the way to them; those of a record in the order of its words.
+// Inputs are named by their path in the arguments. Those of a record are in the order of its words.
 class Inputs {
  public:
   explicit Inputs(DataflowGraph& graph) : graph_(graph) {}
@@ -65,8 +65,8 @@ class Inputs {
   std::uint32_t words_ = 0;
 };
 
-// The functions that `squared_distance` calls, called again for the names of what they return: the
-// graph gives the same nodes.
+// Calls the functions that `squared_distance` calls once more, to name their results: the graph
+// gives the same nodes.
 void label_view(const TriangleRecord<RecordedValue>& t, const Vector3<RecordedValue>& p,
                 Labels& labels) {
   const Vector3<RecordedValue> frame = to_frame(t, p);

@@ -19,17 +19,17 @@ struct FormInfo {
   std::string_view name;      // on the command line
   std::string_view function;  // in the source
   std::string_view source;    // path in the repository
-  std::string_view module;    // of the datapath, unless another is asked for
+  std::string_view module;    // of the datapath, if the options give no other
   int record_words;           // of the record memory beside it; 0 for none
 };
 const FormInfo& info(Form form);
 
-// Which kind of delay line holds how much. Narrow values (below kNarrowBits) stay in registers
-// longer: a memory's address counter costs more than they do.
+// The greatest number of cycles for each kind of delay line. Narrow values (below kNarrowBits) stay
+// in registers longer, because a memory's address counter costs more than their registers.
 struct DelayStyles {
   int registers_up_to = 2;
   int narrow_registers_up_to = 8;
-  int memory_up_to = 66;  // beyond it block RAM
+  int memory_up_to = 66;  // longer delays of wide values use block RAM
   std::string_view memory = "distributed_ram";
 
   std::string_view style(int bits, int cycles) const;
@@ -54,21 +54,21 @@ struct LoweredDesign {
   // schedule.ready[i].
   std::vector<NodeId> probes;
 
-  // Cycles after a slot is presented to the unit in which its record is still read.
+  // Number of cycles after a slot is presented to the unit in which its record is still read.
   int last_read() const;
 };
 
 // Records, shares, schedules and names. Throws std::invalid_argument for latencies that cannot be
-// built and for a module's name that SystemVerilog does not take.
+// built and for a module name that SystemVerilog does not permit.
 LoweredDesign lower(Form form, const LoweringOptions& options);
 
-// The same for a graph that was recorded elsewhere; `form` gives the text's comments and the size
-// of the record. Operations that no output needs are removed.
+// The same for a graph that was recorded elsewhere. `form` determines the comments of the text and
+// the size of the record. Operations that no output needs are removed.
 LoweredDesign lower_graph(Form form, DataflowGraph graph, const SourceText& source_text,
                           const Labels& labels, const LoweringOptions& options);
 
-// The design of hls/rtl/generated/emax_distance.sv, emax_distance_unit.sv and
-// emax_distance_schedule.svh, with the options they are generated with.
+// The design in hls/rtl/generated: emax_distance.sv, emax_distance_unit.sv and
+// emax_distance_schedule.svh, with the options that they are generated with.
 const LoweredDesign& emax_distance_design();
 
 }  // namespace emax

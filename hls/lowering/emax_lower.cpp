@@ -1,4 +1,4 @@
-// emax_lower: from a function of the kernel to SystemVerilog.
+// emax_lower: makes SystemVerilog from a function of the kernel.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -25,7 +25,7 @@ FORM is visible_edge (the kernel's), three_edge, barycentric, minimum or maximum
 
 what to write (the datapath unless one of these is given)
   --unit              the record memory beside the datapath, module NAME_unit
-  --schedule          macros with the schedule's figures for what stands beside the unit
+  --schedule          macros with the schedule's figures, for the modules that use the unit
   --dot               the graph, for Graphviz
   --report            operations, latency and delay bits, as JSON
   --graph             the graph with its schedule, as JSON
@@ -33,7 +33,7 @@ what to write (the datapath unless one of these is given)
 how to lower
   --module NAME       name of the datapath's module: an identifier of SystemVerilog
   --latency K=N,...   cycles of each operator, and levels of lookup tables between registers:
-LATENCIES  --family FAMILY     ecp5 (the default) or xilinx: what delays are made of
+LATENCIES  --family FAMILY     ecp5 (the default) or xilinx: how delays are built
   --delay K=N,...     longest delay in registers, narrow_registers (of conditions and slots) and
                       memory; longer ones take block RAM
   -o FILE             written whole or not at all
@@ -61,7 +61,7 @@ struct Field {
   int least, most;
 };
 
-// "a=1,b=2" into the numbers that `fields` names.
+// Reads "a=1,b=2" into the numbers that `fields` names.
 void read_numbers(const std::string& option, const std::string& text,
                   const std::map<std::string, Field>& fields) {
   // With a comma after each part, an empty text has one part, which is refused.
@@ -98,8 +98,8 @@ Form form_of(const std::string& name) {
   throw std::invalid_argument("unknown form '" + name + "': take one of " + known);
 }
 
-// Beside the file first, then in its place. A file that is right already keeps its time, so that
-// nothing is built again for it.
+// Writes a partial file beside the target first, then renames it. A file with the right content
+// keeps its time, so that nothing is built again for it.
 void write_file(const std::string& path, const std::string& text) {
   if (std::ifstream before(path, std::ios::binary); before) {
     std::ostringstream content;
@@ -175,7 +175,7 @@ int run(const std::vector<std::string>& arguments) {
     }
   }
   if (form.empty()) throw std::invalid_argument("no form is given");
-  DelayStyles& delays = options.delays;  // after the family, wherever it stands
+  DelayStyles& delays = options.delays;  // set after the family, wherever --delay comes
   if (delay) {
     read_numbers("--delay", *delay,
                  {{"registers", {&delays.registers_up_to, 0, kMaxDelay}},

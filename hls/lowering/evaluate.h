@@ -1,4 +1,4 @@
-// The value of every node of a graph, on a scalar of one's choice.
+// The value of every node of a graph, on any scalar.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 namespace emax {
 
 // The word of each node (a condition as 0 or 1) for the words of the inputs, in the order of
-// graph.inputs(). With the model's flushing scalar these are the words that the hardware gives.
-// Scalar is constructible from float and has to_word, magnitude and the operators. O(nodes).
+// graph.inputs(). With the model's flushing scalar these are the words of the hardware. Scalar must
+// be constructible from float and have to_word, magnitude and the operators. O(nodes).
 template <class Scalar>
 std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inputs) {
   std::vector<Word> words;

@@ -63,7 +63,7 @@ constexpr auto kUsedModules = std::to_array<std::string_view>(
     {"block_memory", "delay_line", "field_memory", "fp_add", "fp_less", "fp_multiply", "fp_product",
      "fp_square", "mantissa_multiply", "mantissa_square"});
 
-// What systemverilog.cpp and record_unit.cpp write into every module, whatever the graph.
+// The names that systemverilog.cpp and record_unit.cpp write into every module, whatever the graph.
 constexpr auto kFixedNames = std::to_array<std::string_view>(
     {"clk", "probes", "ADD_LATENCY", "MULTIPLY_LATENCY", "SQUARE_LATENCY", "LESS_LATENCY",
      "SLOT_BITS", "LATENCY", "LAST_READ", "write_enable", "write_slot", "write_record", "slot",

@@ -8,7 +8,7 @@ namespace {
 
 constexpr long kUnlimited = std::numeric_limits<long>::max() / 4;
 
-// Augmenting paths, shortest first.
+// A flow network that uses the shortest augmenting paths first.
 class FlowNetwork {
  public:
   explicit FlowNetwork(std::size_t vertices) : arcs_of_(vertices) {}
@@ -20,7 +20,7 @@ class FlowNetwork {
     arcs_.push_back({from, 0});
   }
 
-  // Sends all that can flow; then the vertices that the source still reaches.
+  // Sends the greatest flow; returns the vertices that the source still reaches.
   std::vector<bool> saturate(std::size_t source, std::size_t sink) {
     while (true) {
       std::vector<std::size_t> arriving(arcs_of_.size(), kNone), queue = {source};

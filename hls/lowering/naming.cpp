@@ -15,7 +15,7 @@ const std::map<std::string_view, std::vector<std::string>> kFields = {{"Vector3"
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-// The text with comments blanked, offsets kept.
+// The text with comments replaced by blanks, so that offsets stay.
 std::string without_comments(std::string_view text) {
   std::string code(text);
   for (std::size_t i = 0; i + 1 < code.size(); ++i) {
@@ -40,8 +40,8 @@ char neighbour(std::string_view code, std::size_t at, int step) {
   return ';';
 }
 
-// Whether what stands here ends a statement before: a semicolon, or a brace of a block, not of an
-// initialiser.
+// Whether this character ends the statement before it: a semicolon, or a brace of a block (not of
+// an initialiser).
 bool is_boundary(std::string_view code, std::size_t at) {
   if (code[at] == ';') return true;
   if (code[at] == '{') return neighbour(code, at, -1) == ')';
@@ -54,7 +54,7 @@ std::size_t end_of_statement(std::string_view code, std::size_t from) {
   return end == std::string_view::npos ? code.size() : end;
 }
 
-// Commas outside of brackets in [begin, end), angle brackets not counted.
+// The commas in [begin, end) outside of brackets; angle brackets are not counted.
 std::vector<std::size_t> commas(std::string_view code, std::size_t begin, std::size_t end) {
   std::vector<std::size_t> found;
   int depth = 0;
@@ -151,13 +151,15 @@ class Namer {
   void name_all() {
     find_owners();
     for (const Output& output : graph_.outputs()) {
-      // An earlier node's value is delayed on its way to the port, which is then another signal.
+      // The value of a node that is ready earlier is delayed on its way to the port, so the port is
+      // another signal.
       if (graph_.is_operation(output.node) && graph_.node(output.node).name.empty() &&
           schedule_.ready[output.node] == schedule_.latency) {
         graph_.set_name(output.node, output.name);
       }
     }
-    // The results of statements first: what is inside takes its name from them.
+    // Results of statements come first: the nodes inside a statement take their names from its
+    // result.
     for (const bool inside : {false, true}) {
       for (NodeId id = 0; id < graph_.nodes().size(); ++id) {
         if (!graph_.is_operation(id) || !graph_.node(id).name.empty()) continue;
@@ -174,7 +176,8 @@ class Namer {
            statements_[a].element == statements_[b].element;
   }
 
-  // A node's owner is the result of the statement it is part of: itself, or that of a user of it.
+  // The owner of a node is the result of its statement: the node itself, or the result that uses
+  // it.
   void find_owners() {
     for (auto id = static_cast<NodeId>(graph_.nodes().size()); id-- > 0;) {
       if (owner_[id] == kNoNode) owner_[id] = id;
@@ -203,7 +206,7 @@ class Namer {
                : name + '_' + std::string(info(node.operation).result);
   }
 
-  // An input's name without the way to it: "length" of "t_edge13_length".
+  // The last part of an input's name: "length" of "t_edge13_length".
   std::string short_name(NodeId id) const {
     const std::string& name = graph_.node(id).name;
     if (name.empty()) return "value";

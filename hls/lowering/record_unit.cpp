@@ -19,9 +19,9 @@ std::string upper(std::string text) {
 
 // Fields of a record in memories that are read at different cycles.
 //
-// A field that the datapath reads at cycle c is read with the slot delayed by c - 1. Its write is
-// as many cycles late as there are earlier cycles of reading, so that one write reaches a few
-// memories at a time.
+// A field that the datapath reads at cycle c is read with the slot delayed by c - 1. The fields are
+// written in groups by their cycle of reading, each group a cycle later than the one before, so
+// that one write reaches a few memories at a time.
 class RecordUnit {
  public:
   explicit RecordUnit(const LoweredDesign& design)
@@ -94,7 +94,7 @@ class RecordUnit {
                      slot_at_.at(cycle) + "), .read_data(" + input.name + ")");
   }
 
-  // The field in the record that is written, `late` cycles later.
+  // The field in the written record, delayed by `late` cycles.
   std::string write_data(const Input& input, int bits, std::size_t late) {
     const std::string low = std::to_string(input.record_bit);
     const std::string high =
@@ -185,7 +185,7 @@ module )" + module_ +
            ";\n  localparam int LAST_READ = " + std::to_string(design_.last_read()) + ";\n";
   }
 
-  // The unit is used as it is with and without probes.
+  // The unit is the same with and without probes.
   std::string datapath() const {
     const std::string probes = std::to_string(32 * design_.probes.size() - 1);
     return "`ifdef EMAX_PROBES\n  logic [" + probes + ":0] unused_probes;\n`endif\n" + "  " +
@@ -197,9 +197,9 @@ module )" + module_ +
   const std::string& module_;
   Identifiers identifiers_;
   std::vector<bool> used_;     // bits of the record
-  std::set<int> late_cycles_;  // in which fields are read, but 0
-  // The slot as it is presented and delayed to the late cycles; a write's enable and slot as they
-  // come and delayed by one cycle for each of these.
+  std::set<int> late_cycles_;  // cycles above 0 in which fields are read
+  // The slot, and the slot delayed to each of the late cycles. A write's enable and slot, undelayed
+  // and delayed by one more cycle for each of the late cycles.
   std::map<int, std::string> slot_at_ = {{0, "slot"}};
   std::vector<std::string> enables_ = {"write_enable"}, write_slots_ = {"write_slot"};
   std::vector<std::string> reals_, conditions_, samples_, late_reals_, late_conditions_;

@@ -1,9 +1,9 @@
 // Scalars that record. A function on the kernel's scalar template, called with them, appends its
-// operations to a DataflowGraph in place of computing. A recorded condition has no truth value: a
+// operations to a DataflowGraph instead of computing. A recorded condition has no truth value, so a
 // function that branches on data does not compile.
 //
-// An operation's first parameter is implicitly made from a recorded value and takes the place of
-// the call in the source with it, so the kernel needs no annotation.
+// An operation's first parameter is made implicitly from a recorded value. This conversion also
+// takes the place of the call in the source, so the kernel needs no annotation.
 #pragma once
 
 #include <source_location>
@@ -13,7 +13,7 @@
 
 namespace emax {
 
-// While it lives, this thread records into `graph`. Recordings nest.
+// During its lifetime, this thread records into `graph`. Recordings nest.
 class Recording {
  public:
   explicit Recording(DataflowGraph& graph) : outer_(active) { active = &graph; }
@@ -31,7 +31,7 @@ class Recording {
 #ifdef __cpp_lib_source_location
 using CallPlace = std::source_location;
 #else
-// What Clang before 16 has in its place.
+// The replacement for std::source_location in Clang before 16.
 class CallPlace {
  public:
   static constexpr CallPlace current(const char* file = __builtin_FILE(),

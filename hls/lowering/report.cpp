@@ -57,7 +57,7 @@ std::string report_json(const LoweredDesign& design) {
 std::string dot_graph(const LoweredDesign& design) {
   const DataflowGraph& graph = design.graph;
   const Schedule& schedule = design.schedule;
-  // In quotes, as words like `node` mean something else to Graphviz.
+  // In quotes, because words like `node` are keywords of Graphviz.
   std::string text = "digraph \"" + design.options.module +
                      "\" {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
   std::map<int, std::string> ranks;

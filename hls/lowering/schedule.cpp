@@ -46,9 +46,9 @@ int Latencies::levels_of(Operation operation) const {
     case Operation::kMultiply:
     case Operation::kSquare:
     case Operation::kLess:
-      return levels;  // they fill their first stage: operands come from registers
+      return levels;  // they fill their first stage, as their operands come from registers
     default:
-      return 0;  // wires, an inverter that its user absorbs, or words, whose user pipelines
+      return 0;  // wires, an inverter that its user absorbs, or words, whose user is pipelined
   }
 }
 
@@ -64,16 +64,16 @@ void check_latencies(const Latencies& latencies) {
 
 namespace {
 
-// A value, the node that uses it, and the cycles that must lie between being ready and the use: 1
-// where a register has to cut a chain of combinational nodes, else 0.
+// A value, the node that uses it, and the least number of cycles from the value's ready cycle to
+// the use: 1 if a register must cut a chain of combinational nodes, else 0.
 struct Use {
   NodeId value, user;
   int gap;
 };
 
-// Cut where levels would exceed their limit if every combinational node shared its operands' cycle:
-// more registers than a given schedule needs at times, but then any schedule that keeps the gaps is
-// sound.
+// Cuts a chain where its levels would exceed their limit if every combinational node shared its
+// operands' cycle. A given schedule may need fewer registers, but every schedule that keeps these
+// gaps is sound.
 std::vector<Use> uses_with_gaps(const DataflowGraph& graph, const Latencies& latencies) {
   std::vector<int> depth(graph.nodes().size(), 0);
   std::vector<Use> uses;
@@ -102,17 +102,17 @@ class Scheduler {
     for (const Input& input : graph.inputs()) {
       if (input.arrival == Arrival::kMemory) start_[input.node] = 1;
     }
-    for (const Use& use : uses_) {  // in the order of users, so operands are placed
+    for (const Use& use : uses_) {  // in the order of users, so operands have their start
       start_[use.user] = std::max(start_[use.user], ready(use.value) + use.gap);
     }
     for (const Output& output : graph.outputs()) latency_ = std::max(latency_, ready(output.node));
   }
 
-  // The delay bits are an L-natural-convex function of the starts. Each step moves the set of nodes
-  // that saves the most up by one cycle; from the earliest schedule, the steps end at the global
+  // The delay bits are an L-natural-convex function of the starts. Each step delays by one cycle
+  // the set of nodes that saves the most; from the earliest schedule, the steps end at the global
   // minimum. The set is the solution of a closure problem. A node is an item that saves the wait of
-  // its result and requires its tight users. The end of a value's chain is an item that costs when
-  // a last user moves.
+  // its result and requires the users that start at that cycle. The end of a value's chain is an
+  // item that costs when a last user moves.
   void move_slack() {
     const std::size_t nodes = graph_.nodes().size();
     while (true) {

@@ -1,12 +1,12 @@
-// When each node of a graph computes, in a pipeline that takes a sample every cycle.
+// The cycle in which each node of a graph computes, in a pipeline that takes a sample every cycle.
 //
 // A node that starts at cycle c reads its operands in cycle c and gives its result in cycle
 // c + latency, its ready cycle. A value waits in a chain of delays from its ready cycle to its last
-// use, tapped by every use before. Inputs of a sample are there at cycle 0; inputs out of a memory
-// from cycle 1 on, at the one cycle that the schedule chooses.
+// use; earlier uses tap the chain. Inputs of a sample are available at cycle 0. Inputs from a
+// memory are available only at the one cycle, from 1 on, that the schedule chooses.
 //
-// The latency of the whole is the least that the operators' latencies permit, and among the
-// schedules of that latency the one found has the fewest delay bits (sum of width * cycles waited).
+// The latency of the whole is the least that the operators' latencies permit. Of the schedules with
+// that latency this one has the fewest delay bits (sum of width * cycles waited).
 #pragma once
 
 #include <string_view>
@@ -16,8 +16,8 @@
 
 namespace emax {
 
-// Cycles of each operator. What has latency 0 is combinational and shares a cycle with what follows
-// as long as at most `levels` levels of lookup tables lie between registers.
+// Cycles of each operator. An operator of latency 0 is combinational. It shares a cycle with the
+// next operators as long as at most `levels` levels of lookup tables lie between registers.
 struct Latencies {
   int add = 12;  // and subtract
   int multiply = 10;
@@ -29,16 +29,18 @@ struct Latencies {
   int levels = 2;        // of lookup tables
 
   int of(Operation operation) const;
-  // Levels of lookup tables between an operand and the operator's first register, or its result.
+  // Levels of lookup tables between an operand and the operator's first register, or its result if
+  // it has no register.
   int levels_of(Operation operation) const;
 };
 
-// What each latency may be. Those of the operators are what the modules of hls/rtl take.
+// The permitted values of each latency. Those of the operators are the values that the modules of
+// hls/rtl accept.
 struct LatencyLimits {
   std::string_view name;  // on the command line
   int Latencies::*cycles;
   int least, most;
-  std::string_view module;  // of hls/rtl, which refuses the others; empty for plain logic
+  std::string_view module;  // of hls/rtl, which refuses other values; empty for plain logic
 };
 constexpr LatencyLimits kLatencyLimits[] = {
     {"add", &Latencies::add, 1, 14, "fp_add"},
@@ -51,7 +53,7 @@ constexpr LatencyLimits kLatencyLimits[] = {
     {"levels", &Latencies::levels, 2, 1000, ""},  // a comparison with zero takes two
 };
 
-// Throws std::invalid_argument, with name, value and limits, for a latency beyond its limits.
+// Throws std::invalid_argument, with name, value and limits, for a latency outside its limits.
 void check_latencies(const Latencies& latencies);
 
 struct Schedule {
@@ -61,8 +63,8 @@ struct Schedule {
   long delay_bits = 0;
 };
 
-// Throws std::invalid_argument for latencies beyond their limits.
-// O(latency * nodes * edges) at worst; milliseconds for the kernel's forms.
+// Throws std::invalid_argument for latencies outside their limits. O(latency * nodes * edges) at
+// worst; milliseconds for the kernel's forms.
 Schedule make_schedule(const DataflowGraph& graph, const Latencies& latencies);
 
 // Every node as soon as possible. make_schedule starts from it; tests compare with it.

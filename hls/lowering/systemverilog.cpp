@@ -30,8 +30,8 @@ class DatapathWriter {
   }
 
  private:
-  // Results of arithmetic are never subnormal, and NaN only as 0x7fc00000: comparing them with zero
-  // takes fewer bits.
+  // Results of arithmetic are never subnormal, and NaN only as 0x7fc00000, so comparing them with
+  // zero takes fewer bits.
   void find_canonical() {
     for (const Node& node : graph_.nodes()) {
       bool canonical = node.kind == ValueKind::kReal;
@@ -212,7 +212,7 @@ class DatapathWriter {
     return "";
   }
 
-  // One line of logic, with a register where it takes a cycle.
+  // One line of logic, with a register if it takes a cycle.
   std::string logic(NodeId id, const std::string& expression) const {
     const std::string& name = graph_.node(id).name;
     const std::string head = schedule_.ready[id] > schedule_.start[id]
@@ -222,7 +222,8 @@ class DatapathWriter {
     return head + (fits ? " " : "\n      ") + expression + ";\n";
   }
 
-  // Zero, whatever its sign, subnormals, which count as zero, and NaN are on neither side.
+  // Neither less nor greater than zero are: zero of either sign, subnormals (which count as zero)
+  // and NaN.
   std::string against_zero(NodeId id, const std::string& value, bool less) const {
     const std::string sign = (less ? "" : "~") + value + "[31] & |" + value + "[30:23]";
     if (canonical_[id]) {

@@ -1,4 +1,5 @@
-// A lowered design as text: SystemVerilog for Verilator and Yosys, and what else is made of it.
+// A lowered design as text: the SystemVerilog modules for Verilator and Yosys, and the header of
+// the schedule.
 #pragma once
 
 #include <string>
@@ -7,17 +8,17 @@
 
 namespace emax {
 
-// The datapath: free running, without reset; schedule and ports in its header comment. Built with
-// EMAX_PROBES it has one more output, every node's result. A design of words alone is
+// The datapath: free running, without reset. Its header comment has the schedule and the ports.
+// With EMAX_PROBES it has one more output with every node's result. A design that only has words is
 // combinational and has no clock.
 std::string datapath_module(const LoweredDesign& design);
 
-// The record memory beside the datapath, `<module>_unit`: one memory a field, each read with the
-// slot delayed to the cycle that needs it. Throws std::invalid_argument for a design without
-// record.
+// The record memory with the datapath, `<module>_unit`: one memory for each field, read with the
+// slot delayed to the cycle in which the field is needed. Throws std::invalid_argument for a design
+// without a record.
 std::string unit_module(const LoweredDesign& design);
 
-// Macros <MODULE>_LATENCY and <MODULE>_LAST_READ for what stands beside the unit.
+// Macros <MODULE>_LATENCY and <MODULE>_LAST_READ for the modules that use the unit.
 std::string schedule_header(const LoweredDesign& design);
 
 }  // namespace emax

@@ -1,4 +1,4 @@
-// The forms that lines of generated SystemVerilog take.
+// The text forms of lines of generated SystemVerilog.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@ constexpr std::size_t kLineLength = 100;
 // The file's first line.
 std::string generated_line(const LoweredDesign& design);
 
-// "[31:0] ", nothing for a single bit.
+// "[31:0] "; nothing for a single bit.
 std::string vector_type(int bits);
 
-// Items with commas between, over as many lines as it takes, each later one begun with `indent`.
+// Items separated by commas, on as many lines as needed; later lines begin with `indent`.
 std::string listed(const std::string& head, const std::string& indent,
                    const std::vector<std::string>& items, const std::string& end);
 
-// "  logic [31:0] a, b;", nothing for no names.
+// "  logic [31:0] a, b;"; nothing if there are no names.
 std::string declarations(const std::string& type, const std::vector<std::string>& names);
 
-// An instance with its connections on one line, or on a second one where they do not fit.
+// An instance with its connections on the same line, or on a second one if they do not fit.
 std::string instance(const std::string& module_and_parameters, const std::string& name,
                      const std::string& connections);
 
@@ -31,7 +31,7 @@ std::string instance(const std::string& module_and_parameters, const std::string
 std::string delay_line(int bits, const std::string& width, int cycles, const DelayStyles& styles,
                        const std::string& name, const std::string& from, const std::string& to);
 
-// The name of a value delayed to a cycle, where no other name is in the way (identifiers.h).
+// The name of a value delayed to a cycle, unless another name takes its place (identifiers.h).
 std::string at_cycle(const std::string& name, int cycle);
 
 }  // namespace emax
