@@ -1,4 +1,4 @@
-// The command layer: what crosses the two streams of 32-bit words of a device.
+// The command layer: the contents of the two streams of 32-bit words of a device.
 //
 //   command        header            payload                answer
 //   kIdentify      opcode, 0         -                      header, kAnswerIdentity words

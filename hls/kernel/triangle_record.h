@@ -1,4 +1,4 @@
-// The triangle record: everything the kernel knows of a triangle, 20 words of 32 bits.
+// The triangle record: a triangle as the kernel reads it, 20 words of 32 bits.
 //
 // The record holds the translation and rotation that put V1 on the origin, V2 on the z axis and V3
 // in the yz plane (paper, section 4), so that the distance becomes a problem in two dimensions.

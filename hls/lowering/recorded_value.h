@@ -65,7 +65,7 @@ struct Located {
   SourcePlace place;
 };
 
-// What is common to them: a node of the graph. CRTP only keeps the kinds apart.
+// The common base: a node of the graph. CRTP only keeps the kinds of values apart.
 template <class Recorded>
 class RecordedNode {
  public:

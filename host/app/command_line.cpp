@@ -138,7 +138,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                   "stop an evaluation that needs more memory than this: bytes, or N MB, N GB "
                   "(default: 2 GB and 8 KB a point, at most 7/8 of the memory)")
       ->transform(CLI::AsSizeValue(false))
-      ->transform(not_negative());  // before the other
+      ->transform(not_negative());  // CLI11 runs this one first
   command.add_option("--config", optimize.config,
                      "settings and domains; `emax config` prints the defaults");
   command.callback([&] {

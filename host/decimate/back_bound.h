@@ -71,7 +71,7 @@ class BackBound {
   struct Face {
     Triangle corners;
     std::array<std::uint32_t, 3> neighbours;  // through the side that begins at each corner
-    std::uint32_t seen = 0;                   // the search that last saw it
+    std::uint32_t seen = 0;                   // the last search that reached it
   };
   mutable std::vector<Face> faces_;
   mutable std::uint32_t search_ = 0;

@@ -72,7 +72,7 @@ class EditableMesh {
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> first_;         // of each vertex, 3 * slot + place
   std::vector<std::uint32_t> next_;          // of each corner
-  mutable std::vector<std::uint32_t> seen_;  // the search that last saw each vertex
+  mutable std::vector<std::uint32_t> seen_;  // the last search that reached each vertex
   mutable std::uint32_t search_ = 0;
   std::size_t alive_ = 0;
   bool closed_ = false;

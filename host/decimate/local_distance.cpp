@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/decimate/local_distance.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.
+// This must follow foreach_target.h.
 #include "sw_model/simd/simd_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();

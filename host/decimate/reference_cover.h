@@ -104,7 +104,7 @@ class ReferenceCover {
   std::vector<std::uint32_t> used_;
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> answer_of_;  // of each point, in the edit; or kNoIndex
-  std::vector<std::uint32_t> seen_;       // the edit that last looked at each triangle
+  std::vector<std::uint32_t> seen_;       // the last edit that tested each triangle
   std::uint32_t search_ = 0;
 };
 

@@ -62,7 +62,7 @@ class PartOverTriangle {
   std::vector<PlanarCorner> part_, clipped_;
 };
 
-// How a sheet of triangles that faces T lies over it.
+// A sheet over T is within the limit or beyond it, or no sheet covers T.
 enum class Sheet { kWithin, kBeyond, kNoSheet };
 
 // Follows a sheet of triangles over T. `Faces` describes the sheet:

@@ -1,4 +1,4 @@
-// The triangles near a supergroup of points. Included once a target.
+// The triangles near a supergroup of points. Included once for each target.
 #if defined(EMAX_HOST_CANDIDATES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EMAX_HOST_CANDIDATES_INL_H
 #undef EMAX_HOST_CANDIDATES_INL_H

@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/engine/engine_target.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.
+// These must follow foreach_target.h.
 #include "host/engine/mesh_leaves-inl.h"
 #include "host/engine/packet_search-inl.h"
 

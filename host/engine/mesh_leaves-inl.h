@@ -1,4 +1,4 @@
-// Records and boxes of triangles, a vector of doubles at a time. Included once a target.
+// Records and boxes of triangles, a vector of doubles at a time. Included once for each target.
 #if defined(EMAX_HOST_MESH_LEAVES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EMAX_HOST_MESH_LEAVES_INL_H
 #undef EMAX_HOST_MESH_LEAVES_INL_H

@@ -1,4 +1,5 @@
-// The points of a packet and the boxes of a tree's node as SIMD lanes. Included once a target.
+// The points of a packet and the boxes of a tree's node as SIMD lanes. Included once for each
+// target.
 #if defined(EMAX_HOST_PACKET_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EMAX_HOST_PACKET_LANES_INL_H
 #undef EMAX_HOST_PACKET_LANES_INL_H

@@ -1,4 +1,4 @@
-// The engine's search, kPacketPoints points at a time. Included once a target.
+// The engine's search, kPacketPoints points at a time. Included once for each target.
 #if defined(EMAX_HOST_PACKET_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EMAX_HOST_PACKET_SEARCH_INL_H
 #undef EMAX_HOST_PACKET_SEARCH_INL_H
@@ -218,7 +218,7 @@ inline void search_packets(const SearchJob& job, std::span<const std::uint32_t> 
   }
 }
 
-constexpr std::size_t kPrismTrial = 16;  // every so many supergroups prisms are tried anyway
+constexpr std::size_t kPrismTrial = 16;  // supergroups from one trial of prisms to the next
 constexpr float kGuess = 2.0f;           // ratio of squared radii
 
 // The packets of supergroup s.

@@ -9,7 +9,7 @@
 
 namespace emax {
 
-// How cloud and mesh lie in memory for the engine's SIMD code.
+// The memory layout of cloud and mesh for the engine's SIMD code.
 
 constexpr std::size_t kPacketPoints = 16;
 constexpr std::size_t kSupergroupPackets = 8;
@@ -35,7 +35,7 @@ struct alignas(32) NormalizedVertex {
   std::array<double, 4> at;
 };
 
-// Where a triangle lies along the curve, and its index in the mesh.
+// The position of a triangle along the curve, and its index in the mesh.
 struct LeafKey {
   std::uint32_t code, triangle;
 };

@@ -57,7 +57,7 @@ class Genocop {
   // Throws emax::Error for a problem without genes, an empty domain, settings out of range, and
   // known results that do not fit the problem.
   Genocop(Problem problem, Settings settings, std::uint64_t seed);
-  Genocop(const Genocop&) = delete;  // the monotone step refers to its neighbours
+  Genocop(const Genocop&) = delete;  // members refer to domain_ and problem_
   Genocop& operator=(const Genocop&) = delete;
 
   // Throws std::logic_error unless told() == max(0, asked() - K + 1). O(told() * genes), and

@@ -14,8 +14,8 @@ struct MeshValidity {
   std::size_t non_manifold_edges = 0;     // of more than two
   std::size_t non_manifold_vertices = 0;  // whose triangles are more than one fan joined by edges
   std::size_t inconsistent_edges = 0;  // of two triangles that run through it in the same direction
-  std::size_t degenerate_triangles = 0;  // a repeated index or exactly no area
-  std::size_t self_intersections = 0;    // pairs of triangles that meet beyond what they share
+  std::size_t degenerate_triangles = 0;         // a repeated index or exactly no area
+  std::size_t self_intersections = 0;           // pairs that meet outside shared vertices and edges
   std::size_t self_intersecting_triangles = 0;  // that are in at least one such pair
   std::size_t components = 0;                   // of triangles joined by edges
 

@@ -8,8 +8,8 @@ namespace emax {
 
 // Properties of a scan, in its own unit.
 struct ScanEstimate {
-  // Side of the square that one point has of the surface: sqrt(area / points). Median over the
-  // points of the estimate from the distance to the tenth neighbour.
+  // The side of the square of surface for each point, sqrt(area / points). It is the median over
+  // the points of an estimate from the distance to the tenth neighbour.
   double spacing = 0;
   // Standard deviation of the points across the surface. Quadrics are fitted through the 25 nearest
   // and through the 12 nearest points of each point; the medians of their residuals count. The

@@ -22,8 +22,8 @@ Point ahead_of(const RimEdge& edge) {
   return (away - away.dot(along) * along).normalized();
 }
 
-// The distance between vertices around a loop: the side of the square that each vertex has of the
-// surface. Median over the loop. Vertices at the loop are on one side only.
+// The distance between vertices around a loop: the side of the square of surface for each vertex.
+// Median over the loop, whose vertices have neighbours on one side only.
 double spacing_at(std::span<const RimEdge> loop, const PointTree& tree) {
   constexpr std::size_t kAround = 10;
   std::vector<double> squares;

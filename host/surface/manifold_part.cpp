@@ -138,7 +138,8 @@ std::size_t drop_at_edges(TriangleMesh& mesh) {
   return drop(mesh, flags);
 }
 
-// The corners of triangles, 3 * triangle + place, as fans: joined at their vertex through edges.
+// The corners of triangles (3 * triangle + place) in fans. Edges at the vertex join a fan's
+// corners.
 class Fans {
  public:
   explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), sets_(3 * mesh.triangles.size()) {}

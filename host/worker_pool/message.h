@@ -17,7 +17,8 @@
 //    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
 //    once
 //   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number}}
-//   {"kind": "stop"}                                                 to a worker: the mesh at hand
+//   {"kind": "stop"}                                                 to a worker: end the
+//   decimation
 //   {"kind": "ready"}                                                from a worker, first and once
 //   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
 //    "reconstruction_triangles": n, "unmeshed_points": n,
@@ -75,7 +76,7 @@ inline constexpr std::uint64_t kMaximumLength = std::uint64_t{1} << 32;
 // The bytes of a message, its length first.
 Bytes encode(const Message& message);
 
-// The length that eight bytes announce.
+// The length of a message, which these eight bytes hold.
 std::uint64_t announced_length(std::span<const std::uint8_t, kLengthBytes> bytes);
 
 // Decodes a message without its length. Throws Error if it is not one of the above, a coordinate or

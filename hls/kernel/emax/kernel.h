@@ -6,7 +6,7 @@
 //   emax::EmaxKernel<float> kernel;      // command words in, answer words out: serve()
 //   float d2 = emax::squared_distance(record, false, point);
 //
-// Link emax::kernel (header-only, C++14). For synthesis include "hls/kernel/emax_kernel.h"
+// Links with emax::kernel (header-only, C++14). For synthesis include "hls/kernel/emax_kernel.h"
 // directly. sw_model makes the records (docs/kernel.md); docs/protocol.md defines commands and
 // answers. Source: section 4 of the paper.
 #ifndef EMAX_KERNEL_H

@@ -5,7 +5,7 @@
 //   const emax::Decimation made = emax::decimate(mesh, {.max_error = 0.5});
 //   save(made.surface);   // every point of either surface within 0.5 of the other, proven
 //
-// Link emax::decimate. Source: section 2.2 and reference [6], whose decimation has no bound.
+// Links with emax::decimate. Source: section 2.2 and reference [6], whose decimation has no bound.
 // Method: docs/decisions/0010-the-bounded-decimator.md.
 #pragma once
 

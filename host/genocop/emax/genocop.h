@@ -12,8 +12,8 @@
 //                                  {1 - g[0] - g[1]});                          // x + y >= 1
 //   }, {.budget = 200, .seed = 1});
 //
-// Link emax::genocop. Source: section 2.3; Michalewicz & Nazhiyath (1995). docs/genocop3.md lists
-// the differences from it.
+// Links with emax::genocop. Source: section 2.3; Michalewicz & Nazhiyath (1995). docs/genocop3.md
+// lists the differences from it.
 #pragma once
 
 #include <emax/error.h>

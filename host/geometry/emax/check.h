@@ -4,7 +4,7 @@
 //
 //   if (!emax::check_surface(mesh).valid()) ...
 //
-// Link emax::certify. Several threads may call the function at once.
+// Links with emax::certify. Several threads may call the function at once.
 #pragma once
 
 #include <emax/error.h>
@@ -22,7 +22,7 @@ struct SurfaceCheck {
   std::size_t non_manifold_vertices = 0;  // whose triangles are more than one fan joined by edges
   std::size_t inconsistent_edges = 0;     // of two triangles that run through it the same way
   std::size_t degenerate_triangles = 0;   // a repeated index or exactly no area
-  std::size_t self_intersections = 0;     // pairs of triangles that meet beyond what they share
+  std::size_t self_intersections = 0;     // pairs that meet outside shared vertices and edges
   std::size_t boundary_edges = 0;         // of one triangle; not a fault
   std::size_t components = 0;             // of triangles joined by edges
 

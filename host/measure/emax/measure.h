@@ -7,7 +7,7 @@
 //   const emax::Measurement error = meter.e_max(mesh);
 //   std::cout << error.e_max << " at point " << error.worst_point << '\n';
 //
-// Link emax::measure. These numbers are for searching, plotting and comparing; emax/certify.h
+// Links with emax::measure. These numbers are for searching, plotting and comparing; emax/certify.h
 // proves a bound. Source: section 4; arithmetic: docs/numerics.md.
 #pragma once
 
