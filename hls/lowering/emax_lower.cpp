@@ -35,7 +35,7 @@ how to lower
   --latency K=N,...   cycles of each operator, and levels of lookup tables between registers:
 LATENCIES  --family FAMILY     ecp5 (the default) or xilinx: how delays are built
   --delay K=N,...     longest delay in registers, narrow_registers (of conditions and slots) and
-                      memory; longer ones take block RAM
+                      memory; longer ones of wide values take block RAM
   -o FILE             written whole or not at all
   --help
 )";
