@@ -23,9 +23,9 @@ bool same_bits(const Genes& a, const Genes& b) {
 }
 
 // What the search is told.
-Evaluation evaluation_of(const LoggedEvaluation& e) {
+Evaluation evaluation_of(const Problem& problem, const LoggedEvaluation& e) {
   if (!e.failure.empty()) return {};
-  return {true, static_cast<double>(e.triangles), e.violation};
+  return make_evaluation(problem.nonlinear, static_cast<double>(e.triangles), e.constraints);
 }
 
 using Result = SearchResult;
@@ -56,7 +56,7 @@ class Run {
       if (pool_->outstanding() > 0 && !reached_its_end()) {
         if (std::optional<Result> result = receive()) {
           const std::uint64_t index = result->evaluation.index;
-          scheduler_.complete(index, evaluation_of(result->evaluation));
+          scheduler_.complete(index, evaluation_of(problem_, result->evaluation));
           results_[index] = std::move(*result);
         }
       }
@@ -128,7 +128,7 @@ class Run {
       if (!candidate) return;
       const std::uint64_t index = candidate->index;
       if (const LoggedEvaluation* known = logged(*candidate)) {
-        scheduler_.complete(index, evaluation_of(*known));
+        scheduler_.complete(index, evaluation_of(problem_, *known));
         results_[index].evaluation = *known;
         ++state_.from_log;
         enter_in_order();
@@ -303,7 +303,7 @@ class Run {
     state_.measuring += std::chrono::duration<double>(Clock::now() - start).count();
     settings_.measured(result.mesh.view(), result.error);
     e.triangles = result.mesh.triangles.size();
-    e.violation = violation_of(made, result.error, settings_.bound);
+    e.constraints = constraints_of(made, result.error, settings_.bound);
     e.squared_bits = result.error.kept.squared_bits;
     e.reconstruction_triangles = made.reconstruction_triangles;
     e.unmeshed_points = made.unmeshed_points;
@@ -358,10 +358,10 @@ class Run {
     if (!feasible && state_.best) return false;
     const std::optional<BestMesh>& place = feasible ? state_.best : state_.least_error;
     const LoggedEvaluation& e = result.evaluation;
-    return !place ||
-           (feasible ? std::pair(e.triangles, e.index) <
-                           std::pair(std::uint64_t{place->triangles}, place->index)
-                     : std::pair(e.violation, e.index) < std::pair(place->violation, place->index));
+    return !place || (feasible ? std::pair(e.triangles, e.index) <
+                                     std::pair(std::uint64_t{place->triangles}, place->index)
+                               : std::pair(e.violation(), e.index) <
+                                     std::pair(place->violation, place->index));
   }
 
   void enter(Result result) {
@@ -382,7 +382,7 @@ class Run {
     if (result.feasible()) best_genes_ = e.genes;
     place = BestMesh{e.index,
                      e.triangles,
-                     e.violation,
+                     e.violation(),
                      e.squared_bits,
                      chain(e),
                      e.reconstruction_triangles,

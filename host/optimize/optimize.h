@@ -103,19 +103,19 @@ Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings);
 // fixed in the problem that is searched.
 std::optional<std::size_t> walked_gene(const OptimizeSettings& settings);
 
-// What is searched.
+// What is searched, once the bound of the settings is known.
 Problem search_problem(const OptimizeSettings& settings);
 
 // The candidate that genes of that problem are.
 ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
                        const Genes& genes);
 
-// By what share the worst of the bounds is broken: e_max; under a two-sided bound also the
-// distances of the mesh from the reference and of the reference from the mesh. With another
-// topology than the reference's at least the share that the difference has of one more than itself.
-// At most 0 when feasible.
-double violation_of(const ChainResult& made, const MeasuredError& error,
-                    const DecimationBound& bound);
+// The values of the problem's nonlinear constraints, each at most 0 when it holds. Of a bound: by
+// what share it is broken. First e_max; under a two-sided bound then the distance of the mesh from
+// the reference, that of the reference from the mesh, and the topology: the share that its
+// difference from the reference's has of one more than itself.
+std::vector<double> constraints_of(const ChainResult& made, const MeasuredError& error,
+                                   const DecimationBound& bound);
 
 // Evaluations run in worker processes; e_max is measured here, on the device or, without one, on
 // this processor. A run that ends by its budget, target or stagnation gives the same state for any

@@ -8,6 +8,8 @@
 namespace emax {
 namespace {
 
+bool is_two_sided(const DecimationBound& bound) { return bound.epsilon_back > 0; }
+
 // The first start with other values where the problem has these genes, each within its domain.
 // Nothing where it has none of them.
 void add_start(Problem& problem, const ParameterValues& values) {
@@ -114,6 +116,7 @@ Problem search_problem(const OptimizeSettings& settings) {
   const bool named = settings.decimator != kAutoDecimator && !walked;
   Problem problem = make_problem(
       settings.config, named ? decimator_named(settings.decimator).monotone : std::string_view());
+  problem.nonlinear.resize(is_two_sided(settings.bound) ? 4 : 1);
   begin_with_fitted(problem, settings);
   if (!walked) return problem;
   Gene& gene = problem.genes[*walked];
@@ -131,13 +134,13 @@ ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
   return chain_settings(settings.method, settings.decimator, ParameterValues(std::move(values)));
 }
 
-double violation_of(const ChainResult& made, const MeasuredError& error,
-                    const DecimationBound& bound) {
-  if (!(bound.epsilon_back > 0)) return error.violation;
+std::vector<double> constraints_of(const ChainResult& made, const MeasuredError& error,
+                                   const DecimationBound& bound) {
+  if (!is_two_sided(bound)) return {error.violation};
   const auto difference = static_cast<double>(made.topology_difference);
-  return std::max({error.violation, made.back_distance / bound.epsilon_back - 1,
-                   made.reference_distance / bound.epsilon - 1,
-                   difference > 0 ? difference / (1 + difference) : -1});
+  return {error.violation, made.back_distance / bound.epsilon_back - 1,
+          made.reference_distance / bound.epsilon - 1,
+          difference > 0 ? difference / (1 + difference) : -1};
 }
 
 }  // namespace emax

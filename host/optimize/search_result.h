@@ -17,7 +17,7 @@ struct SearchResult {
   MeasuredError error;
 
   bool failed() const { return !evaluation.failure.empty(); }
-  bool feasible() const { return !failed() && evaluation.violation <= 0; }
+  bool feasible() const { return !failed() && evaluation.violation() <= 0; }
 };
 
 // A candidate that a worker has.
@@ -32,7 +32,7 @@ struct CandidateInWork {
   bool walk_on(SearchResult& result) {
     const LoggedEvaluation& e = result.evaluation;
     result.evaluation.walked = walk->next();
-    walk->told(!result.failed(), e.triangles, e.violation);
+    walk->told(!result.failed(), e.triangles, e.violation());
     const bool better = !best || (result.feasible() &&
                                   (!best->feasible() || e.triangles < best->evaluation.triangles));
     if (better) best = std::move(result);

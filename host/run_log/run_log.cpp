@@ -66,18 +66,30 @@ void write_settings(const fs::path& folder, const ordered_json& settings) {
   write_atomically(folder / kSettingsName, settings.dump(2) + "\n");
 }
 
+// Byte strings keep every bit.
+ordered_json binary(const std::vector<double>& values) {
+  std::vector<std::uint8_t> bytes(values.size() * sizeof(double));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return ordered_json::binary(std::move(bytes));
+}
+
+std::vector<double> doubles(const ordered_json& json) {
+  const auto& bytes = json.get_binary();
+  std::vector<double> values(bytes.size() / sizeof(double));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+  return values;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
-  std::vector<std::uint8_t> genes(e.genes.size() * sizeof(double));
-  if (!genes.empty()) std::memcpy(genes.data(), e.genes.data(), genes.size());
-  ordered_json json = {{"index", e.index}, {"genes", ordered_json::binary(std::move(genes))}};
+  ordered_json json = {{"index", e.index}, {"genes", binary(e.genes)}};
   if (!e.failure.empty()) {
     json["failure"] = e.failure;
     json["message"] = e.message;
   } else {
     json["triangles"] = e.triangles;
-    json["violation"] = e.violation;
+    json["constraints"] = binary(e.constraints);
     json["e_max_squared_bits"] = e.squared_bits;
     json["reconstruction_triangles"] = e.reconstruction_triangles;
     json["unmeshed_points"] = e.unmeshed_points;
@@ -93,17 +105,14 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
     const ordered_json json = ordered_json::from_cbor(content.begin(), content.end());
     LoggedEvaluation e;
     json.at("index").get_to(e.index);
-    const auto& genes = json.at("genes").get_binary();
-    e.genes.resize(genes.size() / sizeof(double));
-    if (!e.genes.empty())
-      std::memcpy(e.genes.data(), genes.data(), e.genes.size() * sizeof(double));
+    e.genes = doubles(json.at("genes"));
     if (json.contains("failure")) {
       json.at("failure").get_to(e.failure);
       json.at("message").get_to(e.message);
       return e;
     }
     json.at("triangles").get_to(e.triangles);
-    json.at("violation").get_to(e.violation);
+    e.constraints = doubles(json.at("constraints"));
     json.at("e_max_squared_bits").get_to(e.squared_bits);
     json.at("reconstruction_triangles").get_to(e.reconstruction_triangles);
     json.at("unmeshed_points").get_to(e.unmeshed_points);

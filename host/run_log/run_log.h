@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -27,11 +28,16 @@ struct LoggedEvaluation {
 
   std::optional<double> walked;  // the value of the gene that the evaluation searched for itself
   std::uint64_t triangles = 0;
-  double violation = 0;            // as MeasuredError has it; at most 0 when feasible
-  std::uint32_t squared_bits = 0;  // the kernel's e_max^2 over the points that are not excluded
+  std::vector<double> constraints;  // values of Problem::nonlinear, each at most 0 when it holds
+  std::uint32_t squared_bits = 0;   // the kernel's e_max^2 over the points that are not excluded
   std::uint64_t reconstruction_triangles = 0, unmeshed_points = 0;
   bool stopped = false;  // before its end: gives a mesh, but no result of the candidate
   std::optional<std::uint32_t> mesh_crc;  // CRC-32 of the mesh's file, if it was kept
+
+  // Of the most violated constraint.
+  double violation() const {
+    return constraints.empty() ? 0 : *std::max_element(constraints.begin(), constraints.end());
+  }
 
   bool operator==(const LoggedEvaluation&) const = default;
 };

@@ -23,8 +23,8 @@ struct RealSearch {
     settings.config.search.monotone_walk = false;  // every trial is an evaluation
     settings.output = "mesh.ply";
     if (decimator == "bounded") settings.epsilon_back = epsilon;
-    problem = search_problem(settings);
     settings.bound = decimation_bound(cloud, *constraint, settings);
+    problem = search_problem(settings);
     pool = std::make_unique<WorkerPool>(cloud, settings.bound,
                                         worker_pool_options(cloud.size(), settings));
   }
@@ -36,8 +36,8 @@ struct RealSearch {
     if (made == nullptr) return {};
     try {
       const MeasuredError error = constraint->measure(made->mesh.view());
-      return {true, static_cast<double>(made->mesh.triangles.size()),
-              violation_of(*made, error, settings.bound)};
+      return make_evaluation(problem.nonlinear, static_cast<double>(made->mesh.triangles.size()),
+                             constraints_of(*made, error, settings.bound));
     } catch (const Error&) {  // a mesh that cannot be measured fails, as in a run
       return {};
     }

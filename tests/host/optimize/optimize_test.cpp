@@ -182,10 +182,10 @@ TEST_F(OptimizeTest, StopsAtTheSameEvaluationHoweverItIsRun) {
     for (std::uint64_t i = 0; i < kBudget; ++i) {
       const LoggedEvaluation& e = evaluations[i];
       if (e.failure.empty()) {
-        if (e.violation <= 0 && e.triangles < best) {
+        if (e.violation() <= 0 && e.triangles < best) {
           best = e.triangles;
           better = i + 1;
-        } else if (e.violation > 0 && best == ~std::uint64_t{0} && e.squared_bits < error) {
+        } else if (e.violation() > 0 && best == ~std::uint64_t{0} && e.squared_bits < error) {
           error = e.squared_bits;
           better = i + 1;
         }

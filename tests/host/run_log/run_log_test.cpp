@@ -17,7 +17,7 @@ LoggedEvaluation measured(std::uint64_t index) {
   e.index = index;
   e.genes = {0.1, -0.0, 5e-324, 1.7976931348623157e308, 3};
   e.triangles = 100 + index;
-  e.violation = -0.25;
+  e.constraints = {-0.25, -1};
   e.squared_bits = 0x38f2c662;
   e.reconstruction_triangles = 4000000000;
   e.unmeshed_points = 3;
@@ -78,8 +78,8 @@ TEST(LoggedEvaluation, KeepsEveryBit) {
   EXPECT_EQ(decode_evaluation(encode(e)), e);
   e.mesh_crc = 0xffffffff;
   for (const double violation : {-0.0, 5e-324, 1e300, std::numeric_limits<double>::infinity()}) {
-    e.violation = violation;
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(decode_evaluation(encode(e)).violation),
+    e.constraints = {violation};
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(decode_evaluation(encode(e)).violation()),
               std::bit_cast<std::uint64_t>(violation));
   }
   const std::vector<std::uint8_t> bytes = encode(e);
