@@ -1,7 +1,8 @@
 // Drives the element's netlist beside the model, with the tests of the source's co-simulation that
 // are for an element of 16 record slots.
 //
-// Exit code 0 where every word equals the model's, else 1.
+// Prints the first word of each test that differs. Exit code 0 where every word equals the model's,
+// else 1.
 #include <Vnetlist_element.h>
 
 #include <cstdio>
@@ -20,6 +21,12 @@ int main() {
     std::printf("%s: %llu pairs, %llu mismatches\n", report.name.c_str(),
                 static_cast<unsigned long long>(report.pairs),
                 static_cast<unsigned long long>(report.mismatches));
+    if (report.failure) {
+      const emax::Mismatch& first = report.failure->mismatch;
+      std::printf("  %s, beat %llu, cycle %llu: %s\n", first.stream.c_str(),
+                  static_cast<unsigned long long>(first.sample),
+                  static_cast<unsigned long long>(first.cycle), first.what.c_str());
+    }
     pairs += report.pairs;
     mismatches += report.mismatches;
   }
