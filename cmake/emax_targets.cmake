@@ -16,8 +16,8 @@ function(emax_flags target)
   endif()
   if(EMAX_SANITIZE)
     target_compile_options(${target} PRIVATE
-      -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
-    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+      -g1 -fsanitize=${EMAX_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${EMAX_SANITIZE})
     # Under the address sanitizer Eigen would pad what it allocates, and the packaged PCL does not.
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()

@@ -76,8 +76,8 @@ struct PacketLanes {
   HWY_INLINE std::uint32_t inside(const TriangleRecord<float>& r, const Prism& prism) const {
     const FloatTag d;
     const auto all = [d](float value) HWY_ATTR { return hn::Set(d, value); };
-    const auto along = [ d, &all ](const Vector3<float>& axis, const hn::Vec<FloatTag>(&q)[3])
-        HWY_ATTR __attribute__((always_inline)) {
+    const auto along = [&all](const Vector3<float>& axis, const hn::Vec<FloatTag>(&q)[3]) HWY_ATTR
+        __attribute__((always_inline)) {
       return hn::MulAdd(q[2], all(axis.z),
                         hn::MulAdd(q[1], all(axis.y), hn::Mul(q[0], all(axis.x))));
     };

@@ -7,6 +7,7 @@
 
 #include "host/files/file_content.h"
 #include "host/geometry/merge_vertices.h"
+#include "sw_model/base/deliberate_fault.h"
 
 namespace emax {
 namespace {
@@ -91,7 +92,8 @@ FileContent read_stl(const InputFile& input) {
   // Binary files may also begin with "solid", so the size decides first.
   const std::size_t size = input.bytes.size();
   const bool is_binary = size >= kHeaderBytes &&
-                         size == kHeaderBytes + std::size_t{binary_count(input)} * kTriangleBytes;
+                         (EMAX_FAULT(kTrustsCounts) ||
+                          size == kHeaderBytes + std::size_t{binary_count(input)} * kTriangleBytes);
   if (!is_binary && !input.bytes.starts_with("solid")) {
     input.fail(
         size < kHeaderBytes

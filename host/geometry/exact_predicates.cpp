@@ -64,7 +64,7 @@ class Axis {
 
   template <class Integer>
   Integer integer(std::size_t i) const {
-    Integer magnitude(magnitude_[i]);
+    auto magnitude = static_cast<Integer>(magnitude_[i]);
     magnitude <<= shift_[i];
     return negative_[i] ? Integer(-magnitude) : magnitude;
   }

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "sw_model/base/crc32.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -68,7 +69,8 @@ RecordScan scan_records(std::span<const std::uint8_t> bytes) {
     const std::span<const std::uint8_t> rest = bytes.subspan(at);
     const std::size_t length = number_at(rest);
     const bool fits =
-        length <= RecordFile::kMaximumContent && length <= rest.size() - RecordFile::kRecordBytes;
+        EMAX_FAULT(kTrustsCounts) ||
+        (length <= RecordFile::kMaximumContent && length <= rest.size() - RecordFile::kRecordBytes);
     const auto content = fits ? rest.subspan(RecordFile::kRecordBytes, length) : rest.first(0);
     if (!fits || number_at(rest.subspan(4)) != checksum(content)) {
       ++at;  // search for the next whole record

@@ -17,6 +17,10 @@ enum class Fault {
   kSkipsBackBound,      // the mesh may leave the reference
   kSkipsReference,      // the reference may leave the mesh
   kSkipsIntersections,  // triangles may meet
+  // In the readers of files, messages and frames.
+  kTrustsCounts,   // a count or length is not compared with the bytes that are there
+  kTrustsIndices,  // an index is not compared with the number of vertices
+  kSkipsCrc,       // a CRC is not compared
 };
 
 #ifdef EMAX_DELIBERATE_FAULTS

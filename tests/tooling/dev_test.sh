@@ -34,6 +34,7 @@ expect_silence() { # COMMAND...: it succeeds, prints nothing and does not call a
 expect pass "./dev VERB" "no argument" "$dev"
 expect fail "no verb 'nonsense'" "an unknown verb" "$dev" nonsense
 expect fail "no preset 'nonsense'; there are: release" "an unknown preset" "$dev" build nonsense
+expect fail " bench" "the last preset of the list" "$dev" build nonsense
 expect fail "no section [nonsense]" "an unknown section" "$dev" setup nonsense
 
 # Set-up. The words [installed] are the packages that are there.

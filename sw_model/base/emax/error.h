@@ -15,7 +15,17 @@ inline namespace v1 {
 // what a callback of the caller throws.
 class EMAX_API Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& message) : std::runtime_error(message) {}
+  // Control characters, which parts of a file may bring into a message, become '?'.
+  explicit Error(std::string message) : std::runtime_error(one_line(message)) {}
+
+ private:
+  static const std::string& one_line(std::string& message) {
+    for (char& c : message) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte < 0x20 || byte == 0x7f) c = '?';
+    }
+    return message;
+  }
 };
 
 }  // namespace v1

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "file_bytes.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax::test {

@@ -7,6 +7,7 @@
 #include "file_bytes.h"
 #include "host/files/cloud_file.h"
 #include "host/geometry/merge_vertices.h"
+#include "tests/support/messages.h"
 #include "tests/support/stimuli.h"
 #include "tests/support/temporary_folder.h"
 

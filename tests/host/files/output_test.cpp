@@ -7,6 +7,7 @@
 #include "host/files/atomic_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax::test {

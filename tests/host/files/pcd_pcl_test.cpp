@@ -24,6 +24,7 @@ To numeric_cast(From value) {
 #include <type_traits>
 
 #include "host/files/cloud_file.h"
+#include "tests/support/messages.h"
 #include "tests/support/stimuli.h"
 #include "tests/support/temporary_folder.h"
 

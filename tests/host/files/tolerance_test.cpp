@@ -7,8 +7,8 @@
 
 #include "host/files/number_text.h"
 #include "host/geometry/bounds.h"
+#include "tests/support/messages.h"
 #include "tests/support/stimuli.h"
-#include "tests/support/temporary_folder.h"
 
 namespace emax::test {
 namespace {

@@ -9,6 +9,7 @@
 #include "host/chain/chain.h"
 #include "sw_model/base/error.h"
 #include "tests/host/support/surface_clouds.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax::test {

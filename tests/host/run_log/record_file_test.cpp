@@ -8,6 +8,7 @@
 #include <csignal>
 #include <string>
 
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax::test {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax::test {
