@@ -88,8 +88,7 @@ class Attempts {
   // The points left out at the start that are still too far by exact distances.
   std::vector<std::uint32_t> beyond_for_good(const ExactMesh& mesh) {
     std::ranges::sort(left_out_);
-    const auto repeated = std::ranges::unique(left_out_);
-    left_out_.erase(repeated.begin(), repeated.end());
+    left_out_.erase(std::unique(left_out_.begin(), left_out_.end()), left_out_.end());
     std::vector<std::uint32_t> beyond;
     for (const std::uint32_t p : left_out_) {
       if (mesh.distance(cloud_[p]).upper > epsilon_) beyond.push_back(p);

@@ -61,6 +61,11 @@ bool ended(const xrt::run& run, milliseconds wait) {
   }
 }
 
+// The memory that the first argument of a data mover lies in.
+xrt::memory_group memory_of(const xrt::kernel& mover) {
+  return static_cast<xrt::memory_group>(mover.group_id(0));
+}
+
 class XrtCard : public CardMovers {
  public:
   XrtCard(std::string_view text, const CardAddress& address)
@@ -69,7 +74,7 @@ class XrtCard : public CardMovers {
         uuid_(device_.load_xclbin(address.xclbin)),
         to_core_(device_, uuid_, "emax_to_core", xrt::kernel::cu_access_mode::exclusive),
         from_core_(device_, uuid_, "emax_from_core", xrt::kernel::cu_access_mode::exclusive),
-        answers_(device_, (kMovedHeader + kReadWords) * sizeof(Word), from_core_.group_id(0)),
+        answers_(device_, (kMovedHeader + kReadWords) * sizeof(Word), memory_of(from_core_)),
         reading_(from_core_) {
     for (xrt::run& run : writing_) run = xrt::run(to_core_);
   }
@@ -82,7 +87,7 @@ class XrtCard : public CardMovers {
       // Never empty: a transfer without words needs a buffer, too.
       const std::size_t bytes = std::max(words.size_bytes(), sizeof(Word));
       if (!buffer || buffer.size() < bytes) {
-        buffer = xrt::bo(device_, bytes, to_core_.group_id(0));
+        buffer = xrt::bo(device_, bytes, memory_of(to_core_));
       }
       if (!words.empty()) {
         buffer.write(words.data(), words.size_bytes(), 0);

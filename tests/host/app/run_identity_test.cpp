@@ -131,7 +131,8 @@ TEST(ChecksumOfTheBound, IsThatOfReferenceAndOutliers) {
   DecimationBound moved = bound;
   moved.reference.vertices[0].x() = std::nextafter(moved.reference.vertices[0].x(), 2);
   DecimationBound turned = bound;
-  std::ranges::rotate(turned.reference.triangles[0], turned.reference.triangles[0].begin() + 1);
+  Triangle& first = turned.reference.triangles[0];
+  first = {first[1], first[2], first[0]};
   DecimationBound fewer = bound;
   fewer.outliers = {1};
   DecimationBound others = bound;

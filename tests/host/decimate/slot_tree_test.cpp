@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "host/decimate/spatial_order.h"
@@ -123,7 +124,7 @@ TEST(SpatialOrder, KeepsTheTriangles) {
         const Point& p = of.vertices[of.triangles[t][i]];
         corners[i] = {p[0], p[1], p[2]};
       }
-      std::ranges::rotate(corners, std::ranges::min_element(corners));
+      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
       all.push_back(corners);
     }
     std::ranges::sort(all);
