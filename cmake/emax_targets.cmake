@@ -18,6 +18,8 @@ function(emax_flags target)
     target_compile_options(${target} PRIVATE
       -g1 -fsanitize=${EMAX_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${EMAX_SANITIZE})
+    # In what a sanitizer added GCC 12 sees reads of variables that are not set.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     # Under the address sanitizer Eigen would pad what it allocates, and the packaged PCL does not.
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()
@@ -82,12 +84,13 @@ function(emax_library target)
   endif()
 endfunction()
 
-# emax_test(<name> SOURCES ... LINKS ... [FAULTS <source>...] [TIMEOUT <seconds>]): one GoogleTest
-# program, one ctest entry a test. FAULTS names sources of the product, from the root, that have an
-# EMAX_FAULT (sw_model/base/deliberate_fault.h): a second program has them with their faults, and the
-# tests of suites "...Fault" run there.
+# emax_test(<name> [THREADS] SOURCES ... LINKS ... [FAULTS <source>...] [TIMEOUT <seconds>]): one
+# GoogleTest program, one ctest entry a test. FAULTS names sources of the product, from the root, that
+# have an EMAX_FAULT (sw_model/base/deliberate_fault.h): a second program has them with their faults,
+# and the tests of suites "...Fault" run there. THREADS marks a program with threads; ./dev test tsan
+# runs it.
 function(emax_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS;FAULTS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS" "TIMEOUT" "SOURCES;LINKS;FAULTS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -97,6 +100,11 @@ function(emax_test name)
   # Clang's -Wconversion has the change of a sign too, as of a list {1, 4} of sizes.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  set(properties PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_THREADS)
+    list(APPEND properties LABELS threads)
+    add_dependencies(emax_threads_tests ${name})
+  endif()
   set(filter)
   if(ARG_FAULTS)
     list(TRANSFORM ARG_FAULTS PREPEND ${PROJECT_SOURCE_DIR}/)
@@ -107,11 +115,13 @@ function(emax_test name)
     add_executable(${name}_faults $<TARGET_OBJECTS:${name}> $<TARGET_OBJECTS:${name}_broken>)
     emax_flags(${name}_faults)
     target_link_libraries(${name}_faults PRIVATE ${ARG_LINKS} GTest::gtest_main)
-    gtest_discover_tests(${name}_faults TEST_FILTER *Fault.* DISCOVERY_TIMEOUT 120
-      PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    gtest_discover_tests(${name}_faults TEST_FILTER *Fault.* DISCOVERY_TIMEOUT 120 ${properties})
+    if(ARG_THREADS)
+      add_dependencies(emax_threads_tests ${name}_faults)
+    endif()
     set(filter TEST_FILTER -*Fault.*)
   endif()
-  gtest_discover_tests(${name} ${filter} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} ${filter} DISCOVERY_TIMEOUT 120 ${properties})
 endfunction()
 
 # emax_list_rooms(<file>): writes a line for each library, "<room> <library>", and one for each link
