@@ -23,6 +23,10 @@ function(emax_flags target)
     # Under the address sanitizer Eigen would pad what it allocates, and the packaged PCL does not.
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()
+  if(EMAX_COVERAGE)
+    target_compile_options(${target} PRIVATE -fprofile-instr-generate -fcoverage-mapping)
+    target_link_options(${target} PRIVATE -fprofile-instr-generate)
+  endif()
 endfunction()
 
 # emax_compile_quickly(<target>): for code whose speed nobody notices. In Release it takes two thirds
