@@ -15,7 +15,7 @@ class ReductionWalk {
  public:
   static constexpr int kMostTrials = 8;
 
-  ReductionWalk(double lower, double upper) : lower_(lower), upper_(upper), first_(lower) {}
+  ReductionWalk(double lower, double upper) : lower_(lower), upper_(upper) {}
 
   // The value to try; none when the walk has ended. The same until the trial is told.
   std::optional<double> next() const;
@@ -24,7 +24,6 @@ class ReductionWalk {
 
  private:
   double lower_, upper_;  // the bracket: the greatest value that holds, the least above that breaks
-  double first_;
   std::optional<double> violation_below_, violation_above_;  // at its ends, once tried
   std::size_t triangles_below_ = 0, triangles_above_ = 0;
   int trials_ = 0;

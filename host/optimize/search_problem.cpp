@@ -35,7 +35,8 @@ void begin_with_fitted(Problem& problem, const OptimizeSettings& settings) {
   }
   const std::size_t before = problem.starts.size();
   add_start(problem, values);
-  if (problem.starts.size() > before) std::ranges::rotate(problem.starts, problem.starts.end() - 1);
+  std::vector<std::vector<double>>& starts = problem.starts;
+  if (starts.size() > before) std::rotate(starts.begin(), starts.end() - 1, starts.end());
 }
 
 // Greedy projection leaves points out where its neighbourhoods are small for the cloud, and no

@@ -114,7 +114,8 @@ std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(const ParameterValues&
   pcl::Indices indices;
   std::vector<float> squared_distances;
   for (std::size_t i = 0; i < size(); ++i) {
-    tree.nearestKSearch((*points_)[i], std::max(k, graph_k), indices, squared_distances);
+    tree.nearestKSearch((*points_)[i], static_cast<unsigned>(std::max(k, graph_k)), indices,
+                        squared_distances);
     for (int j = 0; j < graph_k; ++j) {
       neighbours.push_back(static_cast<std::uint32_t>(indices[static_cast<std::size_t>(j)]));
     }
