@@ -12,8 +12,8 @@
 #include "host/config/config.h"
 #include "host/parameters/descriptions.h"
 #include "host/reconstruct/reconstruction.h"
-#include "sw_model/base/error.h"
 #include "tests/host/support/surface_clouds.h"
+#include "tests/support/messages.h"
 
 namespace emax {
 namespace test {
@@ -125,22 +125,14 @@ TEST_F(RegistryTest, OptionsTakeItAndTheHelpNamesIt) {
 }
 
 TEST(Registry, ErrorTextsNameIt) {
-  const auto refusal = [](const auto& ask) -> std::string {
-    try {
-      ask();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  EXPECT_EQ(refusal([] { method_named("alpha"); }),
+  EXPECT_EQ(message_of([] { method_named("alpha"); }),
             "there is no reconstruction method 'alpha'; choose gp3, poisson, hoppe, imls, "
             "tetrahedron or auto");
-  EXPECT_EQ(refusal([] { decimator_named("quadric"); }),
+  EXPECT_EQ(message_of([] { decimator_named("quadric"); }),
             "there is no decimator 'quadric'; choose bounded, schroeder or first");
   ParameterValues flat(chain_parameters("tetrahedron", kNoDecimator));
   flat.set(Tetrahedron::kSize, 0);
-  expect_within(refusal([&] { reconstruct("tetrahedron", sphere_cloud(50), flat); }),
+  expect_within(message_of([&] { reconstruct("tetrahedron", sphere_cloud(50), flat); }),
                 "raise tetrahedron.size");
 }
 
