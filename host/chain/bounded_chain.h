@@ -27,7 +27,7 @@ class BoundedStage {
   BoundedStage(const BoundedStage&) = delete;  // the exact reference refers to the bound's
   BoundedStage& operator=(const BoundedStage&) = delete;
 
-  bool two_sided() const { return bound_.epsilon_back > 0; }
+  bool two_sided() const { return bound_.two_sided(); }
 
   const DecimationBound& bound() const { return bound_; }
   const TriangleMesh& reference() const { return bound_.reference; }

@@ -8,8 +8,6 @@
 namespace emax {
 namespace {
 
-bool is_two_sided(const DecimationBound& bound) { return bound.epsilon_back > 0; }
-
 // The first start with other values where the problem has these genes, each within its domain.
 // Nothing where it has none of them.
 void add_start(Problem& problem, const ParameterValues& values) {
@@ -117,7 +115,7 @@ Problem search_problem(const OptimizeSettings& settings) {
   const bool named = settings.decimator != kAutoDecimator && !walked;
   Problem problem = make_problem(
       settings.config, named ? decimator_named(settings.decimator).monotone : std::string_view());
-  problem.nonlinear.resize(is_two_sided(settings.bound) ? 4 : 1);
+  problem.nonlinear.resize(settings.bound.two_sided() ? 4 : 1);
   begin_with_fitted(problem, settings);
   if (!walked) return problem;
   Gene& gene = problem.genes[*walked];
@@ -137,7 +135,7 @@ ChainSettings chain_of(const OptimizeSettings& settings, const Problem& problem,
 
 std::vector<double> constraints_of(const ChainResult& made, const MeasuredError& error,
                                    const DecimationBound& bound) {
-  if (!is_two_sided(bound)) return {error.violation};
+  if (!bound.two_sided()) return {error.violation};
   const auto difference = static_cast<double>(made.topology_difference);
   return {error.violation, made.back_distance / bound.epsilon_back - 1,
           made.reference_distance / bound.epsilon - 1,

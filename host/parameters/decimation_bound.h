@@ -15,6 +15,8 @@ struct DecimationBound {
   double epsilon_back = 0;  // and all of the mesh within this of the reference; 0: one-sided
   TriangleMesh reference;   // of a two-sided bound, as reference_surface() gives it
   std::vector<std::uint32_t> outliers;  // ascending; points that count for nothing
+
+  bool two_sided() const { return epsilon_back > 0; }
 };
 
 // The points that count; `outliers` ascending.
