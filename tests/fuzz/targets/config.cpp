@@ -7,9 +7,9 @@
 namespace emax::fuzz {
 namespace {
 
-const std::vector<ParameterSpec>& parameters() {
-  static const auto specs = chain_parameters(kAutoMethod, kAutoDecimator);
-  return specs;
+const Parameters& parameters() {
+  static const Parameters all = chain_parameters(kAutoMethod, kAutoDecimator);
+  return all;
 }
 
 }  // namespace
@@ -17,8 +17,8 @@ const std::vector<ParameterSpec>& parameters() {
 void read(Input input) {
   const Config config = read_config(write("file.toml", input), parameters());
   require(config.genes.size() == parameters().size(), "each parameter has its gene");
-  for (const GeneConfig& gene : config.genes) {
-    require(gene.gene.lower <= gene.standard && gene.standard <= gene.gene.upper,
+  for (const Parameter& gene : config.genes) {
+    require(gene.lower <= gene.standard && gene.standard <= gene.upper,
             "a standard value lies in its domain");
   }
   require(!named_values(config).empty(), "a configuration has values");

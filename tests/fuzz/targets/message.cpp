@@ -32,7 +32,7 @@ std::vector<std::string> seeds() {
   const TriangleMesh mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 0.5, 0}}, {{0, 1, 2}}};
   const Message messages[] = {
       PointsMessage{mesh.vertices, {0.1, 0.2, mesh, {1}}},
-      RunMessage{7, {"gp3", "schroeder", {{"normals.k", 20}, {"gp3.mu", 2.7}}}},
+      RunMessage{7, {"gp3", "schroeder", ParameterValues({{"normals.k", 20}, {"gp3.mu", 2.7}})}},
       StopMessage{},
       ReadyMessage{},
       MeshMessage{7, {mesh, 3, 1, 0, 0.1, 0.2, false, {1, 2, 3, 4}}},
