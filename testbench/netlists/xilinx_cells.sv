@@ -71,13 +71,15 @@ module CARRY4 (
     input  logic [3:0] DI, S,
     output logic [3:0] CO, O
 );
-  logic [4:0] carry;
-  assign carry[0] = CI | CYINIT;
-  for (genvar i = 0; i < 4; i++) begin : places
-    assign carry[i+1] = S[i] ? carry[i] : DI[i];
-  end
-  assign O = S ^ carry[3:0];
-  assign CO = carry[4:1];
+  // A signal for each carry, because a vector of them would be a loop to Verilator.
+  logic carry_0, carry_1, carry_2, carry_3, carry_4;
+  assign carry_0 = CI | CYINIT;
+  assign carry_1 = S[0] ? carry_0 : DI[0];
+  assign carry_2 = S[1] ? carry_1 : DI[1];
+  assign carry_3 = S[2] ? carry_2 : DI[2];
+  assign carry_4 = S[3] ? carry_3 : DI[3];
+  assign O = S ^ {carry_3, carry_2, carry_1, carry_0};
+  assign CO = {carry_4, carry_3, carry_2, carry_1};
 endmodule
 
 module FDRE #(
