@@ -33,9 +33,9 @@ class DecimationPasses {
   // Edge collapses, the one that adds least to the energy first, until the limit and the guards
   // permit no more. Returns the number of collapses.
   std::size_t collapse();
-  // Rounds of collapses, flips and relocations that lower Hoppe's energy (power 2). Ends after eight
-  // rounds, or after one without a collapse in which the other edits are fewer than one for each
-  // hundred triangles. Returns the number of edits.
+  // Rounds of collapses, flips and relocations that lower Hoppe's energy (power 2). Ends after
+  // eight rounds, or after one without a collapse in which the other edits are fewer than one for
+  // each hundred triangles. Returns the number of edits.
   std::size_t descend();
   // Moves each vertex to where the energy of its points is least. Returns the number of moved
   // vertices.
