@@ -88,13 +88,15 @@ function(emax_library target)
   endif()
 endfunction()
 
-# emax_test(<name> [THREADS] SOURCES ... LINKS ... [FAULTS <source>...] [TIMEOUT <seconds>]): one
+# emax_test(<name> [THREADS] SOURCES ... LINKS ... [FAULTS <source>...] [TIMEOUT <seconds>]
+#           [SLOW <test>...]): one
 # GoogleTest program, one ctest entry a test. FAULTS names sources of the product, from the root, that
 # have an EMAX_FAULT (sw_model/base/deliberate_fault.h): a second program has them with their faults,
 # and the tests of suites "...Fault" run there. THREADS marks a program with threads; ./dev test tsan
-# runs it.
+# runs it. SLOW names the tests, as GoogleTest filters them, that ./dev test fast leaves out: those of
+# more than three seconds.
 function(emax_test name)
-  cmake_parse_arguments(ARG "THREADS" "TIMEOUT" "SOURCES;LINKS;FAULTS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS" "TIMEOUT" "SOURCES;LINKS;FAULTS;SLOW" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -109,7 +111,7 @@ function(emax_test name)
     list(APPEND properties LABELS threads)
     add_dependencies(emax_threads_tests ${name})
   endif()
-  set(filter)
+  set(left_out ${ARG_SLOW})
   if(ARG_FAULTS)
     list(TRANSFORM ARG_FAULTS PREPEND ${PROJECT_SOURCE_DIR}/)
     add_library(${name}_broken OBJECT ${ARG_FAULTS})
@@ -123,9 +125,24 @@ function(emax_test name)
     if(ARG_THREADS)
       add_dependencies(emax_threads_tests ${name}_faults)
     endif()
-    set(filter TEST_FILTER -*Fault.*)
+    list(APPEND left_out *Fault.*)
+  endif()
+  set(filter)
+  if(left_out)
+    list(JOIN left_out ":" left_out)
+    set(filter TEST_FILTER -${left_out})
   endif()
   gtest_discover_tests(${name} ${filter} DISCOVERY_TIMEOUT 120 ${properties})
+  if(ARG_SLOW)
+    list(JOIN ARG_SLOW ":" slow)
+    gtest_discover_tests(${name} TEST_FILTER ${slow} TEST_LIST ${name}_slow_TESTS DISCOVERY_TIMEOUT 120
+      ${properties} LABELS slow)
+  endif()
+endfunction()
+
+# emax_slow(<test>...): marks other tests of this folder as slow.
+function(emax_slow)
+  set_property(TEST ${ARGN} APPEND PROPERTY LABELS slow)
 endfunction()
 
 # emax_list_rooms(<file>): writes a line for each library, "<room> <library>", and one for each link
