@@ -116,7 +116,8 @@ def page(results, versions, tolerances, driven, board=""):
                                  tolerances=limits)]
     for section, (title, note) in SECTIONS.items():
         parts.append(f"## {title}\n\n{note}\n\n{section_table(section, results[section])}\n")
-    rows = [[name.replace("_", ", "), verdict.removeprefix("netlist: ")] for name, verdict in driven.items()]
+    rows = [[", ".join(name.removeprefix("form_").rsplit("_", 1)), verdict.removeprefix("netlist: ")]
+            for name, verdict in driven.items()]
     parts.append(DRIVEN.format(table=table(["netlist", "compared"], rows)))
     return with_board("\n".join(parts), board)
 
