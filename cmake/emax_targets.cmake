@@ -89,8 +89,8 @@ function(emax_library target)
 endfunction()
 
 # emax_test(<name> [THREADS] SOURCES ... LINKS ... [FAULTS <source>...] [TIMEOUT <seconds>]
-#           [SLOW <test>...]): one
-# GoogleTest program, one ctest entry a test. FAULTS names sources of the product, from the root, that
+#           [SLOW <test>...])
+# One GoogleTest program, one ctest entry a test. FAULTS names sources of the product, from the root, that
 # have an EMAX_FAULT (sw_model/base/deliberate_fault.h): a second program has them with their faults,
 # and the tests of suites "...Fault" run there. THREADS marks a program with threads; ./dev test tsan
 # runs it. SLOW names the tests, as GoogleTest filters them, that ./dev test fast leaves out: those of

@@ -34,10 +34,14 @@ class Design:
         return [*self.sources(family), *sorted(RTL.glob("*.svh")), *sorted(GENERATED.glob("*.svh"))]
 
 
-# Writes a netlist for simulation, with signals split whose parts have different drivers. To Verilator
-# such a signal is a loop where one part makes another, and Verilator 5.006 may leave a loop
-# unsettled: a netlist then seems wrong that is right.
-WRITE_VERILOG = "design -push-copy; splitnets -driver; write_verilog -noattr {folder}/netlist.v; design -pop; "
+def _write_verilog(select=""):
+    """Writes a netlist for simulation, or what `select` selects of it, with signals split whose parts have
+    different drivers. To Verilator such a signal is a loop where one part makes another, and Verilator
+    5.006 may leave a loop unsettled: a netlist then seems wrong that is right."""
+    selected = " -selected" if select else ""
+    return (f"design -push-copy; {select}splitnets -driver; "
+            f"write_verilog -noattr{selected} {{folder}}/netlist.v; design -pop; ")
+
 
 # Yosys 0.70 reads this expression as (~SHIFT_BITS)'(7), Verilator and the standard as
 # ~(SHIFT_BITS'(7)). The adder had it, so every bitstream computed wrong sums while all simulations of
@@ -175,8 +179,7 @@ def ecp5_script(design, shell_path, options):
     dissolved into the shell for placement."""
     return (f"{_read(design, 'ecp5')} {shell_path}; {_ecp5_mapping('synthesis_shell', options)}"
             "tee -q -o {folder}/cells.json stat -json; "
-            "design -push-copy; select c:design %M; splitnets -driver; "
-            "write_verilog -noattr -selected {folder}/netlist.v; design -pop; "
+            f"{_write_verilog('select c:design %M; ')}"
             "setattr -unset keep_hierarchy c:design; flatten; opt_clean; "
             "write_json {folder}/netlist.json")
 
@@ -189,12 +192,12 @@ def _read_with_parameters(design, family):
 def top_script(design, options):
     """A design for ECP5 without a shell: a core, a board."""
     return (f"{_read_with_parameters(design, 'ecp5')}{_ecp5_mapping(design.top, options)}"
-            f"{WRITE_VERILOG}write_json {{folder}}/netlist.json")
+            f"{_write_verilog()}write_json {{folder}}/netlist.json")
 
 
 def words_script(design):
     """What the front end makes of a design before anything is mapped: operations on words."""
-    return f"{_read_with_parameters(design, 'behavioural')}prep -flatten -top {design.top}; {WRITE_VERILOG}"
+    return f"{_read_with_parameters(design, 'behavioural')}prep -flatten -top {design.top}; {_write_verilog()}"
 
 
 def mutants_script(design, mutants, seed):
@@ -208,13 +211,13 @@ def mutants_script(design, mutants, seed):
 
 def mutated_script(gates, mutants):
     """Puts the listed faults into the gates."""
-    return f"read_rtlil {gates}; script {mutants}; opt_clean; {WRITE_VERILOG}"
+    return f"read_rtlil {gates}; script {mutants}; opt_clean; {_write_verilog()}"
 
 
 def xilinx_script(design, wrapper_path, family):
     return (f"{_read(design, 'xilinx')} {wrapper_path}; "
             f"synth_xilinx -family {family} -flatten -noiopad -noclkbuf -top synthesis_wrapper; "
-            f"{WRITE_VERILOG}write_json {{folder}}/netlist.json")
+            f"{_write_verilog()}write_json {{folder}}/netlist.json")
 
 
 def xilinx_figures(netlist):
