@@ -174,8 +174,8 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command.add_option("-o,--output", decimate.output, "mesh: .ply .obj .stl .off")->required();
   command
       .add_option("--effort", decimate.effort,
-                  "how long to look for fewer triangles: quick only collapses edges, deep goes on "
-                  "until nothing is gained")
+                  "how long to look for fewer triangles: quick only collapses edges, deep spreads "
+                  "the error evenly and takes about twice the time of normal")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
   command

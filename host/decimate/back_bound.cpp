@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "host/decimate/local_distance.h"
@@ -12,8 +11,7 @@
 namespace emax {
 namespace {
 
-constexpr double kTouch = 1e-13, kRoundings = 1e-12;  // of the area of T
-constexpr int kMostPieces = 160;                      // pieces that one triangle may be halved into
+constexpr int kMostPieces = 1000;  // that the parts of one triangle may be halved into
 
 }  // namespace
 
@@ -26,12 +24,17 @@ class BackBound::Faces {
   std::uint32_t neighbour(std::uint32_t t, std::size_t side) const {
     return bound_.faces_[t].neighbours[side];
   }
-  bool visit(std::uint32_t t) {
-    return std::exchange(bound_.faces_[t].seen, bound_.search_) != bound_.search_;
-  }
+  bool visited(std::uint32_t t) const { return bound_.faces_[t].seen == bound_.search_; }
+  void visit(std::uint32_t t) { bound_.faces_[t].seen = bound_.search_; }
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                    std::uint32_t t) const {
-    return bound_.part_distance(plane, part, t) <= bound_.limit_;
+    const bool low = std::ranges::all_of(
+        part, [&](const PlanarCorner& c) { return std::abs(c.height) <= bound_.limit_; });
+    return low || bound_.part_within(plane, part, t);
+  }
+  bool rest_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                   std::uint32_t t) const {
+    return bound_.part_within(plane, part, t);
   }
 
  private:
@@ -50,12 +53,15 @@ BackBound::BackBound(const TriangleMesh& reference, double limit)
   for (std::uint32_t t = 0; t < reference_.slots(); ++t) {
     Face& face = faces_[t];
     face.corners = reference_.triangle(t);
+    const std::array<Point, 3> c = reference_.corners(t);
+    mean_edge_ += ((c[1] - c[0]).norm() + (c[2] - c[1]).norm() + (c[0] - c[2]).norm()) / 3;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [first, second] =
           reference_.slots_at_edge(face.corners[i], face.corners[(i + 1) % 3]);
       face.neighbours[i] = first == t ? second : first;
     }
   }
+  mean_edge_ /= static_cast<double>(reference_.slots());
 }
 
 BackBound::Sight BackBound::sight_from(const Point& p, std::uint32_t hint) const {
@@ -97,113 +103,25 @@ Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near) co
   std::uint32_t start = walk_->under_centroid(plane, near, faces);
   if (start == kNoIndex) {
     // At a ridge the nearest triangle may lie on the other side of the ridge.
-    const Point centroid =
-        plane.lift({(plane.corners[1].y + plane.corners[2].y) / 3, plane.corners[2].z / 3, 0});
-    near = sight(centroid, near).triangle;
-    if (near == kNoIndex) return Sheet::kBeyond;
+    near = sight(plane.lift(plane.middle()), near).triangle;
+    if (near == kNoIndex) return Sheet::kUnproven;
     start = walk_->under_centroid(plane, near, faces);
   }
   if (start == kNoIndex) return Sheet::kNoSheet;
   ++search_;
-  const Sheet covering = walk_->follow_covering(plane, start, limit_, faces);
-  if (covering != Sheet::kNoSheet) return covering;
-  ++search_;
-  front_.assign(1, start);
-  faces_[start].seen = search_;
-  sheet_.clear();
-  bool ends = false;
-  double covered = 0, worst = 0;
-  while (!front_.empty()) {
-    const std::uint32_t t = front_.back();
-    front_.pop_back();
-    const Triangle& triangle = faces_[t].corners;
-    std::array<PlanarCorner, 3> r;
-    std::array<unsigned, 3> beyond{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      r[i] = plane.project(reference_.position(triangle[i]));
-      beyond[i] = plane.beyond(r[i]);
-    }
-    if ((beyond[0] & beyond[1] & beyond[2]) != 0) continue;
-    part_.clip(plane, r, beyond);
-    const std::vector<PlanarCorner>& part = part_.corners();
-    if (part.empty()) continue;
-    double overlap = 0;
-    for (std::size_t i = 2; i < part.size(); ++i) {
-      overlap += 0.5 * ((part[i - 1].y - part[0].y) * (part[i].z - part[0].z) -
-                        (part[i - 1].z - part[0].z) * (part[i].y - part[0].y));
-    }
-    // A triangle that only touches T proves nothing about T, whichever way it faces. At a triangle
-    // that faces away, over a ridge, the sheet ends.
-    if (std::abs(overlap) < kTouch * plane.area || !faces_plane(r)) {
-      ends = true;
-      continue;
-    }
-    sheet_.push_back(r);
-    covered += overlap;
-    worst = std::max(worst, part_distance(plane, part, t));
-    if (!(worst <= limit_)) return Sheet::kBeyond;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if ((beyond[i] & beyond[(i + 1) % 3]) != 0) continue;
-      const std::uint32_t next = faces_[t].neighbours[i];
-      ends = ends || next == kNoIndex;
-      if (next == kNoIndex || faces_[next].seen == search_) continue;
-      faces_[next].seen = search_;
-      front_.push_back(next);
-    }
-  }
-  if (sheet_.empty() || (ends && covers_itself())) return Sheet::kNoSheet;
-  // Let p be a point of T at distance r from the covered part. T scaled about p by r / its longest
-  // side lies in T and is not covered, so the area of the rest bounds r.
-  const double rest = std::max(plane.area - covered, 0.0) + kRoundings * plane.area;
-  const double reach = plane.longest * std::sqrt(rest / plane.area);
-  return worst + reach <= limit_ ? Sheet::kWithin : Sheet::kNoSheet;
+  return walk_->follow_covering(plane, start, limit_, faces);
 }
 
-// Whether two triangles of the sheet overlap in the projection. Triangles with a common vertex have
-// the same numbers for it, so triangles that only touch are recognised exactly.
-bool BackBound::covers_itself() const {
-  using Shape = std::array<PlanarCorner, 3>;
-  const auto separates = [](const Shape& s, const Shape& t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const PlanarCorner &a = s[i], &b = s[(i + 1) % 3];
-      if (std::all_of(t.begin(), t.end(), [&](const PlanarCorner& c) {
-            return (b.y - a.y) * (c.z - a.z) <= (b.z - a.z) * (c.y - a.y);
-          })) {
-        return true;
-      }
-    }
-    return false;
-  };
-  const auto left = [](const Shape& s) { return std::min({s[0].y, s[1].y, s[2].y}); };
-  std::sort(sheet_.begin(), sheet_.end(),
-            [&](const Shape& s, const Shape& t) { return left(s) < left(t); });
-  for (std::size_t i = 0; i < sheet_.size(); ++i) {
-    const Shape& s = sheet_[i];
-    const double right = std::max({s[0].y, s[1].y, s[2].y});
-    for (std::size_t j = i + 1; j < sheet_.size() && left(sheet_[j]) < right; ++j) {
-      if (!separates(s, sheet_[j]) && !separates(sheet_[j], s)) return true;
-    }
-  }
-  return false;
-}
-
-// Returns at most the limit, or infinity.
-double BackBound::part_distance(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                                std::uint32_t triangle) const {
-  double height = 0;
-  for (const PlanarCorner& c : part) height = std::max(height, std::abs(c.height));
-  if (height <= limit_) return height;
-  double squared = 0;
-  for (const PlanarCorner& c : part) {
-    squared = std::max(squared, squared_distance(plane.lift(c), reference_.corners(triangle)));
-  }
-  if (squared <= squared_limit_) return std::sqrt(squared);
+bool BackBound::part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                            std::uint32_t triangle) const {
+  const bool within = std::ranges::all_of(part, [&](const PlanarCorner& c) {
+    return squared_distance(plane.lift(c), reference_.corners(triangle)) <= squared_limit_;
+  });
+  if (within) return true;
   for (std::size_t i = 2; i < part.size(); ++i) {
-    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])})) {
-      return std::numeric_limits<double>::infinity();
-    }
+    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])})) return false;
   }
-  return limit_;
+  return true;
 }
 
 bool BackBound::halve(const std::array<Point, 3>& corners) const {

@@ -16,16 +16,14 @@ namespace emax {
 //
 // The reference near a triangle T is mostly one sheet over it. From a triangle of the reference
 // under the middle of T the sheet is followed through its edges as far as it overlaps T in T's
-// projection and faces the same way. The distance to one triangle of the reference is convex, so no
-// point of the part of T that this triangle covers is farther than the farthest corner of the part.
-// Where the sheet does not end over T, all of T is covered. At ridges and borders of the reference
-// the parts must not overlap each other, as they do at a pleat or along a ramp. The area of T that
-// they leave then bounds how far an uncovered point is from the covered part. Parts beyond the
-// limit, and all of T where the sheet gives no proof, are halved until each piece is within the
-// limit of one triangle of the reference.
+// projection and faces the same way (SheetWalk). The distance to one triangle of the reference is
+// convex, so no point of the part of T that this triangle covers is farther than the farthest
+// corner of the part. Likewise for the parts of T that an edge hides at which the sheet ends: at
+// creases and borders T hangs over by less than the limit. Parts of which this does not prove
+// enough, and all of T where no sheet is under its middle, are halved until each piece is within
+// the limit of one triangle of the reference.
 //
-// O(triangles of the reference over T), or their square at worst where the sheet ends. Not for
-// concurrent use.
+// O(triangles of the reference over T). Not for concurrent use.
 class BackBound {
  public:
   // `reference` is manifold, consistently oriented and without degenerate triangles.
@@ -33,6 +31,7 @@ class BackBound {
   ~BackBound();
 
   double limit() const { return limit_; }
+  double mean_edge() const { return mean_edge_; }  // length, of the reference
   // Sights taken before keep shares of the former limit.
   void set_limit(double limit) {
     limit_ = limit;
@@ -59,14 +58,14 @@ class BackBound {
   class Faces;
 
   Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near) const;
-  bool covers_itself() const;
-  double part_distance(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                       std::uint32_t triangle) const;
+  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                   std::uint32_t triangle) const;
   bool halve(const std::array<Point, 3>& corners) const;
 
   EditableMesh reference_;
   SlotTree tree_;
   double limit_, squared_limit_;
+  double mean_edge_ = 0;
   // The data of a triangle that following the sheet reads, in one place.
   struct Face {
     Triangle corners;
@@ -75,10 +74,7 @@ class BackBound {
   };
   mutable std::vector<Face> faces_;
   mutable std::uint32_t search_ = 0;
-  mutable std::vector<std::uint32_t> front_;
   mutable std::unique_ptr<SheetWalk<Faces>> walk_;
-  mutable PartOverTriangle part_;
-  mutable std::vector<std::array<PlanarCorner, 3>> sheet_;  // the triangles followed so far
   mutable std::vector<std::array<Point, 3>> pieces_;
   mutable int budget_ = 0;
 };

@@ -18,7 +18,10 @@ namespace {
 // Roundings of the local tests: a few units in the last place of the coordinates.
 constexpr double kRoundings = 0x1p-46;
 constexpr double kMargin = 1e-7;
-constexpr double kBelongs = 0.1;    // of the mesh's width
+// Of the extent: twice what surface_distance leaves undecided, so that the certificate of a mesh
+// that comes as near to its limit as it may does not fail.
+constexpr double kUndecided = 0x1p-29, kMostUndecided = 0.01;  // and at most of the limit
+constexpr double kBelongs = 0.1;                               // of the mesh's width
 constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference get a sample
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
@@ -29,7 +32,7 @@ double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   return greatest;
 }
 
-double limit_of(double epsilon, double roundings) {
+double limit_of(double epsilon, double roundings, double undecided) {
   if (!(epsilon > 0) || !std::isfinite(epsilon)) {
     throw Error("the maximum error of a decimation has to be positive and finite");
   }
@@ -38,7 +41,7 @@ double limit_of(double epsilon, double roundings) {
         "the maximum error is lost in the roundings of the coordinates; move the data "
         "closer to the origin or allow more");
   }
-  return epsilon * (1 - kMargin) - roundings;
+  return epsilon * (1 - kMargin) - roundings - std::min(undecided, kMostUndecided * epsilon);
 }
 
 void require_belonging(const DecimationState& state) {
@@ -183,11 +186,12 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   if (start.triangles.empty()) throw Error("the mesh has no triangles to decimate");
   const double roundings =
       kRoundings * greatest_coordinate({start.vertices, reference_.vertices, cloud_});
-  const double limit = limit_of(settings.epsilon, roundings);
+  const double undecided = kUndecided * bounds_of(reference_.vertices).width();
+  const double limit = limit_of(settings.epsilon, roundings, undecided);
   double back_limit = 0;
   if (settings.two_sided) {
     const bool own = settings.epsilon_back > 0;
-    back_limit = limit_of(own ? settings.epsilon_back : settings.epsilon, roundings);
+    back_limit = limit_of(own ? settings.epsilon_back : settings.epsilon, roundings, undecided);
   }
   const Prepared& known = prepared(limit, back_limit);
   DecimationState::Guards guards;
@@ -212,8 +216,9 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     options.spring = settings.hoppe.spring;
     options.representation = settings.hoppe.representation * width * width / (limit * limit);
   }
-  result.interrupted = !run_passes(state, std::move(options), settings);
-  result.mesh = state.mesh().compact();
+  ScheduledMesh scheduled = run_passes(state, std::move(options), settings);
+  result.interrupted = !scheduled.complete;
+  result.mesh = std::move(scheduled.mesh);
   return result;
 }
 

@@ -10,7 +10,8 @@ constexpr double kHopeless = 4;    // squared distance / limit^2 from which fine
 constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
 constexpr double kSecondChoice = 0.5;  // likewise, for a collapse that keeps an end in place
 constexpr double kNothing = 1e-8;      // an energy too small to be worth a move
-constexpr double kLeastGain = 1e-3;    // least share of its energy that a move or flip gains
+constexpr double kNothingOfHighPowers = 1e-30;
+constexpr double kLeastGain = 1e-3;  // least share of its energy that a move or flip gains
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
 constexpr double kLeastSwept = 0.1;  // the least share of the triangles that a sweep must remove
@@ -39,6 +40,12 @@ DecimationPasses::DecimationPasses(DecimationState& state, Options options, Poll
       options_(std::move(options)),
       poll_(std::move(poll)),
       search_(state, options_.spring) {}
+
+void DecimationPasses::restart(const FeatureEdges& features) {
+  options_.features = features;
+  search_.use(LocalSearch::Steps::kReweighted);
+  spare_ = kNoIndex;
+}
 
 bool DecimationPasses::poll(double done) {
   if (!stopped_ && poll_ && ++polls_ % 64 == 0) stopped_ = poll_(done);
@@ -77,7 +84,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
   const Point pa = state_.mesh().position(a), pb = state_.mesh().position(b);
   const bool hoppe = options_.representation > 0;
   LocalSearch::Options options;
-  if (hoppe) options.power = 2;
+  options.power = hoppe ? 2 : power_;
   const double before = search_.energy_before(options.power) + options_.representation;
   Fit fit;
   if (feature == FeatureEdges::Collapse::kAlong) {
@@ -113,6 +120,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
 // within the limit.
 bool DecimationPasses::place(const Point& pa, const Point& pb, Fit& fit) {
   LocalSearch::Options options;
+  options.power = power_;
   if (search_.fine()) options.steps = 0;
   bool any = search_.fit(search_.quadric_optimum(), options, fit);
   for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
@@ -120,7 +128,8 @@ bool DecimationPasses::place(const Point& pa, const Point& pb, Fit& fit) {
     any = search_.fit(start, options, fit);
   }
   if (!any || fit.worst > kHopeless) return false;
-  if (fit.worst <= 1) return true;
+  if (fit.worst <= state_.permitted()) return true;
+  if (state_.loosened()) return false;
   options.power = 8;
   options.steps = 8;
   Fit finer;
@@ -245,7 +254,7 @@ bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limi
   if (options_.features.fixed(vertex)) return false;
   if (!search_.prepare_relocation(vertex)) return false;
   const double before = search_.energy_before(power);
-  if (before < kNothing) return false;
+  if (before < (power > 4 ? kNothingOfHighPowers : kNothing)) return false;
   Fit fit;
   LocalSearch::Options options;
   options.power = power;

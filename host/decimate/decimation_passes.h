@@ -47,6 +47,31 @@ class DecimationPasses {
   // stay.
   std::size_t collapse_and_mend();
 
+  // The passes that ErrorEquidistribution uses (equidistribution_passes.cpp).
+
+  // Greatest squared distance / limit^2 that a triangle answers for: of its points, its vertices
+  // and its edges.
+  double worst_of(std::uint32_t slot) const;
+  // The triangles with a point beyond the limit or that break the back bound as last tested, the
+  // worst first.
+  std::vector<std::uint32_t> beyond_limit() const;
+  // Collapses edges that do not touch, the one that adds least to the energy first, until at most
+  // `target` triangles are left. Returns the number of collapses.
+  std::size_t collapse_to(std::size_t target, int power);
+  // Splits edges, of the triangles with most energy first and none beside another, until at least
+  // `target` triangles are there. Returns the number of splits.
+  std::size_t split_to(std::size_t target, int power);
+  // Splits each of these triangles, or an edge of it, where it is farthest from the reference or
+  // from one of its points; none beside another. Returns the number of splits.
+  std::size_t split_at_worst(const std::vector<std::uint32_t>& slots, int power);
+  // Flips and relocations within so many rings of triangles around these. Returns their number.
+  std::size_t relax_around(const std::vector<std::uint32_t>& slots, int rings, int power);
+
+  void use(LocalSearch::Steps steps) { search_.use(steps); }
+  const FeatureEdges& features() const { return options_.features; }
+  // After a restored state: these are its features, and steps are as at first.
+  void restart(const FeatureEdges& features);
+
   bool stopped() const { return stopped_; }
 
  private:
@@ -66,6 +91,24 @@ class DecimationPasses {
   bool poll(std::size_t at, std::size_t of);
   bool judge(std::uint32_t a, std::uint32_t b, Candidate& candidate);
   bool place(const Point& a, const Point& b, Fit& fit);
+  // A place of a triangle and the point of the reference or the cloud that it should be near.
+  struct Witness {
+    std::array<double, 3> at{};  // barycentric
+    Point wanted = Point::Zero();
+    double share = 0;  // squared distance / limit^2
+  };
+  Witness worst_place(std::uint32_t slot) const;
+  double energy_of(std::uint32_t slot, int power) const;
+  bool untouched(std::uint32_t slot) const;
+  void touch_around(std::uint32_t vertex);
+  std::uint32_t spare_vertex(const Point& at, std::uint32_t near);
+  std::size_t split(const std::vector<std::uint32_t>& slots, int power, std::size_t most);
+  bool try_split(std::uint32_t a, std::uint32_t b, int power);
+  bool try_best_split(std::uint32_t slot, int power);
+  bool try_split_at(std::uint32_t slot, const Witness& witness, int power);
+  void make_split();
+  std::vector<std::uint32_t> vertices_around(const std::vector<std::uint32_t>& slots,
+                                             int rings) const;
   void make_collapse(std::uint32_t a, std::uint32_t b);
   void push(std::uint32_t a, std::uint32_t b);
   bool try_plain_collapse(std::uint32_t a, std::uint32_t b, double most);
@@ -83,6 +126,9 @@ class DecimationPasses {
   Poll poll_;
   LocalSearch search_;
   MeshEdit edit_;
+  static constexpr int kPower = 4;
+  int power_ = kPower;              // of the energy by which collapses are judged
+  std::uint32_t spare_ = kNoIndex;  // a vertex that no triangle has
   std::priority_queue<Candidate> queue_;
   std::vector<std::uint64_t> touched_;  // the edit that last changed the triangles of each vertex
   std::uint64_t edits_ = 0;

@@ -1,6 +1,10 @@
 #include "host/decimate/decimation_schedule.h"
 
 #include <array>
+#include <optional>
+#include <utility>
+
+#include "host/decimate/error_equidistribution.h"
 
 namespace emax {
 namespace {
@@ -12,6 +16,10 @@ constexpr std::size_t kFew = 400;  // triangles: with so few, searching on takes
 constexpr double kSweeps = 0.4, kOtherPass = 0.3;
 // Power of the distances in the energy that places vertices.
 constexpr int kPower = 4;
+// Where the error is spread evenly.
+constexpr int kHighPower = 16;
+// With this share of the triangles left, nothing else is tried.
+constexpr double kMuch = 0.85;
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
@@ -25,17 +33,21 @@ class Schedule {
         weight_(lowers_energy_ || settings.effort == Effort::kSweep ? 1 : kSweeps),
         passes_(state, std::move(options), [this](double done) { return advance(done); }) {}
 
-  bool run() {
+  ScheduledMesh run() {
     if (lowers_energy_) {
       tell("descent", passes_.descend());
-      return !passes_.stopped();
+      return {state_.mesh().compact(), !passes_.stopped()};
     }
     tell("sweeps", passes_.sweep());
     if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
     const bool goes_on =
         settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
-    if (goes_on && !passes_.stopped()) improve();
-    return !passes_.stopped();
+    if (goes_on && !passes_.stopped()) {
+      if (settings_.effort != Effort::kDeep || !equidistribute()) improve();
+    }
+    TriangleMesh mesh = state_.mesh().compact();
+    if (kept_ && kept_->triangles.size() < mesh.triangles.size()) mesh = std::move(*kept_);
+    return {std::move(mesh), !passes_.stopped()};
   }
 
  private:
@@ -76,6 +88,40 @@ class Schedule {
     return any;
   }
 
+  // Spreads the error evenly. Returns whether that gained so much that nothing else needs to be
+  // tried; if not, the mesh is as before, and what was gained is kept.
+  bool equidistribute() {
+    const DecimationState::Snapshot before = state_.snapshot();
+    const FeatureEdges features = passes_.features();
+    const std::size_t triangles = state_.mesh().triangles();
+    const bool within =
+        ErrorEquidistribution(state_, passes_, [this](const char* pass, std::size_t edits) {
+          tell(pass, edits);
+        }).run();
+    if (within) collapse_further();
+    const double left =
+        static_cast<double>(state_.mesh().triangles()) / static_cast<double>(triangles);
+    if (within && left < kMuch) return true;
+    if (within) kept_ = state_.mesh().compact();
+    state_.restore(before);
+    passes_.restart(features);
+    return false;
+  }
+
+  // Collapses that an even error leaves room for here and there.
+  void collapse_further() {
+    for (bool again = true; again && !passes_.stopped();) {
+      state_.reassign();
+      std::size_t gained = tell("mended collapses", passes_.collapse_and_mend());
+      for (int round = 0; round < 2; ++round) {
+        flip(kHighPower);
+        relocate(kHighPower);
+      }
+      gained += tell("collapses", passes_.collapse());
+      again = gained > 0;
+    }
+  }
+
   void improve() {
     state_.reassign();
     relocate(kPower);
@@ -97,12 +143,13 @@ class Schedule {
   bool lowers_energy_;
   double begun_ = 0, weight_;  // shares of the work: done, and of the present pass
   DecimationPasses passes_;
+  std::optional<TriangleMesh> kept_;  // a mesh within its limits beside the present one
 };
 
 }  // namespace
 
-bool run_passes(DecimationState& state, DecimationPasses::Options options,
-                const DecimationSettings& settings) {
+ScheduledMesh run_passes(DecimationState& state, DecimationPasses::Options options,
+                         const DecimationSettings& settings) {
   return Schedule(state, std::move(options), settings).run();
 }
 

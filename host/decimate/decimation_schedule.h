@@ -5,10 +5,14 @@
 
 namespace emax {
 
+struct ScheduledMesh {
+  TriangleMesh mesh;      // keeps every limit
+  bool complete = false;  // the settings' `interrupted` did not end the passes
+};
+
 // Runs the passes over the mesh in the order that the settings' objective and effort ask for, and
-// reports their progress. Returns false where the settings' `interrupted` ended them; the mesh is
-// then the one reached so far. With Effort::kDeep the passes go on until nothing is gained.
-bool run_passes(DecimationState& state, DecimationPasses::Options options,
-                const DecimationSettings& settings);
+// reports their progress. With Effort::kDeep the passes go on until nothing is gained.
+ScheduledMesh run_passes(DecimationState& state, DecimationPasses::Options options,
+                         const DecimationSettings& settings);
 
 }  // namespace emax

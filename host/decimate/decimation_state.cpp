@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "host/geometry/triangle_pair.h"
@@ -37,6 +38,7 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
       back_(back),
       squared_limit_(squared_limit),
       guards_(guards),
+      reference_(reference),
       assigned_(cloud.size(), mesh.triangles.size()),
       tree_(mesh_),
       area_normals_(mesh.triangles.size()),
@@ -45,10 +47,7 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
     area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
   complete_ = reassign(interrupted);
-  if (complete_ && !reference.empty() && !EMAX_FAULT(kSkipsReference)) {
-    cover_.emplace(reference, cloud_, squared_limit_);
-    cover_->begin(mesh_, tree_);
-  }
+  if (complete_) cover_reference();
   if (!complete_ || back_ == nullptr) return;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     sight_[v] = back_->sight(mesh.vertices[v], v == 0 ? kNoIndex : sight_[v - 1].triangle);
@@ -83,28 +82,13 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
   const Point before = edit.vertex == kNoIndex ? Point::Zero() : mesh_.position(edit.vertex);
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);
   const auto judge = [&] {
+    added_break_.assign(edit.added.size(), 0);
     if (back_ != nullptr && edit.vertex != kNoIndex) {
       moved_ = back_->sight_from(edit.position, sight_[edit.vertex].triangle);
-      if (!(moved_.share <= 1)) moved_ = back_->sight(edit.position, moved_.triangle);
+      if (!(moved_.share <= permitted_back_)) moved_ = back_->sight(edit.position, moved_.triangle);
     }
-    if (back_ != nullptr && !EMAX_FAULT(kSkipsBackBound)) {
-      if (edit.vertex != kNoIndex && !(moved_.share <= 1)) return false;
-      for (const Triangle& t : edit.added) {
-        // Begins at the vertex that moved, or at any vertex if none did.
-        std::size_t i = 0;
-        if (edit.vertex != kNoIndex) {
-          while (i < 2 && t[i] != edit.vertex) ++i;
-        }
-        const std::uint32_t near = t[i] == edit.vertex ? moved_.triangle : sight_[t[i]].triangle;
-        const std::array<Point, 3> corners = {mesh_.position(t[i]), mesh_.position(t[(i + 1) % 3]),
-                                              mesh_.position(t[(i + 2) % 3])};
-        if (!back_->holds(corners, near)) return false;
-      }
-    }
-    if (cover_ && !cover_->permits(mesh_, assigned_, edit, tolerant)) {
-      return false;
-    }
-    return true;
+    if (back_ != nullptr && !EMAX_FAULT(kSkipsBackBound) && !keeps_back_bound(edit)) return false;
+    return loosened() || !cover_ || cover_->permits(mesh_, assigned_, edit, tolerant);
   };
   const bool judged = judge();
   const bool meets =
@@ -115,6 +99,31 @@ bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
   removed_.clear();
   for (const std::uint32_t slot : edit.removed) removed_.push_back(mesh_.triangle(slot));
   return after <= crossings(removed_, edit.removed);
+}
+
+bool DecimationState::keeps_back_bound(const MeshEdit& edit) {
+  if (edit.vertex != kNoIndex && !(moved_.share <= permitted_back_) &&
+      !(may_stay_beyond_ && moved_.share <= sight_[edit.vertex].share)) {
+    return false;
+  }
+  if (loosened()) return true;
+  auto spare = std::ranges::count_if(edit.removed,
+                                     [&](std::uint32_t slot) { return breaks_back_bound(slot); });
+  for (std::size_t k = 0; k < edit.added.size(); ++k) {
+    const Triangle& t = edit.added[k];
+    // Begins at the vertex that moved, or at any vertex if none did.
+    std::size_t i = 0;
+    if (edit.vertex != kNoIndex) {
+      while (i < 2 && t[i] != edit.vertex) ++i;
+    }
+    const std::uint32_t near = t[i] == edit.vertex ? moved_.triangle : sight_[t[i]].triangle;
+    const std::array<Point, 3> corners = {mesh_.position(t[i]), mesh_.position(t[(i + 1) % 3]),
+                                          mesh_.position(t[(i + 2) % 3])};
+    if (back_->holds(corners, near)) continue;
+    if (spare-- <= 0) return false;
+    added_break_[k] = 1;
+  }
+  return true;
 }
 
 // Number of pairs that meet: the triangles with each other and with those of the mesh that stay.
@@ -224,7 +233,12 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
     mesh_.set(slot, edit.added[i]);
     placed_.push_back(slot);
   }
-  if (cover_) cover_->apply(placed_, undo == nullptr ? nullptr : &undo->cover);
+  if (!breaks_back_.empty()) {
+    breaks_back_.resize(mesh_.slots(), 0);
+    for (const std::uint32_t slot : edit.removed) breaks_back_[slot] = 0;
+    for (std::size_t i = 0; i < placed_.size(); ++i) breaks_back_[placed_[i]] = added_break_[i];
+  }
+  if (cover_ && !loosened()) cover_->apply(placed_, undo == nullptr ? nullptr : &undo->cover);
   assigned_.add_slots(mesh_.slots());
   for (const MeshEdit::Answer& a : edit.answers) {
     assigned_.assign(a.point, a.added == kNoIndex ? a.slot : placed_[a.added], a.squared_distance);
@@ -232,6 +246,109 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   for (const std::uint32_t slot : edit.removed) changed(slot);
   for (std::size_t i = edit.removed.size(); i < placed_.size(); ++i) changed(placed_[i]);
   if (tree_.outgrown(mesh_)) tree_.rebuild(mesh_);
+}
+
+void DecimationState::cover_reference() {
+  if (reference_.empty() || EMAX_FAULT(kSkipsReference)) return;
+  cover_.emplace(reference_, cloud_, squared_limit_);
+  cover_->begin(mesh_, tree_);
+}
+
+void DecimationState::loosen(double factor, double back_factor) {
+  permitted_ = factor * factor;
+  permitted_back_ = back_factor * back_factor;
+  may_stay_beyond_ = true;
+}
+
+void DecimationState::tighten() {
+  permitted_ = permitted_back_ = 1;
+  may_stay_beyond_ = true;
+  reassign();
+  test_back_bound();
+  cover_reference();
+}
+
+void DecimationState::test_back_bound() {
+  if (back_ == nullptr) return;
+  breaks_back_.assign(mesh_.slots(), 0);
+  for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
+    if (!mesh_.alive(slot)) continue;
+    const std::uint32_t first = mesh_.triangle(slot)[0];
+    sight_[first] = back_->sight(mesh_.position(first), sight_[first].triangle);
+    breaks_back_[slot] = back_->holds(mesh_.corners(slot), sight_[first].triangle) ? 0 : 1;
+  }
+}
+
+bool DecimationState::keep_limits() {
+  if (unproven() > 0 || std::ranges::count(breaks_back_, 1) > 0) return false;
+  for (std::uint32_t p = 0; p < assigned_.size(); ++p) {
+    const bool known = assigned_.owner(p) != kNoIndex;
+    if (known && assigned_.squared_distance(p) > squared_limit_) return false;
+  }
+  may_stay_beyond_ = false;
+  breaks_back_.clear();
+  return true;
+}
+
+void DecimationState::prove_all() {
+  if (unproven() == 0) return;
+  for (std::uint32_t t = 0; t < reference_.size(); ++t) cover_->prove(t, mesh_, tree_);
+}
+
+std::vector<std::uint32_t> DecimationState::around_unproven() const {
+  std::vector<std::uint32_t> slots;
+  if (unproven() == 0) return slots;
+  for (std::uint32_t t = 0; t < reference_.size(); ++t) {
+    if (cover_->proven(t)) continue;
+    for (const std::uint32_t p : reference_[t]) {
+      if (assigned_.owner(p) != kNoIndex) slots.push_back(assigned_.owner(p));
+    }
+  }
+  std::ranges::sort(slots);
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
+void DecimationState::restore(const Snapshot& snapshot) {
+  mesh_ = snapshot.mesh;
+  assigned_ = snapshot.assigned;
+  sight_ = snapshot.sight;
+  permitted_ = permitted_back_ = 1;
+  may_stay_beyond_ = false;
+  breaks_back_.clear();
+  tree_.rebuild(mesh_);
+  area_normals_.assign(mesh_.slots(), Point::Zero());
+  for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
+    if (mesh_.alive(slot)) area_normals_[slot] = area_normal_of(mesh_.corners(slot));
+  }
+  cover_reference();
+}
+
+DecimationState::EdgeProfile DecimationState::profile_of(std::uint32_t a, std::uint32_t b) const {
+  constexpr double kFlat = 1e-3;   // a bend of the parabola that has no extremum to find
+  constexpr double kFirst = 0.15;  // places nearer to an end add nothing to the end itself
+  const Point &from = mesh_.position(a), &to = mesh_.position(b);
+  const Point middle = 0.5 * (from + to);
+  EdgeProfile profile;
+  profile.sight = back_->sight(middle, sight_[a].triangle);
+  const bool seen = profile.sight.triangle != kNoIndex && sight_[a].triangle != kNoIndex &&
+                    sight_[b].triangle != kNoIndex;
+  if (!seen) return profile;
+  const Point up = back_->toward(middle, profile.sight.triangle);
+  profile.middle = up.norm();
+  if (!(profile.middle > 0)) return profile;
+  profile.first = back_->toward(from, sight_[a].triangle).dot(up) / profile.middle;
+  profile.second = back_->toward(to, sight_[b].triangle).dot(up) / profile.middle;
+  const double bend = profile.first - 2 * profile.middle + profile.second;
+  if (!(std::abs(bend) > kFlat * profile.middle)) return profile;
+  const double along = 0.5 + 0.25 * (profile.first - profile.second) / bend;
+  if (along > kFirst && along < 1 - kFirst) profile.farthest = along;
+  return profile;
+}
+
+void DecimationState::place_vertex(std::uint32_t vertex, const Point& at, std::uint32_t near) {
+  mesh_.move(vertex, at);
+  if (back_ != nullptr) sight_[vertex] = back_->sight(at, sight_[near].triangle);
 }
 
 void DecimationState::changed(std::uint32_t slot) {
@@ -255,7 +372,7 @@ void DecimationState::undo(const EditUndo& undo) {
     assigned_.assign(a.point, a.slot, a.squared_distance);
   }
   for (const EditUndo::Slot& s : undo.slots) changed(s.slot);
-  if (cover_) cover_->undo(undo.cover);
+  if (cover_ && !loosened()) cover_->undo(undo.cover);
 }
 
 }  // namespace emax

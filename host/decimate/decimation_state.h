@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/decimate/assigned_points.h"
@@ -62,6 +63,40 @@ class DecimationState {
   const BackBound* back() const { return back_; }
   const BackBound::Sight& sight(std::uint32_t vertex) const { return sight_[vertex]; }
   double squared_limit() const { return squared_limit_; }
+
+  // While the limits are loosened, points may go to `factor` > 1 times the limit and vertices to
+  // `back_factor` times the back bound. The insides of triangles, of the mesh and of the reference,
+  // are not tested then.
+  void loosen(double factor, double back_factor);
+  bool loosened() const { return permitted_ > 1; }
+  // The greatest squared distance / limit^2 that points may have, 1 unless loosened.
+  double permitted() const { return permitted_; }
+  // Ends loosening. What is beyond its limit may stay as far, and edits do not increase the number
+  // of triangles that break the back bound. O((triangles + points) log triangles).
+  void tighten();
+  // Every point, triangle and triangle of the reference has to keep its limit from now on. Returns
+  // false, and changes nothing, where some do not. O(points + triangles).
+  bool keep_limits();
+  // Finds out which triangles break the back bound. Edits keep this up to date unless the limits
+  // are loosened. O(triangles log triangles of the reference).
+  void test_back_bound();
+  bool breaks_back_bound(std::uint32_t slot) const {
+    return slot < breaks_back_.size() && breaks_back_[slot] != 0;
+  }
+  bool permits_point(std::uint32_t point, double squared) const {
+    return squared <= permitted_ * squared_limit_ ||
+           (may_stay_beyond_ && squared <= assigned_.squared_distance(point));
+  }
+
+  // The heights of the reference over the ends and the middle of an edge, along the direction from
+  // the middle to it; where the parabola through them has its extremum, as a share of the way from
+  // a to b, else 0.5; the sight from the middle. Needs a back bound.
+  struct EdgeProfile {
+    double farthest = 0.5;
+    BackBound::Sight sight;
+    double first = 0, middle = 0, second = 0;
+  };
+  EdgeProfile profile_of(std::uint32_t a, std::uint32_t b) const;
   const Guards& guards() const { return guards_; }
 
   // Whether every point was assigned. False after an interrupt.
@@ -85,6 +120,10 @@ class DecimationState {
   bool prove(std::uint32_t reference_triangle) {
     return cover_->prove(reference_triangle, mesh_, tree_);
   }
+  // Tries to prove every triangle of the reference that is not proven.
+  void prove_all();
+  // The triangles that answer for the corners of those that are not proven; sorted.
+  std::vector<std::uint32_t> around_unproven() const;
   // Number of triangles of the reference that are not proven to be within the limit.
   std::size_t unproven() const { return cover_ ? cover_->unproven() : 0; }
 
@@ -95,7 +134,19 @@ class DecimationState {
   // Assigns every point to its nearest triangle; returns false after an interrupt.
   bool reassign(const Interrupted& interrupted = nullptr);
 
+  // A state to come back to. Numbers of vertices and slots stay valid.
+  struct Snapshot {
+    EditableMesh mesh;
+    AssignedPoints assigned;
+    std::vector<BackBound::Sight> sight;
+  };
+  Snapshot snapshot() const { return {mesh_, assigned_, sight_}; }
+  // Every limit holds as in the snapshot, which was taken without loosened limits. O(n log n).
+  void restore(const Snapshot& snapshot);
+
   std::uint32_t add_vertex(const Point& at);
+  // Moves a vertex that no triangle has to a place near another vertex.
+  void place_vertex(std::uint32_t vertex, const Point& at, std::uint32_t near);
 
  private:
   // An added triangle as it is tested against others.
@@ -104,6 +155,8 @@ class DecimationState {
     Point corner, normal;
     double roundings;  // bound of the rounding of normal times distance, divided by the distance
   };
+  bool keeps_back_bound(const MeshEdit& edit);
+  void cover_reference();
   bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
   std::size_t crossings(std::span<const Triangle> triangles,
@@ -114,7 +167,10 @@ class DecimationState {
   std::span<const Point> cloud_;
   const BackBound* back_;
   double squared_limit_;
+  double permitted_ = 1, permitted_back_ = 1;  // squared distance / limit^2
+  bool may_stay_beyond_ = false;               // what is beyond its limit
   Guards guards_;
+  std::span<const Triangle> reference_;
   AssignedPoints assigned_;
   SlotTree tree_;
   std::optional<ReferenceCover> cover_;
@@ -122,6 +178,8 @@ class DecimationState {
   bool complete_ = false;
   std::vector<BackBound::Sight> sight_;  // of each vertex
   BackBound::Sight moved_;               // of the new position of the edit last permitted
+  std::vector<char> breaks_back_;        // of each slot; empty where all keep the bound
+  std::vector<char> added_break_;        // of each triangle that the edit last permitted adds
   std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
   std::vector<Shape> shapes_;
   std::vector<Triangle> removed_;

@@ -101,7 +101,10 @@ void FeatureEdges::collapsed(std::uint32_t a, std::uint32_t b,
   for (const std::uint32_t v : neighbours) {
     if (edges_.erase(key(b, v)) > 0 && v != a) edges_.insert(key(a, v));
   }
-  if (b < classes_.size() && a < classes_.size()) classes_[a] = std::max(classes_[a], classes_[b]);
+  if (b >= classes_.size()) return;
+  // A vertex that came with a split is simple.
+  if (a >= classes_.size()) classes_.resize(a + 1, VertexClass::kSimple);
+  classes_[a] = std::max(classes_[a], classes_[b]);
 }
 
 }  // namespace emax

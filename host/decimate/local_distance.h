@@ -36,6 +36,13 @@ struct LocalPoints {
 // frames. The bits are the same on every SIMD target.
 void measure(LocalPoints& points, std::span<const LocalFrame> triangles);
 
+// An even power of a distance, from its square.
+inline double power_of(double squared, int power) {
+  double result = squared;
+  for (int i = 2; i < power; i += 2) result *= squared;
+  return result;
+}
+
 // The nearest point of a triangle, described by its first corner.
 struct Foot {
   Point residual;   // from the foot to the point

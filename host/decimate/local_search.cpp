@@ -14,11 +14,14 @@ namespace {
 // Points with less than this share of the greatest squared distance do not count in a step.
 constexpr double kNegligible = 0.01;
 
-double power_of(double squared, int power) {
-  double result = squared;
-  for (int i = 2; i < power; i += 2) result *= squared;
-  return result;
-}
+// Shares of the trace of the normal equations. A vertex moves along the surface by steps whose
+// squared slopes are about the limit times the curvature, which more damping would prevent.
+constexpr double kFixedDamping = 1e-3, kLeastDamping = 1e-5;
+constexpr double kMoreDamping = 30, kLessDamping = 0.2;
+
+constexpr int kSamplesOfEdge = 8;
+// Points for each triangle of an edit that guide the steps of Newton.
+constexpr std::size_t kGuidingPoints = 20;
 
 Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
   if (t[1] == vertex) return {t[1], t[2], t[0]};
@@ -27,6 +30,11 @@ Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
 }
 
 }  // namespace
+
+void LocalSearch::use(Steps steps) {
+  steps_ = steps;
+  samples_.set_most(steps == Steps::kNewton && spring_ == 0 ? kSamplesOfEdge : 0);
+}
 
 void LocalSearch::begin(std::uint32_t vertex, std::uint32_t other) {
   vertex_ = vertex;
@@ -47,14 +55,26 @@ void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
 
 void LocalSearch::take_points() {
   ids_.clear();
-  points_.clear();
   for (const std::uint32_t slot : removed_) {
-    state_.assigned().for_each(slot, [&](std::uint32_t p) {
-      ids_.push_back(p);
-      points_.push_back(state_.point(p));
-    });
+    state_.assigned().for_each(slot, [&](std::uint32_t p) { ids_.push_back(p); });
   }
-  watch_back_ = state_.back() != nullptr && vertex_ != kNoIndex && spring_ == 0 && !fine();
+  choose_guiding_points();
+  const bool near_limit = !samples_.none() || !fine();
+  watch_back_ = state_.back() != nullptr && vertex_ != kNoIndex && spring_ == 0 && near_limit;
+  samples_.take(removed_, added_, vertex_);
+}
+
+// Of many points an even share is enough to guide Newton's steps; finish() tests them all.
+void LocalSearch::choose_guiding_points() {
+  const std::size_t enough = kGuidingPoints * added_.size();
+  const std::size_t stride =
+      steps_ == Steps::kNewton && ids_.size() > enough ? ids_.size() / enough : 1;
+  guiding_ids_.clear();
+  guiding_.clear();
+  for (std::size_t i = stride / 2; i < ids_.size(); i += stride) {
+    guiding_ids_.push_back(ids_[i]);
+    guiding_.push_back(state_.point(ids_[i]));
+  }
 }
 
 bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
@@ -108,6 +128,38 @@ bool LocalSearch::prepare_flip(std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
+bool LocalSearch::prepare_split(std::uint32_t a, std::uint32_t b, std::uint32_t middle) {
+  const EditableMesh& mesh = state_.mesh();
+  begin(middle, kNoIndex);
+  for (const std::uint32_t slot : mesh.slots_at_edge(a, b)) {
+    if (slot == kNoIndex) continue;
+    removed_.push_back(slot);
+    for (const std::uint32_t end : {a, b}) {
+      Triangle t = mesh.triangle(slot);
+      std::ranges::replace(t, end, middle);
+      added_.push_back(rotated_to(t, middle));
+      normals_.push_back(state_.area_normal(slot).normalized());
+    }
+  }
+  take_points();
+  take_edges();
+  return !removed_.empty();
+}
+
+bool LocalSearch::prepare_split(std::uint32_t slot, std::uint32_t middle) {
+  begin(middle, kNoIndex);
+  removed_.push_back(slot);
+  for (const std::uint32_t corner : state_.mesh().triangle(slot)) {
+    Triangle t = state_.mesh().triangle(slot);
+    std::ranges::replace(t, corner, middle);
+    added_.push_back(rotated_to(t, middle));
+    normals_.push_back(state_.area_normal(slot).normalized());
+  }
+  take_points();
+  take_edges();
+  return true;
+}
+
 void LocalSearch::take_edges() {
   if (spring_ == 0) return;
   const EditableMesh& mesh = state_.mesh();
@@ -141,15 +193,16 @@ double LocalSearch::spring_after(const Point& position) const {
 
 double LocalSearch::energy_before(int power) const {
   double energy = spring_ * lengths_before_ / state_.squared_limit();
-  for (const std::uint32_t p : ids_) {
+  for (const std::uint32_t p : guiding_ids_) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   }
   if (watch_back_) {
     for (const std::uint32_t v : {vertex_, other_}) {
-      if (v != kNoIndex) energy += power_of(state_.sight(v).share, power);
+      const bool present = v != kNoIndex && state_.mesh().used(v);
+      if (present) energy += power_of(state_.sight(v).share, power);
     }
   }
-  return energy;
+  return energy + samples_.energy_before(power);
 }
 
 Point LocalSearch::quadric_optimum() const {
@@ -203,13 +256,13 @@ bool LocalSearch::shape(const Point& position) {
 }
 
 Fit LocalSearch::measured(const Point& position, int power) {
-  measure(points_, frames_);
+  measure(guiding_, frames_);
   Fit fit;
   fit.position = position;
   if (spring_ > 0) fit.energy = spring_after(position);
   const double scale = 1 / state_.squared_limit();
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double squared = points_.squared[i] * scale;
+  for (std::size_t i = 0; i < guiding_.size(); ++i) {
+    const double squared = guiding_.squared[i] * scale;
     fit.energy += power_of(squared, power);
     fit.worst = std::max(fit.worst, squared);
   }
@@ -219,6 +272,9 @@ Fit LocalSearch::measured(const Point& position, int power) {
     fit.energy += power_of(sight_.share, power);
     fit.worst = std::max(fit.worst, sight_.share);
   }
+  const EdgeSamples::Energy of_edges = samples_.measure(position, power);
+  fit.energy += of_edges.sum;
+  fit.worst = std::max(fit.worst, of_edges.worst);
   return fit;
 }
 
@@ -229,29 +285,35 @@ bool LocalSearch::evaluate(const Point& position, int power, Fit& result) {
 }
 
 // One step of Gauss-Newton on the distances as functions of the vertex. The weights make the sum of
-// squares approximate the sum of powers.
-bool LocalSearch::step(const Options& options, Fit& at) const {
+// squares approximate the sum of powers; Newton's step on that sum is the same over power - 1.
+bool LocalSearch::step(const Options& options, double damping, Fit& at) const {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Point right = Point::Zero();
   const double scale = 1 / state_.squared_limit();
   const double least = options.power > 2 ? kNegligible * at.worst : 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double squared = points_.squared[i] * scale;
+  const bool newton = steps_ == Steps::kNewton;
+  const double unit = newton ? 1 / at.worst : 1;  // so that high powers do not vanish
+  for (std::size_t i = 0; i < guiding_.size(); ++i) {
+    const double squared = guiding_.squared[i] * scale;
     if (squared < least) continue;
-    const double importance = 1e-4 + (options.power > 2 ? power_of(squared, options.power - 2) : 1);
-    const Foot foot = foot_on(frames_[static_cast<std::size_t>(points_.nearest[i])], points_.at(i));
+    const double importance =
+        1e-4 + (options.power > 2 ? power_of(squared * unit, options.power - 2) : 1);
+    const Foot foot =
+        foot_on(frames_[static_cast<std::size_t>(guiding_.nearest[i])], guiding_.at(i));
     if (foot.weight == 0) continue;
     const double weighted = importance * foot.weight;
     matrix += weighted * foot.weight * foot.direction * foot.direction.transpose();
     right += weighted * foot.direction.dot(foot.residual) * foot.direction;
   }
   if (watch_back_ && sight_.triangle != kNoIndex && sight_.share > 0) {
-    const double importance = power_of(sight_.share, options.power - 2);
+    const double importance =
+        options.power > 2 ? power_of(sight_.share * unit, options.power - 2) : 1;
     const Point residual = state_.back()->toward(at.position, sight_.triangle);
     const Point direction = residual.normalized();
     matrix += importance * direction * direction.transpose();
     right += importance * residual;
   }
+  samples_.add_to(matrix, right, at.position, at.worst, options.power);
   if (spring_ > 0) {
     for (const std::uint32_t v : ring_)
       right += spring_ * (state_.mesh().position(v) - at.position);
@@ -259,16 +321,18 @@ bool LocalSearch::step(const Options& options, Fit& at) const {
   }
   const double trace = matrix.trace();
   if (!(trace > 0)) return false;
-  matrix.diagonal().array() += 1e-3 * trace;
-  at.position += matrix.ldlt().solve(right);
+  matrix.diagonal().array() += damping * trace;
+  const double share = newton ? 1.0 / (options.power - 1) : 1;
+  at.position += share * matrix.ldlt().solve(right);
   return true;
 }
 
 bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
   if (!evaluate(start, options.power, best)) return false;
+  if (steps_ == Steps::kNewton) return fit_by_newton(options, best);
   Fit at = best;
   for (int i = 0; i < options.steps; ++i) {
-    if (!step(options, at)) break;
+    if (!step(options, kFixedDamping, at)) break;
     Fit next;
     bool better = false;
     // A step that does not lower the energy is halved once.
@@ -279,6 +343,31 @@ bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
     if (!better) break;
     const bool enough = next.energy > (1 - options.gain) * best.energy;
     best = at = next;
+    if (enough) break;
+  }
+  return true;
+}
+
+// From `best`, which was evaluated last. A step that does not lower the energy is tried again with
+// more damping.
+bool LocalSearch::fit_by_newton(const Options& options, Fit& best) {
+  constexpr int kAttempts = 3;
+  double damping = kLeastDamping;
+  for (int i = 0; i < options.steps; ++i) {
+    Fit next;
+    bool better = false;
+    for (int attempt = 0; attempt < kAttempts && !better; ++attempt) {
+      Fit at = best;
+      // The step is of the frames and sights of the position last evaluated.
+      if (attempt > 0 && !evaluate(best.position, options.power, at)) return true;
+      if (!step(options, damping, at)) return true;
+      better = evaluate(at.position, options.power, next) && next.energy < best.energy;
+      if (!better) damping *= kMoreDamping;
+    }
+    if (!better) break;
+    damping = std::max(damping * kLessDamping, kLeastDamping);
+    const bool enough = next.energy > (1 - options.gain) * best.energy;
+    best = next;
     if (enough) break;
   }
   return true;
@@ -299,18 +388,20 @@ bool LocalSearch::serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer)
       });
     }
   }
-  return answer.squared_distance <= state_.squared_limit();
+  return state_.permits_point(point, answer.squared_distance);
 }
 
 bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
   edit.clear();
   if (!shape(fit.position)) return false;
+  points_.clear();
+  for (const std::uint32_t p : ids_) points_.push_back(state_.point(p));
   measure(points_, frames_);
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     MeshEdit::Answer answer{ids_[i], static_cast<std::uint32_t>(points_.nearest[i]), kNoIndex,
                             points_.squared[i]};
-    if (answer.squared_distance > state_.squared_limit() && !serve_elsewhere(ids_[i], answer) &&
-        limit && !EMAX_FAULT(kSkipsPoints)) {
+    if (!state_.permits_point(ids_[i], answer.squared_distance) &&
+        !serve_elsewhere(ids_[i], answer) && limit && !EMAX_FAULT(kSkipsPoints)) {
       return false;
     }
     edit.answers.push_back(answer);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/decimate/decimation_state.h"
+#include "host/decimate/edge_samples.h"
 #include "host/decimate/local_distance.h"
 
 namespace emax {
@@ -29,12 +30,22 @@ class LocalSearch {
 
   // The energy includes `spring` times the edges' squared lengths, in units of epsilon^2.
   explicit LocalSearch(const DecimationState& state, double spring = 0)
-      : state_(state), spring_(spring) {}
+      : state_(state), spring_(spring), samples_(state) {}
+
+  // How a vertex approaches its optimum. kReweighted: least squares, weighted so that they
+  // approximate the sum of powers, with a fixed damping. kNewton: Newton's steps on the sum of
+  // powers with Levenberg's damping, which reach the optimum of high powers; the mesh's edges then
+  // count too (EdgeSamples).
+  enum class Steps { kReweighted, kNewton };
+  void use(Steps steps);
 
   // Each returns false where the topology forbids the edit.
   bool prepare_collapse(std::uint32_t a, std::uint32_t b);  // b is drawn into a
   bool prepare_relocation(std::uint32_t vertex);
   bool prepare_flip(std::uint32_t a, std::uint32_t b);
+  // `middle` is a vertex that no triangle has, at a place to start from.
+  bool prepare_split(std::uint32_t a, std::uint32_t b, std::uint32_t middle);
+  bool prepare_split(std::uint32_t slot, std::uint32_t middle);
 
   // The present energy of the points of the prepared edit.
   double energy_before(int power) const;
@@ -60,15 +71,19 @@ class LocalSearch {
   void begin(std::uint32_t vertex, std::uint32_t other);
   void replace(std::uint32_t slot, std::uint32_t corner);  // `corner` becomes the moving vertex
   void take_points();
+  void choose_guiding_points();
   void take_edges();
   double spring_after(const Point& position) const;
   bool shape(const Point& position);
   Fit measured(const Point& position, int power);
-  bool step(const Options& options, Fit& at) const;
+  bool step(const Options& options, double damping, Fit& at) const;
+  bool fit_by_newton(const Options& options, Fit& best);
   bool serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer) const;
 
   const DecimationState& state_;
   const double spring_;
+  Steps steps_ = Steps::kReweighted;
+  EdgeSamples samples_;
   double lengths_before_ = 0;        // squared, of the edges that change
   std::vector<std::uint32_t> ring_;  // neighbours of the moving vertex, or a flipped edge
   std::vector<std::uint32_t> other_ring_;
@@ -77,9 +92,11 @@ class LocalSearch {
   std::vector<std::uint32_t> removed_;
   std::vector<Triangle> added_;     // the moving vertex first
   std::vector<Point> normals_;      // of the triangles that `added_` replaces
-  std::vector<std::uint32_t> ids_;  // of the points
+  std::vector<std::uint32_t> ids_;  // of all points of the edit
   bool watch_back_ = false;         // whether the moving vertex's distance to the reference counts
   LocalPoints points_;
+  std::vector<std::uint32_t> guiding_ids_;  // of the points that the energy is a sum over
+  LocalPoints guiding_;
   BackBound::Sight sight_;  // of the moving vertex at the position last measured
   std::vector<LocalFrame> frames_;
 };

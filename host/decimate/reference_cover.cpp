@@ -64,19 +64,9 @@ class ReferenceCover::Around {
   }
 
   void begin_visits() { visited_.clear(); }
-  bool visit(std::uint32_t id) {
-    if (std::ranges::find(visited_, id) != visited_.end()) return false;
-    visited_.push_back(id);
-    return true;
-  }
+  bool visited(std::uint32_t id) const { return std::ranges::find(visited_, id) != visited_.end(); }
+  void visit(std::uint32_t id) { visited_.push_back(id); }
   std::span<const std::uint32_t> visited() const { return visited_; }
-  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                   std::uint32_t id) const {
-    return std::ranges::all_of(part, [&](const PlanarCorner& c) {
-      return std::abs(c.height) <= limit_ ||
-             squared_distance_to(plane.lift(c), id) <= squared_limit_;
-    });
-  }
   double limit() const { return limit_; }
 
   std::uint32_t nearest(const Point& p) {
@@ -143,6 +133,46 @@ class ReferenceCover::Around {
   mutable std::vector<std::array<std::uint32_t, 3>> joined_;  // neighbours of the added triangles
 };
 
+// The mesh as the sheet over a triangle of the reference. What is not within the limit of the
+// sheet's own triangle, or has nothing under it, is covered piece by piece.
+class ReferenceCover::Following {
+ public:
+  Following(ReferenceCover& cover, Around& around) : cover_(cover), around_(around) {}
+
+  const Triangle& corners(std::uint32_t id) const { return around_.corners(id); }
+  const Point& position(std::uint32_t vertex) const { return around_.position(vertex); }
+  std::uint32_t neighbour(std::uint32_t id, std::size_t side) const {
+    return around_.neighbour(id, side);
+  }
+  bool visited(std::uint32_t id) const { return around_.visited(id); }
+  void visit(std::uint32_t id) { around_.visit(id); }
+  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                   std::uint32_t id) {
+    const bool low = std::ranges::all_of(
+        part, [&](const PlanarCorner& c) { return std::abs(c.height) <= around_.limit(); });
+    return low || rest_within(plane, part, id);
+  }
+  bool rest_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                   std::uint32_t id) {
+    corners_.clear();
+    bool within = true;
+    for (const PlanarCorner& c : part) {
+      corners_.push_back(cover_.labelled(plane.lift(c), {id}, around_));
+      if (corners_.back().near == kNoIndex) return false;
+      within = within && corners_.back().near == id;
+    }
+    for (std::size_t i = 2; i < part.size() && !within; ++i) {
+      if (!cover_.cover({corners_[0], corners_[i - 1], corners_[i]}, around_)) return false;
+    }
+    return true;
+  }
+
+ private:
+  ReferenceCover& cover_;
+  Around& around_;
+  std::vector<Corner> corners_;
+};
+
 ReferenceCover::~ReferenceCover() = default;
 
 ReferenceCover::ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
@@ -153,6 +183,7 @@ ReferenceCover::ReferenceCover(std::span<const Triangle> triangles, std::span<co
       first_of_(triangles.size(), kNoIndex),
       unproven_(triangles.size()),
       around_(std::make_unique<Around>(squared_limit)),
+      walk_(std::make_unique<SheetWalk<Following>>()),
       answer_of_(points.size(), kNoIndex),
       seen_(triangles.size(), 0) {}
 
@@ -248,21 +279,26 @@ bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
     use(likely);
     return true;
   }
+  cuts_ = 0;
   const TrianglePlane plane({whole[0].at, whole[1].at, whole[2].at});
   if (follow(plane, likely, around)) return true;
   // A corner on a crease may be near to the sheet on the other side of it.
   const std::uint32_t middle = around.nearest((whole[0].at + whole[1].at + whole[2].at) / 3);
   if (middle != likely && middle != kNoIndex && follow(plane, middle, around)) return true;
-  // The other cases are folds and borders.
+  // No sheet begins under the middle.
+  used_.clear();
+  cuts_ = 0;
   return cover(whole, around);
 }
 
 bool ReferenceCover::follow(const TrianglePlane& plane, std::uint32_t from, Around& around) {
-  const std::uint32_t start = walk_.under_centroid(plane, from, around);
+  Following faces(*this, around);
+  const std::uint32_t start = walk_->under_centroid(plane, from, faces);
   if (start == kNoIndex) return false;
   around.begin_visits();
-  if (walk_.follow_covering(plane, start, around.limit(), around) != Sheet::kWithin) return false;
-  used_.assign(around.visited().begin(), around.visited().end());
+  used_.clear();
+  if (walk_->follow_covering(plane, start, around.limit(), faces) != Sheet::kWithin) return false;
+  for (const std::uint32_t id : around.visited()) use(id);
   return true;
 }
 
@@ -279,7 +315,7 @@ void ReferenceCover::use(std::uint32_t id) {
 // Cuts the piece until each part rests on one triangle.
 bool ReferenceCover::cover(const Piece& whole, Around& around) {
   pieces_.assign(1, whole);
-  for (int cuts = 0; !pieces_.empty();) {
+  while (!pieces_.empty()) {
     const Piece piece = pieces_.back();
     pieces_.pop_back();
     const std::uint32_t a = piece[0].near, b = piece[1].near, c = piece[2].near;
@@ -292,9 +328,22 @@ bool ReferenceCover::cover(const Piece& whole, Around& around) {
       if (rests) use(likely[i]);
     }
     if (rests) continue;
-    if (++cuts > kMostCuts || !cut(piece, around)) return false;
+    if (++cuts_ > kMostCuts || !cut(piece, around)) return false;
   }
   return true;
+}
+
+// A point with a triangle within the limit of it, one of the likely ones if possible; kNoIndex
+// where there is none.
+ReferenceCover::Corner ReferenceCover::labelled(const Point& at,
+                                                std::initializer_list<std::uint32_t> likely,
+                                                Around& around) const {
+  for (const std::uint32_t id : likely) {
+    if (around.squared_distance_to(at, id) <= squared_limit_) return {at, id};
+  }
+  const std::uint32_t id = around.nearest(at);
+  const bool within = id != kNoIndex && around.squared_distance_to(at, id) <= squared_limit_;
+  return {at, within ? id : kNoIndex};
 }
 
 // Cuts the piece between two triangles of the mesh that its corners are near to. If they share an
@@ -347,15 +396,6 @@ bool ReferenceCover::cut(const Piece& piece, Around& around) {
   const auto between = [&](std::size_t i, std::size_t j, double share) {
     return Point(piece[i].at + share * (piece[j].at - piece[i].at));
   };
-  // A triangle within the limit of a new corner of a part.
-  const auto labelled = [&](const Point& at, std::uint32_t first, std::uint32_t second) {
-    for (const std::uint32_t id : {first, second}) {
-      if (around.squared_distance_to(at, id) <= squared_limit_) return Corner{at, id};
-    }
-    const std::uint32_t id = around.nearest(at);
-    const bool within = id != kNoIndex && around.squared_distance_to(at, id) <= squared_limit_;
-    return Corner{at, within ? id : kNoIndex};
-  };
   if (lone == 3) {
     std::size_t longest = 0;
     double length = -1;
@@ -366,7 +406,7 @@ bool ReferenceCover::cut(const Piece& piece, Around& around) {
       longest = i;
     }
     const Corner &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
-    const Corner middle = labelled(0.5 * (a.at + b.at), a.near, b.near);
+    const Corner middle = labelled(0.5 * (a.at + b.at), {a.near, b.near}, around);
     if (middle.near == kNoIndex) return false;
     pieces_.push_back({a, middle, c});
     pieces_.push_back({middle, b, c});
@@ -380,8 +420,10 @@ bool ReferenceCover::cut(const Piece& piece, Around& around) {
   const Point x = between(lone, i, share(i)), y = between(lone, j, share(j));
   const bool lone_is_other = side[lone] > 0;
   const std::uint32_t here = lone_is_other ? other : one, there = lone_is_other ? one : other;
-  const Corner x_here = labelled(x, here, there), y_here = labelled(y, here, there);
-  const Corner x_there = labelled(x, there, here), y_there = labelled(y, there, here);
+  const Corner x_here = labelled(x, {here, there}, around);
+  const Corner y_here = labelled(y, {here, there}, around);
+  const Corner x_there = labelled(x, {there, here}, around);
+  const Corner y_there = labelled(y, {there, here}, around);
   if (x_here.near == kNoIndex || y_here.near == kNoIndex) return false;
   pieces_.push_back({piece[lone], x_here, y_here});
   if ((x - piece[j].at).squaredNorm() < (y - piece[i].at).squaredNorm()) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <utility>
@@ -20,11 +21,12 @@ namespace emax {
 // The distance to one triangle of the mesh is convex. A part of a reference triangle whose corners
 // lie within the limit of one triangle of the mesh therefore lies within it altogether. Each
 // triangle of the reference is cut into such parts: along the sides of the mesh's triangles where
-// these lie over it as a sheet, else between the triangles that its corners are near to. The cover
-// records the triangles of the mesh that it rests on. An edit is permitted if every triangle of the
-// reference that rests on a removed triangle can be proven again from the triangles around the
-// edit. "Yes" is proven except for roundings of a few units in the last place of the coordinates,
-// which the caller subtracts from the limit. "No" may also mean that the budget is spent.
+// these lie over it as a sheet (SheetWalk), else between the triangles that its corners are near
+// to. The cover records the triangles of the mesh that it rests on. An edit is permitted if every
+// triangle of the reference that rests on a removed triangle can be proven again from the triangles
+// around the edit. "Yes" is proven except for roundings of a few units in the last place of the
+// coordinates, which the caller subtracts from the limit. "No" may also mean that the budget is
+// spent.
 //
 // O(1) for most triangles of the reference that rest on removed triangles, else about linear in the
 // triangles of the mesh that lie over them. Not for concurrent use.
@@ -74,11 +76,14 @@ class ReferenceCover {
   };
   using Piece = std::array<Corner, 3>;
   class Around;
+  class Following;
 
   bool prove_after(std::uint32_t triangle, const AssignedPoints& assigned, Around& around);
   bool prove_piece(const Piece& whole, Around& around);
   bool follow(const TrianglePlane& plane, std::uint32_t from, Around& around);
   bool rests_on(const Piece& piece, std::uint32_t id, const Around& around) const;
+  Corner labelled(const Point& at, std::initializer_list<std::uint32_t> likely,
+                  Around& around) const;
   bool cover(const Piece& whole, Around& around);
   bool cut(const Piece& piece, Around& around);
   void use(std::uint32_t id);
@@ -100,7 +105,8 @@ class ReferenceCover {
 
   // Scratch.
   std::unique_ptr<Around> around_;
-  SheetWalk<Around> walk_;
+  std::unique_ptr<SheetWalk<Following>> walk_;
+  int cuts_ = 0;  // made for the present triangle
   std::vector<std::uint32_t> used_;
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> answer_of_;  // of each point, in the edit; or kNoIndex

@@ -28,6 +28,8 @@ struct TrianglePlane {
   double inside(std::size_t side, const PlanarCorner& c) const {
     return line[side][0] * c.y + line[side][1] * c.z + line[side][2];
   }
+  // The middle of T, without height.
+  PlanarCorner middle() const { return {(corners[1].y + corners[2].y) / 3, corners[2].z / 3, 0}; }
   // The sides that a corner is beyond, one bit each.
   unsigned beyond(const PlanarCorner& c) const {
     unsigned sides = 0;
@@ -50,26 +52,35 @@ struct TrianglePlane {
   std::array<std::array<double, 3>, 3> line;
 };
 
-// The part of a triangle r that is over T; empty where there is none. `beyond` holds, for each
-// corner of r, the sides of T that it is beyond.
+// A convex part of T or over T; empty where there is none.
 class PartOverTriangle {
  public:
+  // The part of a triangle r that is over T. `beyond` holds, for each corner of r, the sides of T
+  // that it is beyond.
   void clip(const TrianglePlane& plane, const std::array<PlanarCorner, 3>& r,
             const std::array<unsigned, 3>& beyond);
+  // The part of T that the edge from a to b hides from the middle of T, where the middle lies to
+  // the left of the edge.
+  void shadow(const TrianglePlane& plane, const PlanarCorner& a, const PlanarCorner& b);
   const std::vector<PlanarCorner>& corners() const { return part_; }
 
  private:
+  template <class Side>
+  void cut(const Side& inside);
+
   std::vector<PlanarCorner> part_, clipped_;
 };
 
-// A sheet over T is within the limit or beyond it, or no sheet covers T.
-enum class Sheet { kWithin, kBeyond, kNoSheet };
+// T is within the limit, or it could not be proven, or the sheet does not begin under T.
+enum class Sheet { kWithin, kUnproven, kNoSheet };
 
 // Follows a sheet of triangles over T. `Faces` describes the sheet:
 //   corners(t): the vertices of triangle t; position(v): of a vertex
 //   neighbour(t, i): the triangle through the side that begins at corner i, or kNoIndex
-//   visit(t): whether this is the first visit of t in this search
-//   part_within(plane, part, t): whether the part of T under `part` of t is within the limit of t
+//   visited(t): whether visit(t) was called in this search
+//   part_within(plane, part, t): whether the part of T under `part` of t is within the limit
+//   rest_within(plane, part, t): likewise for a part of T that begins at an edge of t and has
+//     nothing of the sheet under it
 template <class Faces>
 class SheetWalk {
  public:
@@ -78,11 +89,12 @@ class SheetWalk {
   static std::uint32_t under_centroid(const TrianglePlane& plane, std::uint32_t from,
                                       const Faces& faces);
 
-  // From a triangle of the sheet under T across every side that a part of T lies beyond. Where all
-  // of these triangles face the way T does and the sheet does not end, a path in T from the first
-  // triangle to any point passes from one of them to the next, so they cover T. Otherwise the
-  // result is kNoSheet. A triangle whose corners are all at most `flat` from the plane of T needs
-  // no clipping.
+  // From the triangle under the middle of T across every side that a part of T lies beyond, as long
+  // as the triangles face the way T does. A straight path in T from the middle to any point passes
+  // from one of them to the next, or it leaves the sheet at an edge where the sheet ends or turns
+  // away. The point then is in the part of T that this edge hides from the middle. So the triangles
+  // and the parts hidden by such edges cover T. A triangle whose corners are all at most `flat`
+  // from the plane of T needs no clipping.
   Sheet follow_covering(const TrianglePlane& plane, std::uint32_t start, double flat, Faces& faces);
 
  private:
@@ -109,8 +121,7 @@ template <class Faces>
 std::uint32_t SheetWalk<Faces>::under_centroid(const TrianglePlane& plane, std::uint32_t from,
                                                const Faces& faces) {
   constexpr int kMostSteps = 64;
-  const double y = (plane.corners[1].y + plane.corners[2].y) / 3;
-  const double z = plane.corners[2].z / 3;
+  const auto [y, z, height] = plane.middle();
   for (int step = 0; step < kMostSteps && from != kNoIndex; ++step) {
     std::array<PlanarCorner, 3> r;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -139,46 +150,53 @@ std::uint32_t SheetWalk<Faces>::under_centroid(const TrianglePlane& plane, std::
 template <class Faces>
 Sheet SheetWalk<Faces>::follow_covering(const TrianglePlane& plane, std::uint32_t start,
                                         double flat, Faces& faces) {
-  faces.visit(start);
-  covering_.clear();
-  covering_.push_back({start, {}, {}});
   const auto project = [&](std::uint32_t vertex, Covering& at, std::size_t i) {
     at.corners[i] = plane.project(faces.position(vertex));
     at.beyond[i] = plane.beyond(at.corners[i]);
   };
-  for (std::size_t i = 0; i < 3; ++i) project(faces.corners(start)[i], covering_.back(), i);
+  covering_.clear();
+  Covering over{start, {}, {}};
+  for (std::size_t i = 0; i < 3; ++i) project(faces.corners(start)[i], over, i);
+  if (!faces_plane(over.corners)) return Sheet::kNoSheet;
+  faces.visit(start);
+  covering_.push_back(over);
   while (!covering_.empty()) {
     const Covering at = covering_.back();
     covering_.pop_back();
     const std::array<PlanarCorner, 3>& r = at.corners;
-    const bool facing = faces_plane(r);
     const bool near = std::abs(r[0].height) <= flat && std::abs(r[1].height) <= flat &&
                       std::abs(r[2].height) <= flat;
-    if (!facing || !near) {
+    if (!near) {
       part_.clip(plane, r, at.beyond);
       if (part_.corners().empty()) continue;
-      if (!facing) return Sheet::kNoSheet;
-      if (!faces.part_within(plane, part_.corners(), at.triangle)) return Sheet::kBeyond;
+      if (!faces.part_within(plane, part_.corners(), at.triangle)) return Sheet::kUnproven;
     }
     const Triangle& corners = faces.corners(at.triangle);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if ((at.beyond[i] & at.beyond[j]) != 0 || !plane.reaches_over(r[i], r[j])) continue;
-      const std::uint32_t next = faces.neighbour(at.triangle, i);
-      if (next == kNoIndex) return Sheet::kNoSheet;
-      if (!faces.visit(next)) continue;
-      Covering& over = covering_.emplace_back();
-      over.triangle = next;
-      const Triangle& t = faces.corners(next);
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (t[k] == corners[i] || t[k] == corners[j]) {
-          const std::size_t same = t[k] == corners[i] ? i : j;
-          over.corners[k] = r[same];
-          over.beyond[k] = at.beyond[same];
-        } else {
-          project(t[k], over, k);
+      over.triangle = faces.neighbour(at.triangle, i);
+      if (over.triangle != kNoIndex) {
+        if (faces.visited(over.triangle)) continue;
+        const Triangle& t = faces.corners(over.triangle);
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (t[k] == corners[i] || t[k] == corners[j]) {
+            const std::size_t same = t[k] == corners[i] ? i : j;
+            over.corners[k] = r[same];
+            over.beyond[k] = at.beyond[same];
+          } else {
+            project(t[k], over, k);
+          }
+        }
+        if (faces_plane(over.corners)) {
+          faces.visit(over.triangle);
+          covering_.push_back(over);
+          continue;
         }
       }
+      part_.shadow(plane, r[i], r[j]);
+      if (part_.corners().empty()) continue;
+      if (!faces.rest_within(plane, part_.corners(), at.triangle)) return Sheet::kUnproven;
     }
   }
   return Sheet::kWithin;

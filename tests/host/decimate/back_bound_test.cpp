@@ -111,6 +111,18 @@ TEST_F(BackBoundTwin, ASheetThatCoversItselfDoesNotCoverTheRest) {
   EXPECT_EQ(beyond_, 1u);
 }
 
+// A triangle that hangs over an edge of the reference has nothing under the part that hangs over.
+// With triangles of the reference much smaller than T this part takes many of them.
+TEST(BackBound, ProvesATriangleThatHangsOverAnEdge) {
+  constexpr double kLimit = 0.02;
+  const BackBound bound(cube(40), kLimit);
+  for (const double over : {0.0, 0.2, 0.6, 0.9, 1.1}) {
+    const double x = 1 + over * kLimit;
+    const std::array<Point, 3> t = {Point(-0.9, -0.8, 1), Point(x, -0.9, 1), Point(x, 0.9, 1)};
+    EXPECT_EQ(bound.holds(t, bound.sight(t[0]).triangle), over < 1) << over;
+  }
+}
+
 // Far from everything, out of sight of the hint.
 TEST(BackBound, RefusesWhatItDoesNotSee) {
   const BackBound bound(bumpy(10, 16), 0.05);

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "host/decimate/decimation_state.h"
+
+namespace emax {
+
+// Places on the edges that an edit changes, with their distances to the reference surface. Between
+// two pieces of surface the greatest distance may lie where edges cross, which neither points of
+// the cloud nor vertices show.
+class EdgeSamples {
+ public:
+  explicit EdgeSamples(const DecimationState& state) : state_(state) {}
+
+  // At most so many places on an edge, about two edges of the reference apart; 0 takes none. Where
+  // the distances along the edge are a parabola, one place at its extremum is enough.
+  void set_most(int most) { most_ = most; }
+  bool none() const { return most_ == 0 || state_.back() == nullptr; }
+
+  // Of the edges that only one of both sets of triangles has, and of those at `vertex`, which
+  // moves; it may be kNoIndex.
+  void take(std::span<const std::uint32_t> removed, std::span<const Triangle> added,
+            std::uint32_t vertex);
+
+  // The sum of (distance / limit)^power as it stands.
+  double energy_before(int power) const;
+  // The same with the vertex at `position`, and the greatest squared distance / limit^2. Walks from
+  // the reference's triangles of the last call.
+  struct Energy {
+    double sum = 0, worst = 0;
+  };
+  Energy measure(const Point& position, int power);
+  // Adds to the normal equations of a step of the vertex, at the position last measured. Weights
+  // are relative to `worst`.
+  void add_to(Eigen::Matrix3d& matrix, Point& right, const Point& position, double worst,
+              int power) const;
+
+ private:
+  struct Sample {
+    std::uint32_t from;  // kNoIndex: the moving vertex
+    std::uint32_t to;
+    double along;  // share of the way
+    BackBound::Sight sight;
+  };
+  using Edge = std::array<std::uint32_t, 2>;
+
+  void sample(std::uint32_t from, std::uint32_t to, std::vector<Sample>& samples) const;
+  bool is_parabola(std::uint32_t from, std::uint32_t to,
+                   const DecimationState::EdgeProfile& profile) const;
+  Point place(const Sample& s, const Point& moving) const;
+
+  const DecimationState& state_;
+  int most_ = 0;
+  std::uint32_t vertex_ = kNoIndex;
+  std::vector<Sample> before_, after_;
+  std::vector<Edge> edges_before_, edges_after_;  // scratch
+};
+
+}  // namespace emax

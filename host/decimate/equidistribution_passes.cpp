@@ -1,0 +1,291 @@
+// The passes of DecimationPasses that spread the error evenly.
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "host/decimate/decimation_passes.h"
+
+namespace emax {
+namespace {
+
+template <class T>
+void sort_once(std::vector<T>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+double DecimationPasses::worst_of(std::uint32_t slot) const {
+  double worst = 0;
+  state_.assigned().for_each(slot, [&](std::uint32_t p) {
+    worst = std::max(worst, state_.assigned().squared_distance(p) / state_.squared_limit());
+  });
+  if (state_.back() == nullptr) return worst;
+  const Triangle& t = state_.mesh().triangle(slot);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point& from = state_.mesh().position(t[i]);
+    const Point& to = state_.mesh().position(t[(i + 1) % 3]);
+    const DecimationState::EdgeProfile profile = state_.profile_of(t[i], t[(i + 1) % 3]);
+    const Point farthest = from + profile.farthest * (to - from);
+    worst = std::max({worst, state_.sight(t[i]).share, profile.sight.share,
+                      state_.back()->sight(farthest, profile.sight.triangle).share});
+  }
+  return worst;
+}
+
+double DecimationPasses::energy_of(std::uint32_t slot, int power) const {
+  double energy = power_of(worst_of(slot), power);
+  state_.assigned().for_each(slot, [&](std::uint32_t p) {
+    energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
+  });
+  return energy;
+}
+
+std::vector<std::uint32_t> DecimationPasses::beyond_limit() const {
+  const EditableMesh& mesh = state_.mesh();
+  std::vector<std::pair<double, std::uint32_t>> found;
+  for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
+    if (!mesh.alive(slot)) continue;
+    bool beyond = state_.breaks_back_bound(slot);
+    state_.assigned().for_each(slot, [&](std::uint32_t p) {
+      beyond = beyond || state_.assigned().squared_distance(p) > state_.squared_limit();
+    });
+    if (beyond) found.emplace_back(-worst_of(slot), slot);
+  }
+  std::ranges::sort(found);
+  std::vector<std::uint32_t> slots;
+  for (const auto& [worst, slot] : found) slots.push_back(slot);
+  return slots;
+}
+
+bool DecimationPasses::untouched(std::uint32_t slot) const {
+  return state_.mesh().alive(slot) &&
+         std::ranges::all_of(state_.mesh().triangle(slot), [&](std::uint32_t v) {
+           return v >= touched_.size() || touched_[v] == 0;
+         });
+}
+
+void DecimationPasses::touch_around(std::uint32_t vertex) {
+  touched_.resize(std::max(touched_.size(), state_.mesh().vertex_slots()), 0);
+  state_.mesh().neighbours(vertex, around_);
+  for (const std::uint32_t v : around_) touched_[v] = 1;
+  touched_[vertex] = 1;
+}
+
+std::size_t DecimationPasses::collapse_to(std::size_t target, int power) {
+  const EditableMesh& mesh = state_.mesh();
+  power_ = power;
+  std::size_t collapses = 0;
+  for (bool any = true; any && mesh.triangles() > target && !stopped_;) {
+    std::vector<Candidate> candidates;
+    const auto all = edges();
+    for (std::size_t i = 0; i < all.size() && !poll(i, all.size()); ++i) {
+      Candidate candidate;
+      if (judge(all[i][0], all[i][1], candidate)) candidates.push_back(candidate);
+    }
+    std::ranges::sort(candidates, [](const Candidate& c, const Candidate& d) { return d < c; });
+    touched_.assign(mesh.vertex_slots(), 0);
+    any = false;
+    for (const Candidate& candidate : candidates) {
+      if (mesh.triangles() <= target || stopped_) break;
+      if (touched_[candidate.a] != 0 || touched_[candidate.b] != 0) continue;
+      if (!apply_collapse(candidate)) continue;
+      touch_around(candidate.a);
+      ++collapses;
+      any = true;
+    }
+  }
+  power_ = kPower;
+  return collapses;
+}
+
+// A vertex that no triangle has yet.
+std::uint32_t DecimationPasses::spare_vertex(const Point& at, std::uint32_t near) {
+  if (spare_ == kNoIndex) spare_ = state_.add_vertex(at);
+  state_.place_vertex(spare_, at, near);
+  return spare_;
+}
+
+bool DecimationPasses::try_split(std::uint32_t a, std::uint32_t b, int power) {
+  if (options_.features.on(a, b)) return false;
+  const Point middle = 0.5 * (state_.mesh().position(a) + state_.mesh().position(b));
+  if (!search_.prepare_split(a, b, spare_vertex(middle, a))) return false;
+  LocalSearch::Options options;
+  options.power = power;
+  Fit fit;
+  return search_.fit(middle, options, fit) && search_.finish(fit, false, edit_) &&
+         state_.permits(edit_);
+}
+
+// Leaves the split of the side at which it lowers the energy most as the prepared edit.
+bool DecimationPasses::try_best_split(std::uint32_t slot, int power) {
+  const Triangle t = state_.mesh().triangle(slot);
+  double most = 0;
+  std::size_t side = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Fit fit;
+    if (!try_split(t[i], t[(i + 1) % 3], power)) continue;
+    if (!search_.evaluate(edit_.position, power, fit)) continue;
+    const double gained = search_.energy_before(power) - fit.energy;
+    if (side < 3 && gained <= most) continue;
+    most = gained;
+    side = i;
+  }
+  return side < 3 && try_split(t[side], t[(side + 1) % 3], power);
+}
+
+void DecimationPasses::make_split() {
+  state_.apply(edit_);
+  touch_around(spare_);
+  spare_ = kNoIndex;
+}
+
+std::size_t DecimationPasses::split(const std::vector<std::uint32_t>& slots, int power,
+                                    std::size_t most) {
+  touched_.assign(state_.mesh().vertex_slots(), 0);
+  std::size_t splits = 0;
+  for (const std::uint32_t slot : slots) {
+    if (splits == most || poll(splits, slots.size())) break;
+    if (!untouched(slot) || !try_best_split(slot, power)) continue;
+    make_split();
+    ++splits;
+  }
+  return splits;
+}
+
+std::size_t DecimationPasses::split_to(std::size_t target, int power) {
+  const EditableMesh& mesh = state_.mesh();
+  std::size_t splits = 0;
+  while (mesh.triangles() < target && !stopped_) {
+    std::vector<std::pair<double, std::uint32_t>> energies;
+    for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
+      if (mesh.alive(slot)) energies.emplace_back(-energy_of(slot, power), slot);
+    }
+    std::ranges::sort(energies);
+    std::vector<std::uint32_t> slots;
+    for (const auto& [energy, slot] : energies) slots.push_back(slot);
+    const std::size_t made = split(slots, power, (target - mesh.triangles() + 1) / 2);
+    if (made == 0) break;
+    splits += made;
+  }
+  return splits;
+}
+
+// Of the triangle's points, and of places on a grid in it.
+DecimationPasses::Witness DecimationPasses::worst_place(std::uint32_t slot) const {
+  constexpr int kSteps = 16;
+  const std::array<Point, 3> c = state_.mesh().corners(slot);
+  Witness worst;
+  if (state_.back() != nullptr) {
+    std::uint32_t near = state_.sight(state_.mesh().triangle(slot)[0]).triangle;
+    for (int i = 0; i <= kSteps; ++i) {
+      for (int j = 0; i + j <= kSteps; ++j) {
+        const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+        const Point p = c[0] + v * (c[1] - c[0]) + u * (c[2] - c[0]);
+        const BackBound::Sight sight = state_.back()->sight(p, near);
+        near = sight.triangle;
+        if (near == kNoIndex || sight.share <= worst.share) continue;
+        worst = {{1 - u - v, v, u}, p + state_.back()->toward(p, near), sight.share};
+      }
+    }
+  }
+  const Point normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  state_.assigned().for_each(slot, [&](std::uint32_t id) {
+    const double share = state_.assigned().squared_distance(id) / state_.squared_limit();
+    if (share <= worst.share) return;
+    const Point& p = state_.point(id);
+    const double v = (p - c[0]).cross(c[2] - c[0]).dot(normal) / normal.squaredNorm();
+    const double u = (c[1] - c[0]).cross(p - c[0]).dot(normal) / normal.squaredNorm();
+    worst = {{1 - u - v, v, u}, p, share};
+  });
+  return worst;
+}
+
+// At an edge where the place is close to it or the triangle cannot be split inside.
+bool DecimationPasses::try_split_at(std::uint32_t slot, const Witness& witness, int power) {
+  constexpr double kInside = 0.15;
+  const std::array<Point, 3> c = state_.mesh().corners(slot);
+  const Triangle t = state_.mesh().triangle(slot);
+  const auto least =
+      static_cast<std::size_t>(std::ranges::min_element(witness.at) - witness.at.begin());
+  const std::uint32_t a = t[(least + 1) % 3], b = t[(least + 2) % 3];
+  const Point place = witness.at[0] * c[0] + witness.at[1] * c[1] + witness.at[2] * c[2];
+  LocalSearch::Options options;
+  options.power = power;
+  for (const bool inside : {true, false}) {
+    if (inside && witness.at[least] < kInside) continue;
+    if (!inside && options_.features.on(a, b)) continue;
+    const std::uint32_t vertex = spare_vertex(place, a);
+    if (!(inside ? search_.prepare_split(slot, vertex) : search_.prepare_split(a, b, vertex))) {
+      continue;
+    }
+    std::vector<Fit> fits;
+    for (const Point& start : {place, witness.wanted, Point(0.5 * (place + witness.wanted))}) {
+      Fit fit;
+      if (search_.fit(start, options, fit)) fits.push_back(fit);
+    }
+    std::ranges::stable_sort(fits, {}, &Fit::energy);
+    for (const Fit& fit : fits) {
+      if (search_.finish(fit, true, edit_) && state_.permits(edit_)) return true;
+    }
+  }
+  return false;
+}
+
+std::size_t DecimationPasses::split_at_worst(const std::vector<std::uint32_t>& slots, int power) {
+  touched_.assign(state_.mesh().vertex_slots(), 0);
+  std::size_t splits = 0;
+  for (std::size_t i = 0; i < slots.size() && !poll(i, slots.size()); ++i) {
+    if (!untouched(slots[i]) || !try_split_at(slots[i], worst_place(slots[i]), power)) continue;
+    make_split();
+    ++splits;
+  }
+  return splits;
+}
+
+std::vector<std::uint32_t> DecimationPasses::vertices_around(
+    const std::vector<std::uint32_t>& slots, int rings) const {
+  std::vector<std::uint32_t> vertices, ring;
+  for (const std::uint32_t slot : slots) {
+    if (!state_.mesh().alive(slot)) continue;
+    for (const std::uint32_t v : state_.mesh().triangle(slot)) vertices.push_back(v);
+  }
+  sort_once(vertices);
+  for (int i = 0; i < rings; ++i) {
+    const std::vector<std::uint32_t> inner = vertices;
+    for (const std::uint32_t v : inner) {
+      state_.mesh().neighbours(v, ring);
+      vertices.insert(vertices.end(), ring.begin(), ring.end());
+    }
+    sort_once(vertices);
+  }
+  return vertices;
+}
+
+std::size_t DecimationPasses::relax_around(const std::vector<std::uint32_t>& slots, int rings,
+                                           int power) {
+  const EditableMesh& mesh = state_.mesh();
+  const std::vector<std::uint32_t> vertices = vertices_around(slots, rings);
+  std::vector<std::array<std::uint32_t, 2>> flips;
+  for (const std::uint32_t v : vertices) {
+    mesh.neighbours(v, around_);
+    for (const std::uint32_t w : around_) flips.push_back({std::min(v, w), std::max(v, w)});
+  }
+  sort_once(flips);
+  std::size_t edits = 0;
+  for (std::size_t i = 0; i < flips.size() && !poll(i, 2 * flips.size()); ++i) {
+    const auto [a, b] = flips[i];
+    if (mesh.slots_at_edge(a, b)[0] == kNoIndex || !try_flip(a, b, power, true)) continue;
+    state_.apply(edit_);
+    ++edits;
+  }
+  for (const std::uint32_t v : vertices) {
+    if (poll(0.75)) break;
+    if (!mesh.used(v) || !try_relocation(v, power, true)) continue;
+    state_.apply(edit_);
+    ++edits;
+  }
+  return edits;
+}
+
+}  // namespace emax

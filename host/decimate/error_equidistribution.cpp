@@ -1,0 +1,128 @@
+#include "host/decimate/error_equidistribution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace emax {
+namespace {
+
+constexpr double kLoosened = 2, kLessLoosened = 1.25;  // the limits, times
+constexpr int kExchanges = 6, kSureLastExchanges = 2, kLastExchanges = 4;
+// The number of triangles to aim at is the one with which this share of the triangles would be
+// within the limit, if the error falls with the area. High powers that come later allow fewer.
+constexpr double kQuantile = 0.9, kFewerLater = 0.93, kLastQuantile = 0.95;
+constexpr double kCollapsed = 0.93, kLastCollapsed = 0.97;  // of these, before splits fill up
+constexpr double kEnough = 0.99;  // an exchange that would leave more than this share gains little
+constexpr int kRings = 3;
+constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be restored
+constexpr double kFewBeyond = 0.005;  // share of the triangles that is left to exact restoration
+constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
+// Restoration is given up where more than this share of the triangles is beyond the limit, or where
+// splitting all of these would leave more than a share of the triangles that were there at first.
+constexpr double kTooManyBeyond = 0.25, kTooManyLeft = 0.95;
+
+}  // namespace
+
+bool ErrorEquidistribution::run() {
+  const std::size_t first = state_.mesh().triangles();
+  passes_.use(LocalSearch::Steps::kNewton);
+  state_.loosen(kLoosened, kLoosened);
+  for (const int power : {4, 8, 16}) relax(power, 2);
+  for (int i = 0; i < kExchanges && !passes_.stopped(); ++i) {
+    exchange(kQuantile, kFewerLater, kCollapsed, 8);
+  }
+  relax(32, 4);
+  exchange_at_last();
+  state_.loosen(kLessLoosened, kLoosened);
+  relax(64, 3);
+  if (!restore_loosely(first)) return false;
+  restore();
+  return !passes_.stopped() && state_.keep_limits();
+}
+
+void ErrorEquidistribution::relax(int power, int rounds) {
+  for (int i = 0; i < rounds && !passes_.stopped(); ++i) {
+    tell_("flips", passes_.flip(power));
+    tell_("relocations", passes_.relocate(power));
+  }
+}
+
+void ErrorEquidistribution::relax_around(const std::vector<std::uint32_t>& slots, int power) {
+  tell_("relaxations", passes_.relax_around(slots, kRings, power));
+}
+
+// Takes triangles where they cost least energy and adds some where there is most.
+void ErrorEquidistribution::exchange(double quantile, double share, double collapsed, int power) {
+  const auto target = static_cast<std::size_t>(share * static_cast<double>(fitting(quantile)));
+  const auto fewer = static_cast<std::size_t>(collapsed * static_cast<double>(target));
+  tell_("loose collapses", passes_.collapse_to(fewer, power));
+  relax(8, 2);
+  tell_("splits", passes_.split_to(target, power));
+  relax(16, 2);
+}
+
+// Until there are as few triangles as can be restored. These exchanges may also add triangles.
+void ErrorEquidistribution::exchange_at_last() {
+  for (int i = 0; i < kLastExchanges && !passes_.stopped(); ++i) {
+    if (i >= kSureLastExchanges) {
+      const auto triangles = static_cast<double>(state_.mesh().triangles());
+      const auto beyond = static_cast<double>(beyond_limit().size());
+      const bool gains = static_cast<double>(fitting(kLastQuantile)) < kEnough * triangles;
+      if (!gains || beyond > kManyBeyond * triangles) break;
+    }
+    exchange(kLastQuantile, 1, kLastCollapsed, 16);
+    relax(32, 4);
+  }
+}
+
+// The number of triangles with which a share of them would be within the limit.
+std::size_t ErrorEquidistribution::fitting(double quantile) const {
+  std::vector<double> worst;
+  for (std::uint32_t slot = 0; slot < state_.mesh().slots(); ++slot) {
+    if (state_.mesh().alive(slot)) worst.push_back(passes_.worst_of(slot));
+  }
+  const auto last = static_cast<double>(worst.size() - 1);
+  const auto at = worst.begin() + static_cast<std::ptrdiff_t>(quantile * last);
+  std::ranges::nth_element(worst, at);
+  return static_cast<std::size_t>(std::sqrt(*at) * static_cast<double>(worst.size()));
+}
+
+// Of the limits as they are in the end, worst first.
+std::vector<std::uint32_t> ErrorEquidistribution::beyond_limit() {
+  state_.reassign();
+  state_.test_back_bound();
+  return passes_.beyond_limit();
+}
+
+// A third of what is beyond the limit is split at a time: relaxing around it restores more. Returns
+// false where it is given up.
+bool ErrorEquidistribution::restore_loosely(std::size_t first) {
+  for (int i = 0; i < kRestorations && !passes_.stopped(); ++i) {
+    std::vector<std::uint32_t> worst = beyond_limit();
+    const auto triangles = static_cast<double>(state_.mesh().triangles());
+    const auto beyond = static_cast<double>(worst.size());
+    if (beyond > kTooManyBeyond * triangles) return false;
+    if (triangles + beyond > kTooManyLeft * static_cast<double>(first)) return false;
+    if (beyond < kFewBeyond * triangles) break;
+    worst.resize((worst.size() + 2) / 3);
+    tell_("splits", passes_.split_at_worst(worst, 16));
+    for (const int power : {16, 16, 32, 32}) relax_around(passes_.beyond_limit(), power);
+  }
+  return true;
+}
+
+void ErrorEquidistribution::restore() {
+  state_.tighten();
+  for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
+    state_.prove_all();
+    std::vector<std::uint32_t> beyond = passes_.beyond_limit();
+    const std::vector<std::uint32_t> around = state_.around_unproven();
+    beyond.insert(beyond.end(), around.begin(), around.end());
+    if (beyond.empty()) break;
+    // Relaxations alone every other time.
+    if (i % 2 == 1) tell_("splits", passes_.split_at_worst(beyond, 16));
+    for (const int power : {32, 32, 16}) relax_around(beyond, power);
+  }
+}
+
+}  // namespace emax

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "host/decimate/decimation_passes.h"
+
+namespace emax {
+
+// Spreads the error evenly over a mesh, which then needs fewer triangles for the same greatest
+// error. The sum of the p-th powers of the distances evens them out for high p. A collapse puts
+// much error in one place, which only later moves around it carry away; so the limits are loosened
+// while triangles are taken where they cost least and added where the error is greatest. In the end
+// the limits hold again, and what is beyond them is split and relaxed
+// (docs/decisions/0020-the-error-spread-evenly.md).
+class ErrorEquidistribution {
+ public:
+  // Told of each pass: its name, the number of edits.
+  using Tell = std::function<void(const char*, std::size_t)>;
+  ErrorEquidistribution(DecimationState& state, DecimationPasses& passes, Tell tell)
+      : state_(state), passes_(passes), tell_(std::move(tell)) {}
+
+  // Returns whether every limit holds in the end. If not, not all could be restored, or the passes
+  // were stopped.
+  bool run();
+
+ private:
+  void relax(int power, int rounds);
+  void relax_around(const std::vector<std::uint32_t>& slots, int power);
+  void exchange(double quantile, double share, double collapsed, int power);
+  void exchange_at_last();
+  std::size_t fitting(double quantile) const;
+  std::vector<std::uint32_t> beyond_limit();
+  bool restore_loosely(std::size_t first);
+  void restore();
+
+  DecimationState& state_;
+  DecimationPasses& passes_;
+  Tell tell_;
+};
+
+}  // namespace emax

@@ -1,0 +1,140 @@
+#include "host/decimate/edge_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/host/support/surfaces.h"
+
+namespace emax::test {
+namespace {
+
+constexpr double kLimit = 0.05;
+constexpr int kPower = 4;
+
+// By every triangle of the reference, as a share of the limit squared.
+double share_of(const Point& p, const TriangleMesh& reference) {
+  double least = 1e300;
+  for (std::size_t t = 0; t < reference.triangles.size(); ++t) {
+    least = std::min(least, squared_distance(p, reference.view().corners(t)));
+  }
+  return least / (kLimit * kLimit);
+}
+
+// The greatest share at places spread over the edges at a vertex.
+double greatest_at(std::uint32_t vertex, const Point& position, const EditableMesh& mesh,
+                   const TriangleMesh& reference) {
+  constexpr int kPlaces = 24;
+  std::vector<std::uint32_t> ring;
+  mesh.neighbours(vertex, ring);
+  double greatest = 0;
+  for (const std::uint32_t other : ring) {
+    for (int i = 1; i < kPlaces; ++i) {
+      const Point p =
+          position + static_cast<double>(i) / kPlaces * (mesh.position(other) - position);
+      greatest = std::max(greatest, share_of(p, reference));
+    }
+  }
+  return greatest;
+}
+
+class CoarseMesh : public testing::TestWithParam<bool> {
+ protected:
+  CoarseMesh()
+      : reference_(GetParam() ? bumpy(30, 50) : sheet(40, 0.4)),
+        mesh_(GetParam() ? bumpy(14, 22) : sheet(12, 0.4)),
+        back_(reference_, kLimit),
+        state_(mesh_, reference_.vertices, &back_, kLimit * kLimit, {}) {}
+
+  std::vector<std::uint32_t> slots_at(std::uint32_t vertex) const {
+    std::vector<std::uint32_t> slots;
+    state_.mesh().slots_at(vertex, slots);
+    return slots;
+  }
+  std::vector<Triangle> triangles_at(std::uint32_t vertex) const {
+    std::vector<Triangle> triangles;
+    for (const std::uint32_t slot : slots_at(vertex)) {
+      triangles.push_back(state_.mesh().triangle(slot));
+    }
+    return triangles;
+  }
+
+  TriangleMesh reference_, mesh_;
+  BackBound back_;
+  DecimationState state_;
+};
+
+TEST_P(CoarseMesh, FindsWhereEdgesAreFarFromTheReference) {
+  EdgeSamples samples(state_);
+  samples.set_most(8);
+  std::size_t near = 0, all = 0;
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); v += 3) {
+    samples.take(slots_at(v), triangles_at(v), v);
+    const double found = samples.measure(mesh_.vertices[v], kPower).worst;
+    const double greatest = greatest_at(v, mesh_.vertices[v], state_.mesh(), reference_);
+    // Far away sights are cut off at four times the limit.
+    if (greatest > 1) continue;
+    EXPECT_LE(found, greatest * 1.1 + 1e-3);
+    near += std::sqrt(found) >= std::sqrt(greatest) - 0.15 ? 1 : 0;
+    ++all;
+  }
+  EXPECT_GT(all, 40u);
+  EXPECT_GT(near, all * 9 / 10);
+}
+
+TEST_P(CoarseMesh, MeasuresTheSameInPlaceAsBefore) {
+  EdgeSamples samples(state_);
+  samples.set_most(8);
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); v += 5) {
+    samples.take(slots_at(v), triangles_at(v), v);
+    const double before = samples.energy_before(kPower);
+    EXPECT_NEAR(samples.measure(mesh_.vertices[v], kPower).sum, before, 1e-9 + 1e-6 * before);
+  }
+}
+
+// The slope of the sum of powers, by differences.
+TEST_P(CoarseMesh, PointsAStepDownTheSlope) {
+  EdgeSamples samples(state_);
+  samples.set_most(8);
+  Random random(31);
+  std::size_t compared = 0, alike = 0;
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); v += 3) {
+    samples.take(slots_at(v), triangles_at(v), v);
+    const Point at = mesh_.vertices[v];
+    const Point direction = random.point(-1, 1).normalized();
+    const double step = 1e-6 * kLimit;
+    const double up = samples.measure(at + step * direction, kPower).sum;
+    const double down = samples.measure(at - step * direction, kPower).sum;
+    const EdgeSamples::Energy here = samples.measure(at, kPower);
+    if (!(here.worst > 1e-4) || here.worst > 1) continue;
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Point right = Point::Zero();
+    samples.add_to(matrix, right, at, 1, kPower);
+    // d/dx of (d^2/L^2)^(p/2), where `right` is the sum of (d^2/L^2)^(p/2 - 1) times the residual.
+    const double slope = -kPower / (kLimit * kLimit) * right.dot(direction);
+    const double found = (up - down) / (2 * step);
+    const double tolerance = 0.02 * std::abs(slope) + 0.02 * here.sum / kLimit;
+    alike += std::abs(found - slope) <= tolerance ? 1 : 0;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10u);
+  // All but those with a place where the nearest triangle of the reference changes.
+  EXPECT_GT(alike, compared * 9 / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, CoarseMesh, testing::Bool(),
+                         [](const auto& param) { return param.param ? "Closed" : "Open"; });
+
+TEST(EdgeSamples, NoneWithoutABackBoundOrPlaces) {
+  const TriangleMesh mesh = sheet(5, 0.2);
+  const BackBound back(mesh, kLimit);
+  const DecimationState one_sided(mesh, mesh.vertices, nullptr, kLimit * kLimit, {});
+  const DecimationState both(mesh, mesh.vertices, &back, kLimit * kLimit, {});
+  EdgeSamples samples(one_sided), none(both);
+  samples.set_most(8);
+  EXPECT_TRUE(samples.none());
+  EXPECT_TRUE(none.none());
+}
+
+}  // namespace
+}  // namespace emax::test

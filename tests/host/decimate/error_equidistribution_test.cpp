@@ -1,0 +1,164 @@
+#include "host/decimate/error_equidistribution.h"
+
+#include <gtest/gtest.h>
+
+#include "host/geometry/mesh_validity.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/surfaces.h"
+
+namespace emax::test {
+namespace {
+
+// The vertices and the middles of the edges.
+std::vector<Point> with_middles(const TriangleMesh& mesh) {
+  std::vector<Point> points = mesh.vertices;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      points.push_back(0.5 * (mesh.vertices[t[i]] + mesh.vertices[t[(i + 1) % 3]]));
+    }
+  }
+  return points;
+}
+
+// A state under all bounds of a reference, its passes, and what stops them.
+struct Bench {
+  Bench(const TriangleMesh& mesh, double at_most)
+      : reference(mesh),
+        limit(at_most),
+        back(reference, limit),
+        cloud(with_middles(reference)),
+        state(reference, cloud, &back, limit * limit, {}, nullptr, reference.triangles),
+        passes(state, {}, [this](double) { return polls == 0 || --polls == 0; }) {}
+
+  bool run() {
+    return ErrorEquidistribution(state, passes,
+                                 [this](const char*, std::size_t) {
+                                   most = std::max(most, state.mesh().triangles());
+                                 })
+        .run();
+  }
+  TriangleMesh mesh() const { return state.mesh().compact(); }
+  // Nothing here is of the decimator's own.
+  void expect_within() const {
+    const TriangleMesh found = mesh();
+    const ExactMesh exact(found.view()), exact_reference(reference.view());
+    EXPECT_TRUE(check_mesh(found.view()).valid());
+    EXPECT_TRUE(certify(reference.vertices, found.view(), {}).within(limit * (1 + 1e-9)));
+    for (const auto& [of, to] :
+         {std::pair{found.view(), &exact_reference}, std::pair{reference.view(), &exact}}) {
+      EXPECT_LE(decided_distance(of, *to, limit * (1 + 1e-9)).lower, limit * (1 + 1e-9));
+    }
+  }
+
+  const TriangleMesh reference;
+  const double limit;
+  long polls = 1'000'000'000;
+  std::size_t most = 0;
+  BackBound back;
+  std::vector<Point> cloud;
+  DecimationState state;
+  DecimationPasses passes;
+};
+
+TEST(ErrorEquidistribution, NeedsFewerTrianglesThanCollapsesWithinTheLimits) {
+  for (const auto& [mesh, limit] :
+       {std::pair{bumpy(50, 80), 0.02}, std::pair{sheet(40, 0.3), 0.01}}) {
+    Bench bench(mesh, limit);
+    bench.passes.sweep();
+    bench.passes.collapse();
+    const std::size_t before = bench.state.mesh().triangles();
+    ASSERT_TRUE(bench.run());
+    EXPECT_LT(bench.state.mesh().triangles(), before * 9 / 10);
+    bench.expect_within();
+    // The limits hold from now on.
+    bench.passes.relocate(4);
+    bench.expect_within();
+  }
+}
+
+// Wherever it is stopped, it does not call a mesh within its limits that is not.
+TEST(ErrorEquidistribution, SaysThatAStoppedMeshIsNotWithin) {
+  std::size_t beyond = 0;
+  for (const long polls : {1, 30, 200}) {
+    Bench bench(bumpy(30, 50), 0.01);
+    bench.passes.collapse();
+    const DecimationState::Snapshot before = bench.state.snapshot();
+    const TriangleMesh kept = bench.mesh();
+    bench.polls = polls;
+    EXPECT_FALSE(bench.run());
+    EXPECT_TRUE(bench.passes.stopped());
+    beyond += bench.passes.beyond_limit().empty() ? 0 : 1;
+    bench.state.restore(before);
+    EXPECT_TRUE(same_bytes(bench.mesh(), kept));
+    bench.expect_within();
+  }
+  EXPECT_GT(beyond, 0u);
+}
+
+TEST(EquidistributionPasses, CollapseAndSplitToTheirTargets) {
+  Bench bench(bumpy(30, 50), 0.01);
+  bench.passes.collapse();
+  bench.passes.use(LocalSearch::Steps::kNewton);
+  bench.state.loosen(2, 2);
+  const std::size_t start = bench.state.mesh().triangles();
+  const std::size_t collapses = bench.passes.collapse_to(start - 20, 8);
+  EXPECT_EQ(bench.state.mesh().triangles(), start - 2 * collapses);
+  EXPECT_LE(bench.state.mesh().triangles(), start - 20);
+  EXPECT_GE(bench.state.mesh().triangles(), start - 21);
+  const std::size_t splits = bench.passes.split_to(start, 8);
+  EXPECT_EQ(splits, collapses);
+  EXPECT_EQ(bench.state.mesh().triangles(), start);
+  EXPECT_TRUE(check_mesh(bench.mesh().view()).valid());
+}
+
+// By every point and every triangle, and by the interval of the surface distance.
+TEST(EquidistributionPasses, FindEveryTriangleBeyondALimit) {
+  Bench bench(bumpy(30, 50), 0.01);
+  bench.passes.collapse();
+  bench.passes.use(LocalSearch::Steps::kNewton);
+  bench.state.loosen(2, 2);
+  bench.passes.collapse_to(bench.state.mesh().triangles() * 9 / 10, 8);
+  bench.state.tighten();
+  const std::vector<std::uint32_t> found = bench.passes.beyond_limit();
+  ASSERT_GT(found.size(), 5u);
+  const ExactMesh exact(bench.reference.view());
+  const EditableMesh& mesh = bench.state.mesh();
+  for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
+    if (!mesh.alive(slot)) continue;
+    bool point_beyond = false;
+    bench.state.assigned().for_each(slot, [&](std::uint32_t p) {
+      point_beyond = point_beyond || squared_distance(bench.state.point(p), mesh.corners(slot)) >
+                                         bench.limit * bench.limit;
+    });
+    const std::array<Point, 3> corners = mesh.corners(slot);
+    const std::vector<Triangle> one = {{0, 1, 2}};
+    const SurfaceDistance back = decided_distance({corners, one}, exact, bench.limit);
+    const bool listed = std::ranges::find(found, slot) != found.end();
+    const bool within = !point_beyond && back.upper < 0.98 * bench.limit;
+    EXPECT_TRUE(listed || !(point_beyond || back.lower > bench.limit)) << slot;
+    EXPECT_FALSE(listed && within) << slot;
+  }
+}
+
+TEST(EquidistributionPasses, SplitsAtTheWorstPlaceLowerTheWorst) {
+  Bench bench(bumpy(30, 50), 0.01);
+  bench.passes.collapse();
+  bench.passes.use(LocalSearch::Steps::kNewton);
+  bench.state.loosen(2, 2);
+  bench.passes.collapse_to(bench.state.mesh().triangles() * 9 / 10, 8);
+  bench.state.tighten();
+  std::vector<std::uint32_t> beyond = bench.passes.beyond_limit();
+  const std::size_t first = beyond.size();
+  ASSERT_GT(first, 5u);
+  for (int round = 0; round < 10 && !beyond.empty(); ++round) {
+    EXPECT_GT(bench.passes.split_at_worst(beyond, 16), 0u);
+    bench.passes.relax_around(bench.passes.beyond_limit(), 2, 16);
+    beyond = bench.passes.beyond_limit();
+  }
+  EXPECT_LT(beyond.size(), first / 4);
+  EXPECT_TRUE(check_mesh(bench.mesh().view()).valid());
+}
+
+}  // namespace
+}  // namespace emax::test
