@@ -175,7 +175,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command
       .add_option("--effort", decimate.effort,
                   "how long to look for fewer triangles: quick only collapses edges, deep spreads "
-                  "the error evenly and takes about twice the time of normal")
+                  "the error evenly and takes several times as long as normal")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
   command

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "host/decimate/local_distance.h"
 #include "host/decimate/spatial_order.h"
@@ -26,16 +25,6 @@ class BackBound::Faces {
   }
   bool visited(std::uint32_t t) const { return bound_.faces_[t].seen == bound_.search_; }
   void visit(std::uint32_t t) { bound_.faces_[t].seen = bound_.search_; }
-  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                   std::uint32_t t) const {
-    const bool low = std::ranges::all_of(
-        part, [&](const PlanarCorner& c) { return std::abs(c.height) <= bound_.limit_; });
-    return low || bound_.part_within(plane, part, t);
-  }
-  bool rest_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                   std::uint32_t t) const {
-    return bound_.part_within(plane, part, t);
-  }
 
  private:
   const BackBound& bound_;
@@ -109,7 +98,10 @@ Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near) co
   }
   if (start == kNoIndex) return Sheet::kNoSheet;
   ++search_;
-  return walk_->follow_covering(plane, start, limit_, faces);
+  return walk_->follow_covering(plane, start, limit_, faces,
+                                [&](const std::vector<PlanarCorner>& part, std::uint32_t t) {
+                                  return part_within(plane, part, t);
+                                });
 }
 
 bool BackBound::part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,

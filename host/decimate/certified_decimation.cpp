@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "sw_model/base/error.h"
+#include "sw_model/base/sort_once.h"
 
 namespace emax {
 namespace {
@@ -87,8 +88,7 @@ class Attempts {
 
   // The points left out at the start that are still too far by exact distances.
   std::vector<std::uint32_t> beyond_for_good(const ExactMesh& mesh) {
-    std::ranges::sort(left_out_);
-    left_out_.erase(std::unique(left_out_.begin(), left_out_.end()), left_out_.end());
+    sort_once(left_out_);
     std::vector<std::uint32_t> beyond;
     for (const std::uint32_t p : left_out_) {
       if (mesh.distance(cloud_[p]).upper > epsilon_) beyond.push_back(p);

@@ -1,8 +1,11 @@
 #include "host/decimate/decimation_passes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "sw_model/base/sort_once.h"
 namespace emax {
 namespace {
 
@@ -15,6 +18,10 @@ constexpr double kLeastGain = 1e-3;  // least share of its energy that a move or
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
 constexpr double kLeastSwept = 0.1;  // the least share of the triangles that a sweep must remove
+
+double share_of(std::size_t at, std::size_t of) {
+  return static_cast<double>(at) / static_cast<double>(of);
+}
 
 // A triangle's edges, the shortest first, each with its lower vertex first.
 std::array<std::array<std::uint32_t, 2>, 3> shortest_first(const EditableMesh& mesh,
@@ -52,13 +59,11 @@ bool DecimationPasses::poll(double done) {
   return stopped_;
 }
 
-bool DecimationPasses::poll(std::size_t at, std::size_t of) {
-  return poll(static_cast<double>(at) / static_cast<double>(of));
-}
+bool DecimationPasses::poll(std::size_t at, std::size_t of) { return poll(share_of(at, of)); }
 
-std::vector<std::array<std::uint32_t, 2>> DecimationPasses::edges() const {
+std::vector<DecimationPasses::Edge> DecimationPasses::edges() const {
   const EditableMesh& mesh = state_.mesh();
-  std::vector<std::array<std::uint32_t, 2>> result;
+  std::vector<Edge> result;
   for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
     if (!mesh.alive(slot)) continue;
     const Triangle& t = mesh.triangle(slot);
@@ -196,9 +201,7 @@ std::size_t DecimationPasses::sweep() {
         if (touched_[a] != 0 || touched_[b] != 0 || !try_plain_collapse(a, b, most)) continue;
         make_collapse(a, b);
         ++collapses;
-        mesh.neighbours(a, around_);
-        for (const std::uint32_t v : around_) touched_[v] = 1;
-        touched_[a] = 1;
+        touch_around(a);
         break;
       }
     }
@@ -275,10 +278,17 @@ bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, boo
 }
 
 std::size_t DecimationPasses::relocate(int power) {
+  std::vector<std::uint32_t> vertices(state_.mesh().vertex_slots());
+  std::iota(vertices.begin(), vertices.end(), 0u);
+  return relocate_each(vertices, power, 0);
+}
+
+std::size_t DecimationPasses::relocate_each(const std::vector<std::uint32_t>& vertices, int power,
+                                            double from) {
   std::size_t moved = 0;
-  const auto vertices = static_cast<std::uint32_t>(state_.mesh().vertex_slots());
-  for (std::uint32_t v = 0; v < vertices && !poll(v, vertices); ++v) {
-    if (!state_.mesh().used(v) || !try_relocation(v, power, true)) continue;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (poll(std::lerp(from, 1, share_of(i, vertices.size())))) break;
+    if (!state_.mesh().used(vertices[i]) || !try_relocation(vertices[i], power, true)) continue;
     state_.apply(edit_);
     ++moved;
   }
@@ -297,11 +307,14 @@ std::size_t DecimationPasses::descend() {
   return edits;
 }
 
-std::size_t DecimationPasses::flip(int power) {
+std::size_t DecimationPasses::flip(int power) { return flip_each(edges(), power, 0, 1); }
+
+std::size_t DecimationPasses::flip_each(const std::vector<Edge>& edges, int power, double from,
+                                        double to) {
   std::size_t flips = 0;
-  const auto all = edges();
-  for (std::size_t i = 0; i < all.size() && !poll(i, all.size()); ++i) {
-    if (!try_flip(all[i][0], all[i][1], power, true)) continue;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (poll(std::lerp(from, to, share_of(i, edges.size())))) break;
+    if (!try_flip(edges[i][0], edges[i][1], power, true)) continue;
     state_.apply(edit_);
     ++flips;
   }
@@ -352,8 +365,7 @@ bool DecimationPasses::mend(std::uint32_t vertex) {
         }
       });
     }
-    std::sort(flips.begin(), flips.end());
-    flips.erase(std::unique(flips.begin(), flips.end()), flips.end());
+    sort_once(flips);
     ring.insert(ring.begin(), vertex);
     for (const auto& [a, b] : flips) {
       if (mesh.used(a) && mesh.used(b) && try_flip(a, b, 8, false)) apply(true);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,7 @@ class DecimationPasses {
   // Called from time to time with the share of the present pass that is done, from 0 to 1. True
   // ends the pass after the present edit.
   using Poll = std::function<bool(double)>;
+  static constexpr int kPower = 4;  // of the distances in the energy that places vertices
   struct Options {
     FeatureEdges features;  // kept by collapses and flips
     // For Hoppe's objective: the cost of an edge's squared length, and the gain of one vertex less,
@@ -89,6 +91,10 @@ class DecimationPasses {
 
   bool poll(double done);
   bool poll(std::size_t at, std::size_t of);
+  using Edge = std::array<std::uint32_t, 2>;
+  // `from` and `to` are shares of the present pass.
+  std::size_t flip_each(const std::vector<Edge>& edges, int power, double from, double to);
+  std::size_t relocate_each(const std::vector<std::uint32_t>& vertices, int power, double from);
   bool judge(std::uint32_t a, std::uint32_t b, Candidate& candidate);
   bool place(const Point& a, const Point& b, Fit& fit);
   // A place of a triangle and the point of the reference or the cloud that it should be near.
@@ -119,14 +125,13 @@ class DecimationPasses {
   void apply(bool keep_undo);
   bool mend(std::uint32_t vertex);
   bool all_within(const std::vector<std::uint32_t>& points) const;
-  std::vector<std::array<std::uint32_t, 2>> edges() const;
+  std::vector<Edge> edges() const;
 
   DecimationState& state_;
   Options options_;
   Poll poll_;
   LocalSearch search_;
   MeshEdit edit_;
-  static constexpr int kPower = 4;
   int power_ = kPower;              // of the energy by which collapses are judged
   std::uint32_t spare_ = kNoIndex;  // a vertex that no triangle has
   std::priority_queue<Candidate> queue_;

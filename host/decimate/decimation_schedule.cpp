@@ -14,8 +14,7 @@ using Effort = DecimationSettings::Effort;
 constexpr std::size_t kFew = 400;  // triangles: with so few, searching on takes hardly any time
 // The passes' shares of the time that is estimated to be left.
 constexpr double kSweeps = 0.4, kOtherPass = 0.3;
-// Power of the distances in the energy that places vertices.
-constexpr int kPower = 4;
+constexpr int kPower = DecimationPasses::kPower;
 // Where the error is spread evenly.
 constexpr int kHighPower = 16;
 // With this share of the triangles left, nothing else is tried.

@@ -7,6 +7,7 @@
 
 #include "host/geometry/triangle_pair.h"
 #include "sw_model/base/deliberate_fault.h"
+#include "sw_model/base/sort_once.h"
 
 namespace emax {
 namespace {
@@ -41,11 +42,8 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
       reference_(reference),
       assigned_(cloud.size(), mesh.triangles.size()),
       tree_(mesh_),
-      area_normals_(mesh.triangles.size()),
       sight_(mesh.vertices.size()) {
-  for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
-    area_normals_[slot] = area_normal_of(mesh_.corners(slot));
-  }
+  take_area_normals();
   complete_ = reassign(interrupted);
   if (complete_) cover_reference();
   if (!complete_ || back_ == nullptr) return;
@@ -304,8 +302,7 @@ std::vector<std::uint32_t> DecimationState::around_unproven() const {
       if (assigned_.owner(p) != kNoIndex) slots.push_back(assigned_.owner(p));
     }
   }
-  std::ranges::sort(slots);
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  sort_once(slots);
   return slots;
 }
 
@@ -317,11 +314,15 @@ void DecimationState::restore(const Snapshot& snapshot) {
   may_stay_beyond_ = false;
   breaks_back_.clear();
   tree_.rebuild(mesh_);
+  take_area_normals();
+  cover_reference();
+}
+
+void DecimationState::take_area_normals() {
   area_normals_.assign(mesh_.slots(), Point::Zero());
   for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
     if (mesh_.alive(slot)) area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
-  cover_reference();
 }
 
 DecimationState::EdgeProfile DecimationState::profile_of(std::uint32_t a, std::uint32_t b) const {

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "host/decimate/assigned_points.h"
@@ -161,6 +160,7 @@ class DecimationState {
   bool meets_itself(const MeshEdit& edit) const;
   std::size_t crossings(std::span<const Triangle> triangles,
                         std::span<const std::uint32_t> removed) const;
+  void take_area_normals();
   void changed(std::uint32_t slot);
 
   EditableMesh mesh_;

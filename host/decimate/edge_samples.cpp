@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/decimate/local_distance.h"
+#include "sw_model/base/sort_once.h"
 
 namespace emax {
 namespace {
@@ -19,16 +20,10 @@ void collect(const Triangle& t, std::vector<std::array<std::uint32_t, 2>>& edges
   }
 }
 
-void sort_once(std::vector<std::array<std::uint32_t, 2>>& edges) {
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-}
-
 }  // namespace
 
 void EdgeSamples::take(std::span<const std::uint32_t> removed, std::span<const Triangle> added,
                        std::uint32_t vertex) {
-  vertex_ = vertex;
   before_.clear();
   after_.clear();
   if (none()) return;

@@ -55,7 +55,6 @@ class EdgeSamples {
 
   const DecimationState& state_;
   int most_ = 0;
-  std::uint32_t vertex_ = kNoIndex;
   std::vector<Sample> before_, after_;
   std::vector<Edge> edges_before_, edges_after_;  // scratch
 };

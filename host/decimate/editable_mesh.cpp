@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sw_model/base/sort_once.h"
 namespace emax {
 
 EditableMesh::EditableMesh(const TriangleMesh& mesh)
@@ -61,8 +62,7 @@ void EditableMesh::neighbours(std::uint32_t vertex, std::vector<std::uint32_t>& 
       if (v != vertex) vertices.push_back(v);
     }
   });
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_once(vertices);
 }
 
 std::array<std::uint32_t, 2> EditableMesh::slots_at_edge(std::uint32_t a, std::uint32_t b) const {

@@ -3,14 +3,19 @@
 #include <algorithm>
 
 #include "host/decimate/decimation_passes.h"
+#include "sw_model/base/sort_once.h"
 
 namespace emax {
 namespace {
 
-template <class T>
-void sort_once(std::vector<T>& list) {
-  std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+// The triangles, with the greatest value first; of equal ones the lower slot.
+std::vector<std::uint32_t> worst_first(std::vector<std::pair<double, std::uint32_t>> found) {
+  std::ranges::sort(found, [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  std::vector<std::uint32_t> slots;
+  for (const auto& [value, slot] : found) slots.push_back(slot);
+  return slots;
 }
 
 }  // namespace
@@ -50,12 +55,9 @@ std::vector<std::uint32_t> DecimationPasses::beyond_limit() const {
     state_.assigned().for_each(slot, [&](std::uint32_t p) {
       beyond = beyond || state_.assigned().squared_distance(p) > state_.squared_limit();
     });
-    if (beyond) found.emplace_back(-worst_of(slot), slot);
+    if (beyond) found.emplace_back(worst_of(slot), slot);
   }
-  std::ranges::sort(found);
-  std::vector<std::uint32_t> slots;
-  for (const auto& [worst, slot] : found) slots.push_back(slot);
-  return slots;
+  return worst_first(std::move(found));
 }
 
 bool DecimationPasses::untouched(std::uint32_t slot) const {
@@ -159,12 +161,10 @@ std::size_t DecimationPasses::split_to(std::size_t target, int power) {
   while (mesh.triangles() < target && !stopped_) {
     std::vector<std::pair<double, std::uint32_t>> energies;
     for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
-      if (mesh.alive(slot)) energies.emplace_back(-energy_of(slot, power), slot);
+      if (mesh.alive(slot)) energies.emplace_back(energy_of(slot, power), slot);
     }
-    std::ranges::sort(energies);
-    std::vector<std::uint32_t> slots;
-    for (const auto& [energy, slot] : energies) slots.push_back(slot);
-    const std::size_t made = split(slots, power, (target - mesh.triangles() + 1) / 2);
+    const std::size_t made =
+        split(worst_first(std::move(energies)), power, (target - mesh.triangles() + 1) / 2);
     if (made == 0) break;
     splits += made;
   }
@@ -264,28 +264,15 @@ std::vector<std::uint32_t> DecimationPasses::vertices_around(
 
 std::size_t DecimationPasses::relax_around(const std::vector<std::uint32_t>& slots, int rings,
                                            int power) {
-  const EditableMesh& mesh = state_.mesh();
   const std::vector<std::uint32_t> vertices = vertices_around(slots, rings);
-  std::vector<std::array<std::uint32_t, 2>> flips;
+  std::vector<Edge> edges;
   for (const std::uint32_t v : vertices) {
-    mesh.neighbours(v, around_);
-    for (const std::uint32_t w : around_) flips.push_back({std::min(v, w), std::max(v, w)});
+    state_.mesh().neighbours(v, around_);
+    for (const std::uint32_t w : around_) edges.push_back({std::min(v, w), std::max(v, w)});
   }
-  sort_once(flips);
-  std::size_t edits = 0;
-  for (std::size_t i = 0; i < flips.size() && !poll(i, 2 * flips.size()); ++i) {
-    const auto [a, b] = flips[i];
-    if (mesh.slots_at_edge(a, b)[0] == kNoIndex || !try_flip(a, b, power, true)) continue;
-    state_.apply(edit_);
-    ++edits;
-  }
-  for (const std::uint32_t v : vertices) {
-    if (poll(0.75)) break;
-    if (!mesh.used(v) || !try_relocation(v, power, true)) continue;
-    state_.apply(edit_);
-    ++edits;
-  }
-  return edits;
+  sort_once(edges);
+  const std::size_t flips = flip_each(edges, power, 0, 0.5);
+  return flips + relocate_each(vertices, power, 0.5);
 }
 
 }  // namespace emax

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sw_model/base/sort_once.h"
 namespace emax {
 namespace {
 
@@ -46,8 +47,7 @@ class Insertion {
         near.emplace_back(squared_distance(state_.point(point_), state_.mesh().corners(s)), s);
       });
     }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    sort_once(near);
     if (near.size() > kMostPlaces) near.resize(kMostPlaces);
     std::vector<std::uint32_t> slots;
     for (const auto& [distance, s] : near) slots.push_back(s);

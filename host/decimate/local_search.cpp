@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sw_model/base/deliberate_fault.h"
+#include "sw_model/base/sort_once.h"
 #include "sw_model/model/triangle_frame.h"
 
 namespace emax {
@@ -175,8 +176,7 @@ void LocalSearch::take_edges() {
   }
   if (other_ == kNoIndex) return;
   ring_.insert(ring_.end(), other_ring_.begin(), other_ring_.end());
-  std::sort(ring_.begin(), ring_.end());
-  ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
+  sort_once(ring_);
   std::erase_if(ring_, [&](std::uint32_t v) { return v == vertex_ || v == other_; });
 }
 
@@ -394,12 +394,16 @@ bool LocalSearch::serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer)
 bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
   edit.clear();
   if (!shape(fit.position)) return false;
-  points_.clear();
-  for (const std::uint32_t p : ids_) points_.push_back(state_.point(p));
-  measure(points_, frames_);
+  const bool all_guide = guiding_ids_.size() == ids_.size();
+  if (!all_guide) {
+    points_.clear();
+    for (const std::uint32_t p : ids_) points_.push_back(state_.point(p));
+  }
+  LocalPoints& points = all_guide ? guiding_ : points_;
+  measure(points, frames_);
   for (std::size_t i = 0; i < ids_.size(); ++i) {
-    MeshEdit::Answer answer{ids_[i], static_cast<std::uint32_t>(points_.nearest[i]), kNoIndex,
-                            points_.squared[i]};
+    MeshEdit::Answer answer{ids_[i], static_cast<std::uint32_t>(points.nearest[i]), kNoIndex,
+                            points.squared[i]};
     if (!state_.permits_point(ids_[i], answer.squared_distance) &&
         !serve_elsewhere(ids_[i], answer) && limit && !EMAX_FAULT(kSkipsPoints)) {
       return false;

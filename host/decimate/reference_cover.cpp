@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host/decimate/local_distance.h"
+#include "sw_model/base/sort_once.h"
 
 namespace emax {
 namespace {
@@ -119,8 +120,7 @@ class ReferenceCover::Around {
         });
       }
     }
-    std::sort(nearby_.begin(), nearby_.end());
-    nearby_.erase(std::unique(nearby_.begin(), nearby_.end()), nearby_.end());
+    sort_once(nearby_);
   }
 
   double squared_limit_, limit_;
@@ -133,46 +133,6 @@ class ReferenceCover::Around {
   mutable std::vector<std::array<std::uint32_t, 3>> joined_;  // neighbours of the added triangles
 };
 
-// The mesh as the sheet over a triangle of the reference. What is not within the limit of the
-// sheet's own triangle, or has nothing under it, is covered piece by piece.
-class ReferenceCover::Following {
- public:
-  Following(ReferenceCover& cover, Around& around) : cover_(cover), around_(around) {}
-
-  const Triangle& corners(std::uint32_t id) const { return around_.corners(id); }
-  const Point& position(std::uint32_t vertex) const { return around_.position(vertex); }
-  std::uint32_t neighbour(std::uint32_t id, std::size_t side) const {
-    return around_.neighbour(id, side);
-  }
-  bool visited(std::uint32_t id) const { return around_.visited(id); }
-  void visit(std::uint32_t id) { around_.visit(id); }
-  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                   std::uint32_t id) {
-    const bool low = std::ranges::all_of(
-        part, [&](const PlanarCorner& c) { return std::abs(c.height) <= around_.limit(); });
-    return low || rest_within(plane, part, id);
-  }
-  bool rest_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                   std::uint32_t id) {
-    corners_.clear();
-    bool within = true;
-    for (const PlanarCorner& c : part) {
-      corners_.push_back(cover_.labelled(plane.lift(c), {id}, around_));
-      if (corners_.back().near == kNoIndex) return false;
-      within = within && corners_.back().near == id;
-    }
-    for (std::size_t i = 2; i < part.size() && !within; ++i) {
-      if (!cover_.cover({corners_[0], corners_[i - 1], corners_[i]}, around_)) return false;
-    }
-    return true;
-  }
-
- private:
-  ReferenceCover& cover_;
-  Around& around_;
-  std::vector<Corner> corners_;
-};
-
 ReferenceCover::~ReferenceCover() = default;
 
 ReferenceCover::ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
@@ -183,7 +143,7 @@ ReferenceCover::ReferenceCover(std::span<const Triangle> triangles, std::span<co
       first_of_(triangles.size(), kNoIndex),
       unproven_(triangles.size()),
       around_(std::make_unique<Around>(squared_limit)),
-      walk_(std::make_unique<SheetWalk<Following>>()),
+      walk_(std::make_unique<SheetWalk<Around>>()),
       answer_of_(points.size(), kNoIndex),
       seen_(triangles.size(), 0) {}
 
@@ -285,20 +245,40 @@ bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
   // A corner on a crease may be near to the sheet on the other side of it.
   const std::uint32_t middle = around.nearest((whole[0].at + whole[1].at + whole[2].at) / 3);
   if (middle != likely && middle != kNoIndex && follow(plane, middle, around)) return true;
-  // No sheet begins under the middle.
+  // No sheet begins under the middle, or a part of it could not be proven.
   used_.clear();
   cuts_ = 0;
   return cover(whole, around);
 }
 
 bool ReferenceCover::follow(const TrianglePlane& plane, std::uint32_t from, Around& around) {
-  Following faces(*this, around);
-  const std::uint32_t start = walk_->under_centroid(plane, from, faces);
+  const std::uint32_t start = walk_->under_centroid(plane, from, around);
   if (start == kNoIndex) return false;
   around.begin_visits();
   used_.clear();
-  if (walk_->follow_covering(plane, start, around.limit(), faces) != Sheet::kWithin) return false;
+  const Sheet sheet =
+      walk_->follow_covering(plane, start, around.limit(), around,
+                             [&](const std::vector<PlanarCorner>& part, std::uint32_t id) {
+                               return part_within(plane, part, id, around);
+                             });
+  if (sheet != Sheet::kWithin) return false;
   for (const std::uint32_t id : around.visited()) use(id);
+  return true;
+}
+
+// What is not within the limit of the sheet's own triangle is covered piece by piece.
+bool ReferenceCover::part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                                 std::uint32_t id, Around& around) {
+  corners_.clear();
+  bool within = true;
+  for (const PlanarCorner& c : part) {
+    corners_.push_back(labelled(plane.lift(c), {id}, around));
+    if (corners_.back().near == kNoIndex) return false;
+    within = within && corners_.back().near == id;
+  }
+  for (std::size_t i = 2; i < part.size() && !within; ++i) {
+    if (!cover({corners_[0], corners_[i - 1], corners_[i]}, around)) return false;
+  }
   return true;
 }
 

@@ -76,11 +76,12 @@ class ReferenceCover {
   };
   using Piece = std::array<Corner, 3>;
   class Around;
-  class Following;
 
   bool prove_after(std::uint32_t triangle, const AssignedPoints& assigned, Around& around);
   bool prove_piece(const Piece& whole, Around& around);
   bool follow(const TrianglePlane& plane, std::uint32_t from, Around& around);
+  bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
+                   std::uint32_t id, Around& around);
   bool rests_on(const Piece& piece, std::uint32_t id, const Around& around) const;
   Corner labelled(const Point& at, std::initializer_list<std::uint32_t> likely,
                   Around& around) const;
@@ -105,9 +106,10 @@ class ReferenceCover {
 
   // Scratch.
   std::unique_ptr<Around> around_;
-  std::unique_ptr<SheetWalk<Following>> walk_;
+  std::unique_ptr<SheetWalk<Around>> walk_;
   int cuts_ = 0;  // made for the present triangle
   std::vector<std::uint32_t> used_;
+  std::vector<Corner> corners_;
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> answer_of_;  // of each point, in the edit; or kNoIndex
   std::vector<std::uint32_t> seen_;       // the last edit that tested each triangle

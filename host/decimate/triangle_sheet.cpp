@@ -1,7 +1,6 @@
 #include "host/decimate/triangle_sheet.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 namespace emax {
 
@@ -18,9 +17,7 @@ TrianglePlane::TrianglePlane(const std::array<Point, 3>& c) : origin(c[0]) {
     const double length = std::sqrt(u * u + v * v);
     line[i] = {-v / length, u / length, 0};
     line[i][2] = -(line[i][0] * from.y + line[i][1] * from.z);
-    longest = std::max(longest, length);
   }
-  area = 0.5 * corners[1].y * corners[2].z;
 }
 
 // Keeps the side of a line on which `inside` is not negative.

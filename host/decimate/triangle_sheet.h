@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -48,7 +49,6 @@ struct TrianglePlane {
 
   Point origin, along, across, normal;
   std::array<PlanarCorner, 3> corners;
-  double area, longest = 0;
   std::array<std::array<double, 3>, 3> line;
 };
 
@@ -78,9 +78,6 @@ enum class Sheet { kWithin, kUnproven, kNoSheet };
 //   corners(t): the vertices of triangle t; position(v): of a vertex
 //   neighbour(t, i): the triangle through the side that begins at corner i, or kNoIndex
 //   visited(t): whether visit(t) was called in this search
-//   part_within(plane, part, t): whether the part of T under `part` of t is within the limit
-//   rest_within(plane, part, t): likewise for a part of T that begins at an edge of t and has
-//     nothing of the sheet under it
 template <class Faces>
 class SheetWalk {
  public:
@@ -93,9 +90,12 @@ class SheetWalk {
   // as the triangles face the way T does. A straight path in T from the middle to any point passes
   // from one of them to the next, or it leaves the sheet at an edge where the sheet ends or turns
   // away. The point then is in the part of T that this edge hides from the middle. So the triangles
-  // and the parts hidden by such edges cover T. A triangle whose corners are all at most `flat`
-  // from the plane of T needs no clipping.
-  Sheet follow_covering(const TrianglePlane& plane, std::uint32_t start, double flat, Faces& faces);
+  // and the parts hidden by such edges cover T. What of a triangle is over T needs no proof where
+  // it is at most `flat` from the plane of T; part_within(part, t) proves the rest: whether the
+  // part of T under `part`, of triangle t or hidden by an edge of it, is within the limit.
+  template <class PartWithin>
+  Sheet follow_covering(const TrianglePlane& plane, std::uint32_t start, double flat, Faces& faces,
+                        const PartWithin& part_within);
 
  private:
   struct Covering {
@@ -148,8 +148,13 @@ std::uint32_t SheetWalk<Faces>::under_centroid(const TrianglePlane& plane, std::
 }
 
 template <class Faces>
+template <class PartWithin>
 Sheet SheetWalk<Faces>::follow_covering(const TrianglePlane& plane, std::uint32_t start,
-                                        double flat, Faces& faces) {
+                                        double flat, Faces& faces, const PartWithin& part_within) {
+  const auto low = [flat](const auto& corners) {
+    return std::ranges::all_of(
+        corners, [flat](const PlanarCorner& c) { return std::abs(c.height) <= flat; });
+  };
   const auto project = [&](std::uint32_t vertex, Covering& at, std::size_t i) {
     at.corners[i] = plane.project(faces.position(vertex));
     at.beyond[i] = plane.beyond(at.corners[i]);
@@ -164,12 +169,11 @@ Sheet SheetWalk<Faces>::follow_covering(const TrianglePlane& plane, std::uint32_
     const Covering at = covering_.back();
     covering_.pop_back();
     const std::array<PlanarCorner, 3>& r = at.corners;
-    const bool near = std::abs(r[0].height) <= flat && std::abs(r[1].height) <= flat &&
-                      std::abs(r[2].height) <= flat;
-    if (!near) {
+    if (!low(r)) {
       part_.clip(plane, r, at.beyond);
-      if (part_.corners().empty()) continue;
-      if (!faces.part_within(plane, part_.corners(), at.triangle)) return Sheet::kUnproven;
+      const std::vector<PlanarCorner>& part = part_.corners();
+      if (part.empty()) continue;
+      if (!low(part) && !part_within(part, at.triangle)) return Sheet::kUnproven;
     }
     const Triangle& corners = faces.corners(at.triangle);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -196,7 +200,7 @@ Sheet SheetWalk<Faces>::follow_covering(const TrianglePlane& plane, std::uint32_
       }
       part_.shadow(plane, r[i], r[j]);
       if (part_.corners().empty()) continue;
-      if (!faces.rest_within(plane, part_.corners(), at.triangle)) return Sheet::kUnproven;
+      if (!part_within(part_.corners(), at.triangle)) return Sheet::kUnproven;
     }
   }
   return Sheet::kWithin;

@@ -44,7 +44,7 @@ OperandPair any_pair(Random& random) {
 int exponent_of(std::uint32_t word) { return static_cast<int>(word >> 23 & 255u); }
 
 int around(Random& random, int middle, int reach) {
-  return middle - reach + static_cast<int>(random.below(2 * reach + 1));
+  return middle - reach + static_cast<int>(random.below(2 * static_cast<std::size_t>(reach) + 1));
 }
 
 // A pair whose exponents add up to about `sum`; half of the pairs have a product near a power of

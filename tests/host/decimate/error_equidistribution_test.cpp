@@ -38,6 +38,18 @@ struct Bench {
                                  })
         .run();
   }
+  // As few triangles as collapses leave; from then on the limits are twice as wide.
+  void loosen() {
+    passes.collapse();
+    passes.use(LocalSearch::Steps::kNewton);
+    state.loosen(2, 2);
+  }
+  // Leaves a mesh beyond its limits.
+  void take_too_many() {
+    loosen();
+    passes.collapse_to(state.mesh().triangles() * 9 / 10, 8);
+    state.tighten();
+  }
   TriangleMesh mesh() const { return state.mesh().compact(); }
   // Nothing here is of the decimator's own.
   void expect_within() const {
@@ -98,9 +110,7 @@ TEST(ErrorEquidistribution, SaysThatAStoppedMeshIsNotWithin) {
 
 TEST(EquidistributionPasses, CollapseAndSplitToTheirTargets) {
   Bench bench(bumpy(30, 50), 0.01);
-  bench.passes.collapse();
-  bench.passes.use(LocalSearch::Steps::kNewton);
-  bench.state.loosen(2, 2);
+  bench.loosen();
   const std::size_t start = bench.state.mesh().triangles();
   const std::size_t collapses = bench.passes.collapse_to(start - 20, 8);
   EXPECT_EQ(bench.state.mesh().triangles(), start - 2 * collapses);
@@ -115,11 +125,7 @@ TEST(EquidistributionPasses, CollapseAndSplitToTheirTargets) {
 // By every point and every triangle, and by the interval of the surface distance.
 TEST(EquidistributionPasses, FindEveryTriangleBeyondALimit) {
   Bench bench(bumpy(30, 50), 0.01);
-  bench.passes.collapse();
-  bench.passes.use(LocalSearch::Steps::kNewton);
-  bench.state.loosen(2, 2);
-  bench.passes.collapse_to(bench.state.mesh().triangles() * 9 / 10, 8);
-  bench.state.tighten();
+  bench.take_too_many();
   const std::vector<std::uint32_t> found = bench.passes.beyond_limit();
   ASSERT_GT(found.size(), 5u);
   const ExactMesh exact(bench.reference.view());
@@ -143,11 +149,7 @@ TEST(EquidistributionPasses, FindEveryTriangleBeyondALimit) {
 
 TEST(EquidistributionPasses, SplitsAtTheWorstPlaceLowerTheWorst) {
   Bench bench(bumpy(30, 50), 0.01);
-  bench.passes.collapse();
-  bench.passes.use(LocalSearch::Steps::kNewton);
-  bench.state.loosen(2, 2);
-  bench.passes.collapse_to(bench.state.mesh().triangles() * 9 / 10, 8);
-  bench.state.tighten();
+  bench.take_too_many();
   std::vector<std::uint32_t> beyond = bench.passes.beyond_limit();
   const std::size_t first = beyond.size();
   ASSERT_GT(first, 5u);
