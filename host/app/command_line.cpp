@@ -174,8 +174,8 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command.add_option("-o,--output", decimate.output, "mesh: .ply .obj .stl .off")->required();
   command
       .add_option("--effort", decimate.effort,
-                  "how long to look for fewer triangles: quick only collapses edges, deep spreads "
-                  "the error evenly and takes several times as long as normal")
+                  "how long to look for fewer triangles: quick only collapses edges, normal also "
+                  "moves them, deep goes on until nothing is gained, for twice the time and more")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
   command

@@ -51,6 +51,25 @@ BackBound::BackBound(const TriangleMesh& reference, double limit)
     }
   }
   mean_edge_ /= static_cast<double>(reference_.slots());
+  usual_rise_ = find_usual_rise();
+}
+
+double BackBound::find_usual_rise() const {
+  std::vector<double> rises;
+  for (std::uint32_t t = 0; t < faces_.size(); ++t) {
+    const TrianglePlane plane(reference_.corners(t));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t next = faces_[t].neighbours[i];
+      if (next == kNoIndex || next < t) continue;
+      const Triangle& c = faces_[t].corners;
+      const std::uint32_t far = opposite(faces_[next].corners, c[i], c[(i + 1) % 3]);
+      rises.push_back(std::abs(plane.project(reference_.position(far)).height));
+    }
+  }
+  if (rises.empty()) return 0;
+  const auto at = rises.begin() + static_cast<std::ptrdiff_t>(rises.size() * 3 / 4);
+  std::ranges::nth_element(rises, at);
+  return *at;
 }
 
 BackBound::Sight BackBound::sight_from(const Point& p, std::uint32_t hint) const {
@@ -58,8 +77,12 @@ BackBound::Sight BackBound::sight_from(const Point& p, std::uint32_t hint) const
   double least = squared_distance(p, reference_.corners(hint));
   for (std::uint32_t at = kNoIndex; at != hint;) {
     at = hint;
-    for (const std::uint32_t next : faces_[at].neighbours) {
-      if (next == kNoIndex) continue;
+    const std::array<Point, 3> c = reference_.corners(at);
+    const Point normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t next = faces_[at].neighbours[i];
+      // What lies over the triangle is nearest to it.
+      if (next == kNoIndex || !((c[(i + 1) % 3] - c[i]).cross(p - c[i]).dot(normal) < 0)) continue;
       const double squared = squared_distance(p, reference_.corners(next));
       if (squared >= least) continue;
       least = squared;

@@ -32,6 +32,9 @@ class BackBound {
 
   double limit() const { return limit_; }
   double mean_edge() const { return mean_edge_; }  // length, of the reference
+  // Three quarters of the reference's inner edges have a triangle whose far corner is at most so
+  // high over the plane of the other.
+  double usual_rise() const { return usual_rise_; }
   // Sights taken before keep shares of the former limit.
   void set_limit(double limit) {
     limit_ = limit;
@@ -45,8 +48,8 @@ class BackBound {
     double share = 16;  // squared distance / limit^2; 16 where no triangle is near
   };
   Sight sight(const Point& p, std::uint32_t hint = kNoIndex) const;
-  // Walks from triangle to triangle as long as the distance decreases. The result may not be the
-  // nearest triangle.
+  // Walks from triangle to triangle through the sides that the point is beyond, as long as the
+  // distance decreases. The result may not be the nearest triangle.
   Sight sight_from(const Point& p, std::uint32_t hint) const;
   // The vector from a point to the nearest point of a triangle of the reference.
   Point toward(const Point& p, std::uint32_t triangle) const;
@@ -57,6 +60,7 @@ class BackBound {
  private:
   class Faces;
 
+  double find_usual_rise() const;
   Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near) const;
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                    std::uint32_t triangle) const;
@@ -65,7 +69,7 @@ class BackBound {
   EditableMesh reference_;
   SlotTree tree_;
   double limit_, squared_limit_;
-  double mean_edge_ = 0;
+  double mean_edge_ = 0, usual_rise_ = 0;
   // The data of a triangle that following the sheet reads, in one place.
   struct Face {
     Triangle corners;

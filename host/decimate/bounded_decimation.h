@@ -41,10 +41,13 @@ struct DecimationSettings {
   enum class Effort {
     kSweep,     // only edge collapses far below the bounds; leaves a few times the fewest triangles
     kCollapse,  // all collapses within the bounds
-    kRelax,     // also relocations, flips, and the collapses that these make possible
-    // Spreads the error evenly (ErrorEquidistribution). Where that gains little, and with kRelax
-    // where at most 400 triangles are left: like kRelax until nothing is gained, from several local
-    // minima of the energy.
+    // Also relocations, flips, and the collapses that these make possible. Under a two-sided bound
+    // with a reference that is smooth against it, first spreads the error evenly
+    // (ErrorEquidistribution).
+    kRelax,
+    // Spreads the error evenly, on any reference and for longer. Where that gains little, and with
+    // kRelax where at most 400 triangles are left: like kRelax until nothing is gained, from
+    // several local minima of the energy.
     kDeep,
   } effort = Effort::kRelax;
 
@@ -81,8 +84,8 @@ struct DecimatedMesh {
 // cloud lies within epsilon of the mesh, and every point of the mesh, the insides of its triangles
 // included, within epsilon_back of the reference. Points of the cloud that were too far at the
 // start are excepted. The result is manifold and consistently oriented, has the topology of the
-// start, and no self-intersections or slivers. All of this holds after every edit; kDeep loosens
-// the limits for a time and keeps the last mesh within them.
+// start, and no self-intersections or slivers. All of this holds after every edit; spreading
+// the error evenly loosens the limits for a time and keeps the last mesh within them.
 //
 // Under a two-sided bound every point of the reference, the insides of its triangles included, also
 // stays within epsilon of the mesh (ReferenceCover).

@@ -14,7 +14,10 @@ constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which men
 constexpr double kSecondChoice = 0.5;  // likewise, for a collapse that keeps an end in place
 constexpr double kNothing = 1e-8;      // an energy too small to be worth a move
 constexpr double kNothingOfHighPowers = 1e-30;
-constexpr double kLeastGain = 1e-3;  // least share of its energy that a move or flip gains
+
+// The least share of its energy that a move or flip gains. Where it is of a high power, the
+// distances gain that share over the power.
+double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
 constexpr double kLeastSwept = 0.1;  // the least share of the triangles that a sweep must remove
@@ -262,7 +265,7 @@ bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limi
   LocalSearch::Options options;
   options.power = power;
   if (!search_.fit(state_.mesh().position(vertex), options, fit)) return false;
-  if (!(fit.energy < before * (1 - kLeastGain))) return false;
+  if (!(fit.energy < before * (1 - least_gain(power)))) return false;
   if (!search_.finish(fit, limit, edit_)) return false;
   return state_.permits(edit_, !limit);
 }
@@ -272,7 +275,7 @@ bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, boo
   const double before = search_.energy_before(power);
   Fit fit;
   if (!search_.evaluate(Point::Zero(), power, fit)) return false;
-  if (!(fit.energy < before * (1 - kLeastGain))) return false;
+  if (!(fit.energy < before * (1 - least_gain(power)))) return false;
   if (!search_.finish(fit, limit, edit_)) return false;
   return state_.permits(edit_, !limit);
 }

@@ -105,6 +105,7 @@ class DecimationPasses {
   };
   Witness worst_place(std::uint32_t slot) const;
   double energy_of(std::uint32_t slot, int power) const;
+  std::vector<Edge> cheapest_collapses(std::size_t most);
   bool untouched(std::uint32_t slot) const;
   void touch_around(std::uint32_t vertex);
   std::uint32_t spare_vertex(const Point& at, std::uint32_t near);

@@ -13,12 +13,13 @@ using Effort = DecimationSettings::Effort;
 
 constexpr std::size_t kFew = 400;  // triangles: with so few, searching on takes hardly any time
 // The passes' shares of the time that is estimated to be left.
-constexpr double kSweeps = 0.4, kOtherPass = 0.3;
+constexpr double kSweeps = 0.4, kOtherPass = 0.3, kPassOfMany = 0.03;
 constexpr int kPower = DecimationPasses::kPower;
 // Where the error is spread evenly.
 constexpr int kHighPower = 16;
 // With this share of the triangles left, nothing else is tried.
 constexpr double kMuch = 0.85;
+constexpr double kSmooth = 0.6;  // of the limit: the usual rise of a smooth reference
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
@@ -37,12 +38,12 @@ class Schedule {
       tell("descent", passes_.descend());
       return {state_.mesh().compact(), !passes_.stopped()};
     }
-    tell("sweeps", passes_.sweep());
+    sweep();
     if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
     const bool goes_on =
         settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
     if (goes_on && !passes_.stopped()) {
-      if (settings_.effort != Effort::kDeep || !equidistribute()) improve();
+      if (!may_even_out() || !equidistribute()) improve();
     }
     TriangleMesh mesh = state_.mesh().compact();
     if (kept_ && kept_->triangles.size() < mesh.triangles.size()) mesh = std::move(*kept_);
@@ -59,8 +60,22 @@ class Schedule {
   std::size_t tell(const char* pass, std::size_t edits) {
     if (settings_.progress) settings_.progress(pass, edits, state_.mesh().triangles());
     begun_ += weight_;
-    weight_ = (1 - begun_) * (settings_.effort == Effort::kCollapse ? 1 : kOtherPass);
+    weight_ = (1 - begun_) * (settings_.effort == Effort::kCollapse ? 1 : pass_share_);
     return edits;
+  }
+
+  // A sweep leaves hardly ever a triangle of the reference that cannot be proven, as it stays far
+  // below the limit; so the proofs are made at its end.
+  void sweep() {
+    const DecimationState::Snapshot before = state_.snapshot();
+    const FeatureEdges features = passes_.features();
+    state_.defer_proofs();
+    std::size_t collapses = passes_.sweep();
+    if (!state_.prove_deferred()) {
+      go_back(before, features);
+      collapses = passes_.sweep();
+    }
+    tell("sweeps", collapses);
   }
 
   void relocate(int power) { tell("relocations", passes_.relocate(power)); }
@@ -87,37 +102,63 @@ class Schedule {
     return any;
   }
 
-  // Spreads the error evenly. Returns whether that gained so much that nothing else needs to be
-  // tried; if not, the mesh is as before, and what was gained is kept.
+  // Between a mesh and a reference that is rough against the limit, an even error can mostly not be
+  // reached, and one-sided it gains little; that is left to the deep effort. Features would leave
+  // their place under loosened limits.
+  bool may_even_out() const {
+    if (!passes_.features().empty()) return false;
+    if (settings_.effort == Effort::kDeep) return true;
+    return state_.back() != nullptr &&
+           state_.back()->usual_rise() <= kSmooth * state_.back()->limit();
+  }
+
+  // Spreads the error evenly; with the deep effort as far as can be restored. Returns whether that
+  // gained so much that nothing else needs to be tried; if not, the mesh is as before, and what was
+  // gained is kept.
   bool equidistribute() {
     const DecimationState::Snapshot before = state_.snapshot();
     const FeatureEdges features = passes_.features();
-    const std::size_t triangles = state_.mesh().triangles();
-    const bool within =
-        ErrorEquidistribution(state_, passes_, [this](const char* pass, std::size_t edits) {
-          tell(pass, edits);
-        }).run();
-    if (within) collapse_further();
-    const double left =
-        static_cast<double>(state_.mesh().triangles()) / static_cast<double>(triangles);
-    if (within && left < kMuch) return true;
+    const double triangles = static_cast<double>(state_.mesh().triangles());
+    const bool deep = settings_.effort == Effort::kDeep;
+    bool within = deep && even_out(ErrorEquidistribution::kLong);
+    if (!within) {
+      if (deep) go_back(before, features);
+      within = even_out(ErrorEquidistribution::kShort);
+    }
+    if (within) collapse_further(deep);
+    if (within && static_cast<double>(state_.mesh().triangles()) < kMuch * triangles) return true;
     if (within) kept_ = state_.mesh().compact();
-    state_.restore(before);
-    passes_.restart(features);
+    go_back(before, features);
     return false;
   }
 
-  // Collapses that an even error leaves room for here and there.
-  void collapse_further() {
+  bool even_out(const ErrorEquidistribution::Extent& extent) {
+    pass_share_ = kPassOfMany;
+    const bool within =
+        ErrorEquidistribution(state_, passes_, extent, [this](const char* pass, std::size_t edits) {
+          tell(pass, edits);
+        }).run();
+    pass_share_ = kOtherPass;
+    return within;
+  }
+
+  void go_back(const DecimationState::Snapshot& before, const FeatureEdges& features) {
+    state_.restore(before);
+    passes_.restart(features);
+  }
+
+  // Collapses that an even error leaves room for here and there: once, or with `deep` until nothing
+  // is gained.
+  void collapse_further(bool deep) {
     for (bool again = true; again && !passes_.stopped();) {
       state_.reassign();
       std::size_t gained = tell("mended collapses", passes_.collapse_and_mend());
-      for (int round = 0; round < 2; ++round) {
+      for (int round = 0; round < (deep ? 2 : 1); ++round) {
         flip(kHighPower);
         relocate(kHighPower);
       }
       gained += tell("collapses", passes_.collapse());
-      again = gained > 0;
+      again = deep && gained > 0;
     }
   }
 
@@ -141,6 +182,7 @@ class Schedule {
   const DecimationSettings& settings_;
   bool lowers_energy_;
   double begun_ = 0, weight_;  // shares of the work: done, and of the present pass
+  double pass_share_ = kOtherPass;
   DecimationPasses passes_;
   std::optional<TriangleMesh> kept_;  // a mesh within its limits beside the present one
 };

@@ -119,6 +119,13 @@ class DecimationState {
   bool prove(std::uint32_t reference_triangle) {
     return cover_->prove(reference_triangle, mesh_, tree_);
   }
+  // Until prove_deferred(), the insides of the reference's triangles are not tested.
+  void defer_proofs() { cover_.reset(); }
+  // Returns whether all of them are proven. O(n log n).
+  bool prove_deferred() {
+    cover_reference();
+    return unproven() == 0;
+  }
   // Tries to prove every triangle of the reference that is not proven.
   void prove_all();
   // The triangles that answer for the corners of those that are not proven; sorted.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "host/decimate/decimation_state.h"
@@ -22,9 +23,10 @@ class EdgeSamples {
   bool none() const { return most_ == 0 || state_.back() == nullptr; }
 
   // Of the edges that only one of both sets of triangles has, and of those at `vertex`, which
-  // moves; it may be kNoIndex.
+  // moves; it may be kNoIndex. New edges of `vertex` that were edges of `other` begin with what is
+  // known of these.
   void take(std::span<const std::uint32_t> removed, std::span<const Triangle> added,
-            std::uint32_t vertex);
+            std::uint32_t vertex, std::uint32_t other = kNoIndex);
 
   // The sum of (distance / limit)^power as it stands.
   double energy_before(int power) const;
@@ -40,21 +42,32 @@ class EdgeSamples {
               int power) const;
 
  private:
-  struct Sample {
-    std::uint32_t from;  // kNoIndex: the moving vertex
-    std::uint32_t to;
+  struct Place {
     double along;  // share of the way
     BackBound::Sight sight;
   };
+  struct Sample {
+    std::uint32_t from;  // kNoIndex: the moving vertex
+    std::uint32_t to;
+    Place at;
+  };
   using Edge = std::array<std::uint32_t, 2>;
+  // The places of an edge, from its lower vertex, as long as its ends are there.
+  struct Known {
+    Point low, high;
+    std::vector<Place> places;
+  };
 
-  void sample(std::uint32_t from, std::uint32_t to, std::vector<Sample>& samples) const;
+  const std::vector<Place>& places(const Edge& edge);
+  void find_places(std::uint32_t from, std::uint32_t to, std::vector<Place>& places) const;
   bool is_parabola(std::uint32_t from, std::uint32_t to,
                    const DecimationState::EdgeProfile& profile) const;
+  void add_moving(const Edge& edge, std::uint32_t to);
   Point place(const Sample& s, const Point& moving) const;
 
   const DecimationState& state_;
   int most_ = 0;
+  std::unordered_map<std::uint64_t, Known> known_;
   std::vector<Sample> before_, after_;
   std::vector<Edge> edges_before_, edges_after_;  // scratch
 };

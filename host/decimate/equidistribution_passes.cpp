@@ -8,6 +8,9 @@
 namespace emax {
 namespace {
 
+// Collapses for each one wanted that are fitted: a rough estimate is enough to leave out the rest.
+constexpr std::size_t kJudged = 8;
+
 // The triangles, with the greatest value first; of equal ones the lower slot.
 std::vector<std::uint32_t> worst_first(std::vector<std::pair<double, std::uint32_t>> found) {
   std::ranges::sort(found, [](const auto& a, const auto& b) {
@@ -74,16 +77,34 @@ void DecimationPasses::touch_around(std::uint32_t vertex) {
   touched_[vertex] = 1;
 }
 
+// At most so many edges, whose collapses into the optimum of the planes' quadrics add least energy.
+std::vector<DecimationPasses::Edge> DecimationPasses::cheapest_collapses(std::size_t most) {
+  std::vector<std::pair<double, Edge>> rated;
+  const std::vector<Edge> all = edges();
+  for (std::size_t i = 0; i < all.size() && !poll(i, all.size()); ++i) {
+    Fit fit;
+    if (!search_.prepare_collapse(all[i][0], all[i][1])) continue;
+    if (!search_.evaluate(search_.quadric_optimum(), power_, fit)) continue;
+    rated.emplace_back(fit.energy - search_.energy_before(power_), all[i]);
+  }
+  std::ranges::sort(rated);
+  if (rated.size() > most) rated.resize(most);
+  std::vector<Edge> cheapest;
+  for (const auto& [cost, edge] : rated) cheapest.push_back(edge);
+  return cheapest;
+}
+
 std::size_t DecimationPasses::collapse_to(std::size_t target, int power) {
   const EditableMesh& mesh = state_.mesh();
   power_ = power;
   std::size_t collapses = 0;
   for (bool any = true; any && mesh.triangles() > target && !stopped_;) {
+    const std::size_t wanted = (mesh.triangles() - target + 1) / 2;
+    const std::vector<Edge> cheapest = cheapest_collapses(kJudged * (wanted + 1));
     std::vector<Candidate> candidates;
-    const auto all = edges();
-    for (std::size_t i = 0; i < all.size() && !poll(i, all.size()); ++i) {
+    for (std::size_t i = 0; i < cheapest.size() && !poll(i, cheapest.size()); ++i) {
       Candidate candidate;
-      if (judge(all[i][0], all[i][1], candidate)) candidates.push_back(candidate);
+      if (judge(cheapest[i][0], cheapest[i][1], candidate)) candidates.push_back(candidate);
     }
     std::ranges::sort(candidates, [](const Candidate& c, const Candidate& d) { return d < c; });
     touched_.assign(mesh.vertex_slots(), 0);

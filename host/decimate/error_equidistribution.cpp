@@ -7,7 +7,7 @@ namespace emax {
 namespace {
 
 constexpr double kLoosened = 2, kLessLoosened = 1.25;  // the limits, times
-constexpr int kExchanges = 6, kSureLastExchanges = 2, kLastExchanges = 4;
+constexpr int kSureLastExchanges = 2;
 // The number of triangles to aim at is the one with which this share of the triangles would be
 // within the limit, if the error falls with the area. High powers that come later allow fewer.
 constexpr double kQuantile = 0.9, kFewerLater = 0.93, kLastQuantile = 0.95;
@@ -28,13 +28,13 @@ bool ErrorEquidistribution::run() {
   passes_.use(LocalSearch::Steps::kNewton);
   state_.loosen(kLoosened, kLoosened);
   for (const int power : {4, 8, 16}) relax(power, 2);
-  for (int i = 0; i < kExchanges && !passes_.stopped(); ++i) {
+  for (int i = 0; i < extent_.exchanges && !passes_.stopped(); ++i) {
     exchange(kQuantile, kFewerLater, kCollapsed, 8);
   }
-  relax(32, 4);
+  relax(32, extent_.rounds);
   exchange_at_last();
   state_.loosen(kLessLoosened, kLoosened);
-  relax(64, 3);
+  relax(64, extent_.last_rounds);
   if (!restore_loosely(first)) return false;
   restore();
   return !passes_.stopped() && state_.keep_limits();
@@ -63,7 +63,7 @@ void ErrorEquidistribution::exchange(double quantile, double share, double colla
 
 // Until there are as few triangles as can be restored. These exchanges may also add triangles.
 void ErrorEquidistribution::exchange_at_last() {
-  for (int i = 0; i < kLastExchanges && !passes_.stopped(); ++i) {
+  for (int i = 0; i < extent_.last_exchanges && !passes_.stopped(); ++i) {
     if (i >= kSureLastExchanges) {
       const auto triangles = static_cast<double>(state_.mesh().triangles());
       const auto beyond = static_cast<double>(beyond_limit().size());
@@ -71,7 +71,7 @@ void ErrorEquidistribution::exchange_at_last() {
       if (!gains || beyond > kManyBeyond * triangles) break;
     }
     exchange(kLastQuantile, 1, kLastCollapsed, 16);
-    relax(32, 4);
+    relax(32, extent_.rounds);
   }
 }
 

@@ -19,8 +19,16 @@ class ErrorEquidistribution {
  public:
   // Told of each pass: its name, the number of edits.
   using Tell = std::function<void(const char*, std::size_t)>;
-  ErrorEquidistribution(DecimationState& state, DecimationPasses& passes, Tell tell)
-      : state_(state), passes_(passes), tell_(std::move(tell)) {}
+  // How long it goes on: at most so many exchanges of triangles, the last ones with higher powers,
+  // and rounds of flips and relocations with powers of 32 and 64.
+  struct Extent {
+    int exchanges, last_exchanges;
+    int rounds, last_rounds;
+  };
+  static constexpr Extent kShort = {2, 2, 2, 2}, kLong = {6, 4, 4, 3};
+  ErrorEquidistribution(DecimationState& state, DecimationPasses& passes, const Extent& extent,
+                        Tell tell)
+      : state_(state), passes_(passes), extent_(extent), tell_(std::move(tell)) {}
 
   // Returns whether every limit holds in the end. If not, not all could be restored, or the passes
   // were stopped.
@@ -38,6 +46,7 @@ class ErrorEquidistribution {
 
   DecimationState& state_;
   DecimationPasses& passes_;
+  const Extent extent_;
   Tell tell_;
 };
 

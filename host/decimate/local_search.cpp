@@ -62,7 +62,7 @@ void LocalSearch::take_points() {
   choose_guiding_points();
   const bool near_limit = !samples_.none() || !fine();
   watch_back_ = state_.back() != nullptr && vertex_ != kNoIndex && spring_ == 0 && near_limit;
-  samples_.take(removed_, added_, vertex_);
+  samples_.take(removed_, added_, vertex_, other_);
 }
 
 // Of many points an even share is enough to guide Newton's steps; finish() tests them all.

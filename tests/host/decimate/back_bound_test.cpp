@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -124,6 +125,35 @@ TEST(BackBound, ProvesATriangleThatHangsOverAnEdge) {
 }
 
 // Far from everything, out of sight of the hint.
+// By all pairs of triangles.
+TEST(BackBound, KnowsHowHighNeighboursUsuallyRise) {
+  for (const TriangleMesh& mesh : references()) {
+    std::vector<double> rises;
+    for (std::size_t s = 0; s < mesh.triangles.size(); ++s) {
+      for (std::size_t t = s + 1; t < mesh.triangles.size(); ++t) {
+        std::vector<std::uint32_t> others;
+        for (const std::uint32_t v : mesh.triangles[t]) {
+          if (std::ranges::find(mesh.triangles[s], v) == mesh.triangles[s].end()) {
+            others.push_back(v);
+          }
+        }
+        if (others.size() != 1) continue;
+        const auto c = mesh.view().corners(s);
+        const Point normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+        rises.push_back(std::abs(normal.dot(mesh.vertices[others[0]] - c[0])));
+      }
+    }
+    std::ranges::sort(rises);
+    // Which of two triangles is looked at from the other depends on their order.
+    const auto at = [&](double share) {
+      return rises[static_cast<std::size_t>(share * static_cast<double>(rises.size() - 1))];
+    };
+    const double found = BackBound(mesh, 1).usual_rise();
+    EXPECT_GE(found, at(0.72) - 1e-12);
+    EXPECT_LE(found, at(0.78) + 1e-12);
+  }
+}
+
 TEST(BackBound, RefusesWhatItDoesNotSee) {
   const BackBound bound(bumpy(10, 16), 0.05);
   const std::array<Point, 3> away = {Point(5, 0, 0), Point(6, 0, 0), Point(5, 1, 0)};

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
+#include "host/decimate/back_bound.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/surface/manifold_part.h"
 #include "sw_model/base/deliberate_fault.h"
@@ -94,6 +97,27 @@ TEST(BoundedDecimator, MoreEffortAndMoreErrorLeaveFewerTriangles) {
   EXPECT_LT(left(0.01, Effort::kRelax), left(0.01, Effort::kCollapse));
   EXPECT_LT(left(0.01, Effort::kDeep), left(0.01, Effort::kRelax));
   EXPECT_LT(left(0.03, Effort::kRelax), left(0.01, Effort::kRelax));
+}
+
+// Told by the passes: only exchanges of triangles loosen the limits.
+TEST(BoundedDecimator, EvensTheErrorOutWhereTheReferenceIsSmooth) {
+  const TriangleMesh mesh = bumpy(30, 50);
+  const BoundedDecimator decimator(mesh, mesh.vertices);
+  const auto evens_out = [&](double epsilon, Effort effort, bool two_sided) {
+    DecimationSettings settings = with(epsilon, effort);
+    settings.two_sided = two_sided;
+    bool any = false;
+    settings.progress = [&](const char* pass, std::size_t, std::size_t) {
+      any = any || std::string_view(pass) == "loose collapses";
+    };
+    decimator.run(mesh, settings);
+    return any;
+  };
+  const double rise = BackBound(mesh, 1).usual_rise();
+  EXPECT_TRUE(evens_out(2 * rise, Effort::kRelax, true));
+  EXPECT_FALSE(evens_out(rise, Effort::kRelax, true));
+  EXPECT_FALSE(evens_out(2 * rise, Effort::kRelax, false));
+  EXPECT_TRUE(evens_out(rise, Effort::kDeep, true));
 }
 
 TEST(BoundedDecimator, RepeatsItsBytes) {

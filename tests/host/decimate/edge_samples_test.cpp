@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "host/decimate/local_search.h"
+#include "sw_model/base/sort_once.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
@@ -90,6 +93,69 @@ TEST_P(CoarseMesh, MeasuresTheSameInPlaceAsBefore) {
     const double before = samples.energy_before(kPower);
     EXPECT_NEAR(samples.measure(mesh_.vertices[v], kPower).sum, before, 1e-9 + 1e-6 * before);
   }
+}
+
+// The twin forgets what it knew of the edges after every edit.
+TEST_P(CoarseMesh, KnowsEdgesOnlyAsLongAsTheirEndsAreThere) {
+  EdgeSamples samples(state_);
+  samples.set_most(8);
+  LocalSearch search(state_);
+  Random random(5);
+  std::size_t moved = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto v = random.below(static_cast<std::uint32_t>(mesh_.vertices.size()));
+    samples.take(slots_at(v), triangles_at(v), v);
+    EdgeSamples anew(state_);
+    anew.set_most(8);
+    anew.take(slots_at(v), triangles_at(v), v);
+    const double energy = anew.energy_before(kPower);
+    EXPECT_NEAR(samples.energy_before(kPower), energy, 1e-9 * (1 + energy));
+    Fit fit;
+    MeshEdit edit;
+    const Point at = state_.mesh().position(v) + random.point(-0.01, 0.01);
+    if (!search.prepare_relocation(v) || !search.evaluate(at, kPower, fit) ||
+        !search.finish(fit, false, edit) || !state_.permits(edit, true)) {
+      continue;
+    }
+    state_.apply(edit);
+    ++moved;
+  }
+  EXPECT_GT(moved, 30u);
+}
+
+// What is known of a collapsed vertex's edges is where those of the other begin.
+TEST_P(CoarseMesh, MeasuresACollapseFromTheEdgesThatWere) {
+  std::size_t compared = 0, alike = 0;
+  LocalSearch search(state_);
+  for (std::uint32_t a = 0; a < mesh_.vertices.size(); a += 3) {
+    std::vector<std::uint32_t> ring;
+    state_.mesh().neighbours(a, ring);
+    const std::uint32_t b = ring.front();
+    if (!state_.mesh().collapsible(a, b)) continue;
+    std::vector<Triangle> added;
+    for (const std::uint32_t v : {a, b}) {
+      for (Triangle t : triangles_at(v)) {
+        if (has(t, a) && has(t, b)) continue;
+        std::ranges::replace(t, b, a);
+        added.push_back(t);
+      }
+    }
+    std::vector<std::uint32_t> removed = slots_at(a);
+    for (const std::uint32_t slot : slots_at(b)) removed.push_back(slot);
+    sort_once(removed);
+    EdgeSamples samples(state_), anew(state_);
+    samples.set_most(8);
+    anew.set_most(8);
+    samples.take(removed, added, a, b);
+    anew.take(removed, added, a);
+    const double found = samples.measure(state_.mesh().position(a), kPower).worst;
+    const double expected = anew.measure(state_.mesh().position(a), kPower).worst;
+    if (expected > 1) continue;
+    ++compared;
+    alike += std::abs(std::sqrt(found) - std::sqrt(expected)) < 0.15 ? 1 : 0;
+  }
+  EXPECT_GT(compared, 10u);
+  EXPECT_GT(alike, compared * 8 / 10);
 }
 
 // The slope of the sum of powers, by differences.

@@ -153,5 +153,27 @@ TEST(ReferenceCover, SaysWhatIsNotProvenAtFirst) {
   EXPECT_EQ(state.unproven(), 8u);
 }
 
+// The twin begins with the mesh that edits without proofs left.
+TEST(ReferenceCover, FindsInTheEndWhatDeferredProofsLetThrough) {
+  std::size_t proven = 0, not_proven = 0;
+  for (const TriangleMesh& reference : references()) {
+    for (const double limit : {0.02, 0.1, 0.3}) {
+      Random random(17);
+      DecimationState state(reference, reference.vertices, nullptr, limit * limit, any_normal(),
+                            nullptr, reference.triangles);
+      state.defer_proofs();
+      random_collapses(state, random, 60, 0.5 * limit);
+      const bool holds = state.prove_deferred();
+      const DecimationState twin(state.mesh().compact(), reference.vertices, nullptr, limit * limit,
+                                 any_normal(), nullptr, reference.triangles);
+      EXPECT_EQ(holds, twin.unproven() == 0);
+      EXPECT_TRUE(!holds || beyond(reference, state.mesh().compact(), limit) == 0);
+      (holds ? proven : not_proven) += 1;
+    }
+  }
+  EXPECT_GT(proven, 0u);
+  EXPECT_GT(not_proven, 0u);
+}
+
 }  // namespace
 }  // namespace emax::test
