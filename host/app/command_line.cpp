@@ -191,8 +191,9 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command.add_flag("--closed", decimate.closed, kClosedHelp);
   command
       .add_option("--feature-angle", decimate.feature_angle,
-                  "keep edges over which the surface turns by more than this many degrees, and "
-                  "their corners; 40 suits machine parts; leave it out for noisy scans")
+                  "keep edges over which the surface turns by more than this many degrees within "
+                  "the error, and their corners; 40 suits machine parts; leave it out for noisy "
+                  "scans")
       ->check(within(1, 180));
   add_points_and_json(command, decimate.excluded_share, decimate.skip_invalid, decimate.json);
   command

@@ -55,7 +55,8 @@ struct DecimationSettings {
   double flatness = 1e-3;      // least height of a new triangle over its longest side
 
   // In degrees, 0 for none. Edges of the start over which its normals turn by more are features.
-  // Features stay, and the corners where they meet or end (VertexClass).
+  // Each vertex of a feature keeps a feature edge within epsilon, and the corners where features
+  // meet or end (VertexClass) stay in place.
   double feature_angle = 0;
 
   enum class Objective {

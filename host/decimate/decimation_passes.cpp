@@ -99,7 +99,8 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
     // The optimum of the planes' quadrics is where the sides of the feature meet.
     bool any = false;
     for (const Point& at : {search_.quadric_optimum(), pa, pb}) {
-      any = any || (search_.evaluate(at, options.power, fit) && fit.worst <= 1);
+      any = any || (keeps_features(a, b, at) && search_.evaluate(at, options.power, fit) &&
+                    fit.worst <= 1);
     }
     if (!any) return false;
   } else if (feature != FeatureEdges::Collapse::kAnywhere) {
@@ -119,6 +120,7 @@ bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candid
     return false;
   }
   if (hoppe && !(fit.energy < before)) return false;
+  if (!keeps_features(a, b, fit.position)) return false;
   candidate.cost = fit.energy - before;
   candidate.fit = std::move(fit);
   return true;
@@ -157,7 +159,8 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
   const std::uint32_t a = candidate.a, b = candidate.b;
   if (!search_.prepare_collapse(a, b)) return false;
   const auto try_at = [&](const Fit& fit) {
-    return search_.finish(fit, true, edit_) && state_.permits(edit_);
+    return keeps_features(a, b, fit.position) && search_.finish(fit, true, edit_) &&
+           state_.permits(edit_);
   };
   bool made = try_at(candidate.fit);
   // At the position of one of the two vertices few triangles are new, so the collapse is less
@@ -173,10 +176,13 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
   return made;
 }
 
+bool DecimationPasses::keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const {
+  return options_.features.stays_near(a, b, at, state_.mesh().positions(), state_.squared_limit());
+}
+
 void DecimationPasses::make_collapse(std::uint32_t a, std::uint32_t b) {
-  if (!options_.features.empty()) state_.mesh().neighbours(b, of_b_);
   state_.apply(edit_);
-  options_.features.collapsed(a, b, of_b_);
+  options_.features.collapsed(a, b, state_.mesh().positions());
 }
 
 bool DecimationPasses::try_plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
@@ -186,6 +192,7 @@ bool DecimationPasses::try_plain_collapse(std::uint32_t a, std::uint32_t b, doub
   options.steps = 0;
   Fit fit;
   if (!search_.fit(search_.quadric_optimum(), options, fit) || fit.worst > most) return false;
+  if (!keeps_features(a, b, fit.position)) return false;
   return search_.finish(fit, true, edit_) && state_.permits(edit_);
 }
 
@@ -425,14 +432,14 @@ std::size_t DecimationPasses::collapse_and_mend() {
     if (poll(0.25 + 0.75 * static_cast<double>(i) / static_cast<double>(trials.size()))) break;
     if (!mesh.used(trial.a) || !mesh.used(trial.b)) continue;
     if (!judge_trial(trial.a, trial.b, trial)) continue;
+    if (!keeps_features(trial.a, trial.b, trial.fit.position)) continue;
     if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_, true)) continue;
     undo_.clear();
     unsettled_.clear();
     uncovered_.clear();
-    mesh.neighbours(trial.b, of_b_);
     apply(true);
     if (settled() || mend(trial.a)) {
-      options_.features.collapsed(trial.a, trial.b, of_b_);
+      options_.features.collapsed(trial.a, trial.b, mesh.positions());
       ++collapses;
       continue;
     }

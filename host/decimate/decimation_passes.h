@@ -116,6 +116,7 @@ class DecimationPasses {
   void make_split();
   std::vector<std::uint32_t> vertices_around(const std::vector<std::uint32_t>& slots,
                                              int rings) const;
+  bool keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const;
   void make_collapse(std::uint32_t a, std::uint32_t b);
   void push(std::uint32_t a, std::uint32_t b);
   bool try_plain_collapse(std::uint32_t a, std::uint32_t b, double most);
@@ -140,7 +141,7 @@ class DecimationPasses {
   std::uint64_t edits_ = 0;
   std::uint64_t polls_ = 0;
   bool stopped_ = false;
-  std::vector<std::uint32_t> around_, of_a_, of_b_;  // scratch
+  std::vector<std::uint32_t> around_, of_a_;  // scratch
   std::vector<EditUndo> undo_;
   std::vector<std::uint32_t> unsettled_;  // points beyond the limit
   std::vector<std::uint32_t> uncovered_;  // triangles of the reference that are not proven

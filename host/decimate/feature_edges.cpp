@@ -39,6 +39,13 @@ std::size_t fans(const TriangleMesh& mesh, std::uint32_t vertex,
   return count;
 }
 
+double squared_distance_to_segment(const Point& p, const Point& from, const Point& to) {
+  const Point along = to - from;
+  const double length = along.squaredNorm();
+  const double share = length > 0 ? std::clamp(along.dot(p - from) / length, 0.0, 1.0) : 0;
+  return (p - from - share * along).squaredNorm();
+}
+
 }  // namespace
 
 FeatureEdges::FeatureEdges(const TriangleMesh& mesh, double angle)
@@ -62,7 +69,11 @@ FeatureEdges::FeatureEdges(const TriangleMesh& mesh, double angle)
   for (const auto& [edge, triangles] : sides) {
     const bool feature =
         triangles.size() == 2 && normal(triangles[0]).dot(normal(triangles[1])) < least_cosine;
-    if (feature) edges_.insert(key(edge[0], edge[1]));
+    if (feature) {
+      edges_[key(edge[0], edge[1])] = {mesh.vertices[edge[0]], mesh.vertices[edge[1]]};
+      beside_[edge[0]].push_back(edge[1]);
+      beside_[edge[1]].push_back(edge[0]);
+    }
     for (const std::uint32_t v : edge) {
       features[v] += feature ? 1 : 0;
       open[v] += triangles.size() == 1 ? 1 : 0;
@@ -95,12 +106,57 @@ FeatureEdges::Collapse FeatureEdges::permitted(std::uint32_t a, std::uint32_t b)
   return first ? Collapse::kAtFirst : Collapse::kAtSecond;
 }
 
-void FeatureEdges::collapsed(std::uint32_t a, std::uint32_t b,
-                             const std::vector<std::uint32_t>& neighbours) {
-  if (edges_.empty()) return;
-  for (const std::uint32_t v : neighbours) {
-    if (edges_.erase(key(b, v)) > 0 && v != a) edges_.insert(key(a, v));
+FeatureEdges::Shortened FeatureEdges::shorten(std::uint32_t a, std::uint32_t b) const {
+  Shortened result;
+  for (const std::uint32_t v : {a, b}) {
+    const auto others = beside_.find(v);
+    if (others == beside_.end()) continue;
+    for (const std::uint32_t end : others->second) {
+      if (v == b && end == a) continue;  // seen from a
+      const std::vector<Point>& passed = edges_.at(key(v, end));
+      result.passed.insert(result.passed.end(), passed.begin(), passed.end());
+      if (end != b && std::ranges::find(result.ends, end) == result.ends.end()) {
+        result.ends.push_back(end);
+      }
+    }
   }
+  return result;
+}
+
+bool FeatureEdges::stays_near(std::uint32_t a, std::uint32_t b, const Point& at,
+                              std::span<const Point> positions, double squared_distance) const {
+  if (!beside_.contains(a) && !beside_.contains(b)) return true;
+  const Shortened shortened = shorten(a, b);
+  return std::ranges::all_of(shortened.passed, [&](const Point& p) {
+    return std::ranges::any_of(shortened.ends, [&](std::uint32_t end) {
+      return squared_distance_to_segment(p, at, positions[end]) <= squared_distance;
+    });
+  });
+}
+
+void FeatureEdges::collapsed(std::uint32_t a, std::uint32_t b, std::span<const Point> positions) {
+  if (edges_.empty()) return;
+  const Shortened shortened = shorten(a, b);
+  for (const std::uint32_t v : {a, b}) {
+    const auto others = beside_.find(v);
+    if (others == beside_.end()) continue;
+    for (const std::uint32_t end : others->second) {
+      edges_.erase(key(v, end));
+      if (end != a && end != b) std::erase(beside_.at(end), v);
+    }
+    beside_.erase(others);
+  }
+  for (const std::uint32_t end : shortened.ends) {
+    edges_[key(a, end)] = {};
+    beside_[end].push_back(a);
+  }
+  for (const Point& p : shortened.passed) {
+    const auto nearest = std::ranges::min_element(shortened.ends, {}, [&](std::uint32_t end) {
+      return squared_distance_to_segment(p, positions[a], positions[end]);
+    });
+    if (nearest != shortened.ends.end()) edges_.at(key(a, *nearest)).push_back(p);
+  }
+  if (!shortened.ends.empty()) beside_[a] = shortened.ends;
   if (b >= classes_.size()) return;
   // A vertex that came with a split is simple.
   if (a >= classes_.size()) classes_.resize(a + 1, VertexClass::kSimple);

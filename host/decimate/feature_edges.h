@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_set>
+#include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "host/geometry/triangle_mesh.h"
@@ -19,7 +20,8 @@ enum class VertexClass : std::uint8_t {
 };
 
 // Feature edges of a mesh, kept through edge collapses. Only edges of the start become features: a
-// surface that gets coarser turns more at its edges, but gets no new features.
+// surface that gets coarser turns more at its edges, but gets no new features. Each feature edge
+// knows the vertices of the start's features that it stands for.
 class FeatureEdges {
  public:
   FeatureEdges() = default;  // none
@@ -39,13 +41,25 @@ class FeatureEdges {
   // drawn into it.
   enum class Collapse { kForbidden, kAnywhere, kAlong, kAtFirst, kAtSecond };
   Collapse permitted(std::uint32_t a, std::uint32_t b) const;
-  // Call this after b was drawn into a; `neighbours` are those of b before.
-  void collapsed(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& neighbours);
+  // Whether the vertices of the start's features stay within the distance of a feature edge when a
+  // and b are drawn together at `at`. `positions` are those of the vertices.
+  // O(vertices of the start that the features at a and b stand for).
+  bool stays_near(std::uint32_t a, std::uint32_t b, const Point& at,
+                  std::span<const Point> positions, double squared_distance) const;
+  // Call this after b was drawn into a.
+  void collapsed(std::uint32_t a, std::uint32_t b, std::span<const Point> positions);
 
   // Whether the vertex may not be relocated.
-  bool fixed(std::uint32_t vertex) const { return on_feature(vertex); }
+  bool fixed(std::uint32_t vertex) const { return on_feature(vertex) || beside_.contains(vertex); }
 
  private:
+  // What is drawn into a vertex when a feature, or its end, is shortened: the other ends of the
+  // feature edges there, each once, and the vertices of the start that they will stand for.
+  struct Shortened {
+    std::vector<std::uint32_t> ends;
+    std::vector<Point> passed;
+  };
+  Shortened shorten(std::uint32_t a, std::uint32_t b) const;
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
   }
@@ -54,7 +68,10 @@ class FeatureEdges {
   }
 
   std::vector<VertexClass> classes_;
-  std::unordered_set<std::uint64_t> edges_;  // only looked up, never iterated over
+  // The vertices of the start by feature edge, and the other ends of the feature edges by vertex.
+  // Only looked up, never iterated over.
+  std::unordered_map<std::uint64_t, std::vector<Point>> edges_;
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> beside_;
 };
 
 }  // namespace emax

@@ -33,8 +33,8 @@ struct DecimateOptions {
     kNormal,    // also moves vertices, flips edges and spreads the error evenly
     kDeep,  // like kNormal until nothing is gained: twice the time and more, a few percent fewer
   } effort = Effort::kNormal;
-  // Edges over which the normals turn by more than this stay, with their corners. In degrees; 0:
-  // none.
+  // Edges over which the normals turn by more than this stay within epsilon, and their corners in
+  // place. In degrees; 0: none.
   double feature_angle = 0;
   // Called from time to time; true ends the work with the mesh reached so far, which keeps every
   // bound.

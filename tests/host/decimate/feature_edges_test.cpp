@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
+#include <random>
 
 #include "host/decimate/bounded_decimation.h"
 #include "host/files/mesh_file.h"
@@ -93,25 +96,102 @@ TEST(FeatureEdges, GoThroughCollapses) {
   FeatureEdges features(mesh, kAngle);
   const std::uint32_t a = vertex_at(mesh, {1, 0, 1}), b = vertex_at(mesh, {1, 0.5, 1}),
                       corner = vertex_at(mesh, {1, 1, 1});
-  features.collapsed(a, b, {a, corner, vertex_at(mesh, {0.5, 0.5, 1})});
+  features.collapsed(a, b, mesh.vertices);
   EXPECT_TRUE(features.on(a, corner));
   EXPECT_FALSE(features.on(a, b));
   EXPECT_FALSE(features.on(b, corner));
-  features.collapsed(a, corner, {a, vertex_at(mesh, {1, 1, 0.5})});
+  features.collapsed(a, corner, mesh.vertices);
   EXPECT_EQ(features.vertex_class(a), VertexClass::kCorner);
   EXPECT_TRUE(features.on(a, vertex_at(mesh, {1, 1, 0.5})));
 }
 
 TEST(FeatureEdges, AreKeptByVerticesThatWereAdded) {
-  const TriangleMesh mesh = cube(4);
+  TriangleMesh mesh = cube(4);
   FeatureEdges features(mesh, kAngle);
   const auto added = static_cast<std::uint32_t>(mesh.vertices.size() + 3);
   const std::uint32_t b = vertex_at(mesh, {1, 0.5, 1}), corner = vertex_at(mesh, {1, 1, 1});
   EXPECT_FALSE(features.fixed(added));
   ASSERT_EQ(features.permitted(added, b), FeatureEdges::Collapse::kAtSecond);
-  features.collapsed(added, b, {added, corner});
+  mesh.vertices.resize(added + 1, mesh.vertices[b]);
+  features.collapsed(added, b, mesh.vertices);
   EXPECT_TRUE(features.fixed(added));
   EXPECT_TRUE(features.on(added, corner));
+}
+
+// A roof whose ridge, vertices 0 to `steps`, winds.
+TriangleMesh winding_roof(std::uint32_t steps) {
+  TriangleMesh mesh;
+  for (const double side : {0.0, 1.0, -1.0}) {
+    for (std::uint32_t i = 0; i <= steps; ++i) {
+      const double turn = 0.2 * i;
+      mesh.vertices.push_back({turn, std::sin(turn) + side, -2 * std::abs(side)});
+    }
+  }
+  for (const std::uint32_t row : {steps + 1, 2 * (steps + 1)}) {
+    for (std::uint32_t i = 0; i < steps; ++i) {
+      mesh.triangles.push_back({i, i + 1, row + i});
+      mesh.triangles.push_back({i + 1, row + i + 1, row + i});
+      if (row > steps + 1) continue;
+      for (Triangle* t : {&mesh.triangles.back(), &mesh.triangles.back() - 1}) {
+        std::swap((*t)[1], (*t)[2]);
+      }
+    }
+  }
+  return mesh;
+}
+
+double distance_from_chain(const Point& p, const std::vector<Point>& chain) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const Point along = chain[i + 1] - chain[i];
+    const double share = along.dot(p - chain[i]) / along.squaredNorm();
+    least = std::min(least, (p - chain[i] - std::clamp(share, 0.0, 1.0) * along).norm());
+  }
+  return least;
+}
+
+TEST(FeatureEdges, KeepEachVertexOfTheStartNear) {
+  constexpr std::uint32_t kSteps = 60;
+  constexpr double kDistance = 0.05;
+  const TriangleMesh mesh = winding_roof(kSteps);
+  std::vector<Point> positions = mesh.vertices;
+  FeatureEdges features(mesh, kAngle);
+  std::vector<std::uint32_t> ridge(kSteps + 1);
+  std::iota(ridge.begin(), ridge.end(), 0u);
+  const auto chain = [&] {
+    std::vector<Point> points;
+    for (const std::uint32_t v : ridge) points.push_back(positions[v]);
+    return points;
+  };
+  std::mt19937 random(5);
+  int refused = 0, vain = 0;
+  for (; vain < 300; ++vain) {
+    if (ridge.size() < 4) break;
+    const std::size_t i = 1 + random() % (ridge.size() - 3);
+    const std::uint32_t a = ridge[i], b = ridge[i + 1];
+    ASSERT_EQ(features.permitted(a, b), FeatureEdges::Collapse::kAlong);
+    const double share = 0.5 * static_cast<double>(random() % 3);
+    const Point before = positions[a], at = before + share * (positions[b] - before);
+    const bool permitted = features.stays_near(a, b, at, positions, kDistance * kDistance);
+    positions[a] = at;
+    ridge.erase(ridge.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    double worst = 0;
+    for (std::uint32_t v = 0; v <= kSteps; ++v) {
+      worst = std::max(worst, distance_from_chain(mesh.vertices[v], chain()));
+    }
+    EXPECT_EQ(permitted, worst <= kDistance) << worst;
+    if (permitted) {
+      vain = 0;
+      features.collapsed(a, b, positions);
+      continue;
+    }
+    ++refused;
+    positions[a] = before;
+    ridge.insert(ridge.begin() + static_cast<std::ptrdiff_t>(i) + 1, b);
+  }
+  EXPECT_GT(refused, 300);
+  EXPECT_LT(ridge.size(), kSteps / 2);
+  EXPECT_GT(ridge.size(), 10u);
 }
 
 // Points along the feature edges of a mesh, and these edges as triangles without area.
