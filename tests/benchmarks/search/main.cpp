@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "benchmark_problems.h"
+#include "cec2006_problems.h"
 #include "peer_form.h"
 #include "real_problem.h"
 #include "run_search.h"
@@ -62,6 +63,7 @@ std::optional<double> gap(const BenchmarkProblem& bench, Settings settings, std:
 std::vector<BenchmarkProblem> chosen_problems(const std::vector<std::string>& names,
                                               const std::filesystem::path& data) {
   std::vector<BenchmarkProblem> functions = all_problems();
+  for (BenchmarkProblem& more : cec2006_problems()) functions.push_back(std::move(more));
   functions.push_back(staircase());
   if (names.empty()) return functions;
   std::vector<BenchmarkProblem> chosen;
@@ -113,7 +115,7 @@ int main(int argc, char** argv) {
   std::uint64_t seeds = 11;
   std::filesystem::path data = "data";
   bool list = false, serving = false;
-  CLI::App app("The search on g01 to g11, the staircase and scans", "emax_search_benchmark");
+  CLI::App app("The search on test functions and scans", "emax_search_benchmark");
   app.add_option("--problems", names, "these only; one may be \"bunny 0.321 schroeder\"");
   app.add_option("--ways", chosen, "settings, see --list");
   app.add_option("--budgets", budgets, "evaluations");

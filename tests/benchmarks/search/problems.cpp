@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmark_problems.h"
+#include "cec2006_problems.h"
 #include "peer_form.h"
 #include "staircase.h"
 
@@ -15,6 +16,7 @@ using emax::benchmark::BenchmarkProblem;
 const std::vector<BenchmarkProblem>& problems() {
   static const std::vector<BenchmarkProblem> all = [] {
     std::vector<BenchmarkProblem> list = emax::benchmark::all_problems();
+    for (BenchmarkProblem& more : emax::benchmark::cec2006_problems()) list.push_back(more);
     list.push_back(emax::benchmark::staircase());
     return list;
   }();
