@@ -31,6 +31,7 @@ void Finish::start(const Genes& free, const Evaluation& evaluation, double radiu
   radius_ = radius;
   penalty_ = 0;
   failures_ = 0;
+  predicts_well_ = false;
   told(free, evaluation);
   running_ = !points_.empty();
 }
@@ -89,6 +90,7 @@ void Finish::judge_step(const Trial& trial, const LocalPoint* point) {
   const double length = (trial.at - points_[centre_].at).cwiseAbs().maxCoeff();
   const double gained = point == nullptr ? -1 : merit(points_[centre_]) - merit(*point);
   const double ratio = gained / *trial.reduction;
+  predicts_well_ = ratio >= 0.2;
   // The steps may fail because of curvature from models farther away.
   constexpr int kMisled = 3;
   failures_ = ratio < 0.1 ? failures_ + 1 : 0;

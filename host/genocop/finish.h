@@ -24,6 +24,8 @@ class Finish {
   void start(const Genes& free, const Evaluation& evaluation, double radius);
   bool running() const { return running_; }
   void stop();
+  // Whether the last step gained a good part of what the model predicted.
+  bool predicts_well() const { return predicts_well_; }
 
   // The next trial. Nothing if the search has ended, or if the models have all points except those
   // in flight.
@@ -63,6 +65,7 @@ class Finish {
   std::vector<LocalPoint> points_;
   std::size_t centre_ = 0;
   std::vector<Eigen::MatrixXd> hessians_;  // of the last models
+  bool predicts_well_ = false;
   int failures_ = 0;           // steps in a row that gained little of the predicted reduction
   std::vector<Trial> trials_;  // in flight
   std::optional<Trial> next_;  // the last result of propose()

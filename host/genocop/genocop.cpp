@@ -132,6 +132,22 @@ bool Genocop::offer_best(std::uint64_t index, const Genes& free, const Evaluatio
   return true;
 }
 
+void Genocop::note_gain(const Evaluation& evaluation) {
+  constexpr double kGain = 1e-6;  // of the value; less is the end of a convergence
+  if (descent_.best) {
+    const Evaluation& old = *descent_.best;
+    if (evaluation.feasible() != old.feasible()) {
+      if (old.feasible()) return;
+    } else if (evaluation.feasible()
+                   ? !(evaluation.objective < old.objective - kGain * std::abs(old.objective))
+                   : !(evaluation.violation < (1 - kGain) * old.violation)) {
+      return;
+    }
+  }
+  descent_.best = evaluation;
+  descent_.gained = told_;
+}
+
 void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
   if (index != told_ || index >= asked()) {
     throw std::logic_error(fmt::format("result {} told where {} is next", index, told_));
@@ -149,6 +165,8 @@ void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
   const Individual individual{index, record.free, evaluation, {}};
   const bool is_best = evaluation.evaluated_ok && offer_best(index, record.free, evaluation);
   if (record.role == Role::kLinear) linear_->judge(is_best);
+  if (index < descent_.first) return;  // its populations are gone
+  if (evaluation.evaluated_ok) note_gain(evaluation);
 
   RandomStream random(seed_, index, RandomStream::Purpose::kTell);
   if (record.chain) {

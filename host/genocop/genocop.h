@@ -98,10 +98,17 @@ class Genocop {
     std::optional<RepairChain> chain = std::nullopt;
     std::optional<Bred> bred = std::nullopt;
   };
+  struct Descent {                   // from its starts until nothing more is gained
+    std::uint64_t first = 0;         // its first candidate
+    std::uint64_t after_starts = 0;  // the candidate after its starts
+    std::uint64_t gained = 0;        // results told at its last gain
+    std::optional<Evaluation> best;
+  };
 
   // genocop.cpp: results that are told
   void take_known();
   void learn(const Genes& free, const Evaluation& evaluation);
+  void note_gain(const Evaluation& evaluation);
   bool offer_best(std::uint64_t index, const Genes& free, const Evaluation& evaluation);
   SortKey key(const Individual& individual) const;
   void sort_populations();
@@ -116,10 +123,14 @@ class Genocop {
 
   // proposals.cpp: candidates that are asked for
   void make_starts();
+  void make_more_starts(std::size_t count);
+  bool descent_is_over() const;
+  void begin_anew();
   Proposal propose(RandomStream& random);
   std::optional<Proposal> next_repair(RandomStream& random);
   std::optional<Proposal> next_linear(RandomStream& random);
   std::optional<Proposal> next_finish(RandomStream& random);
+  double share_of_finish() const;
   bool start_finish();
   std::optional<Proposal> offspring(RandomStream& random);
   double remaining() const;  // of the budget that is left: 1 - t/T
@@ -136,7 +147,9 @@ class Genocop {
   std::optional<LinearStep> linear_;
   std::optional<Finish> finish_;
   AdaptiveFrequencies frequencies_;
-  std::vector<Genes> starts_;
+  std::deque<Genes> starts_;   // not yet asked
+  std::uint64_t sampled_ = 0;  // points of Sobol's sequence that were starts
+  Descent descent_;
   std::vector<Record> records_;
   std::map<Genes, std::uint64_t> first_;  // by cache key: the first candidate
   std::map<Genes, Evaluation> known_;     // by cache key: Problem::known

@@ -25,6 +25,7 @@ class LinearStep {
   // A step from `centre`; nothing while too few points are known. O(points).
   std::optional<Genes> propose(const Genes& centre, const Evaluation& evaluation,
                                RandomStream& random) const;
+  void forget() { regions_.clear(); }  // all points that were told
   // Takes whether a proposed step improved the best point.
   void judge(bool improved);
   double radius() const { return radius_; }

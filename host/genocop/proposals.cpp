@@ -35,12 +35,35 @@ void Genocop::make_starts() {
   }
   const std::size_t wanted =
       std::max<std::size_t>(settings_.search_population, settings_.look_ahead);
-  if (starts_.size() >= wanted) return;
-  const std::size_t count = wanted - starts_.size();
-  RandomStream random(seed_, 0, RandomStream::Purpose::kStart);
+  if (starts_.size() < wanted) make_more_starts(wanted - starts_.size());
+  descent_.after_starts = starts_.size();
+}
+
+bool Genocop::descent_is_over() const {
+  return settings_.restart_after > 0 && finish_ && starts_.empty() &&
+         told_ >= std::max(descent_.gained, descent_.after_starts) + settings_.restart_after;
+}
+
+// What was evaluated stays known: to the cache, the operators' frequencies and the best point.
+void Genocop::begin_anew() {
+  search_.clear();
+  references_.clear();
+  repairs_.clear();
+  finished_.clear();
+  finish_reference_.reset();
+  finish_->stop();
+  if (linear_) linear_->forget();
+  descent_ = Descent{};
+  descent_.first = asked();
+  make_more_starts(std::max<std::size_t>(settings_.search_population, settings_.look_ahead));
+  descent_.after_starts = asked() + starts_.size();
+}
+
+void Genocop::make_more_starts(std::size_t count) {
+  RandomStream random(seed_, asked(), RandomStream::Purpose::kStart);
   if (settings_.sobol_starts) {
     for (std::size_t i = 0; i < count; ++i) {
-      const auto index = static_cast<std::uint32_t>(i);
+      const auto index = static_cast<std::uint32_t>(sampled_++);
       starts_.push_back(domain_.from_unit_cube(sobol_point(seed_, index, domain_.size()), random));
     }
     return;
@@ -65,6 +88,7 @@ Candidate Genocop::ask() {
     throw std::logic_error(fmt::format("candidate {} depends on the first {} results, {} were told",
                                        index, known, told_));
   }
+  if (descent_is_over()) begin_anew();
   RandomStream random(seed_, index, RandomStream::Purpose::kAsk);
   Proposal proposal = propose(random);
   Candidate candidate{index, domain_.complete(proposal.free), proposal.origin, {}, {}};
@@ -112,8 +136,10 @@ std::optional<Evaluation> Genocop::result_of(const Genes& cached) const {
 }
 
 Genocop::Proposal Genocop::propose(RandomStream& random) {
-  if (asked() < starts_.size()) {
-    if (const Genes& start = starts_[asked()]; is_new(start)) return {start, "start"};
+  if (!starts_.empty()) {
+    const Genes start = std::move(starts_.front());
+    starts_.pop_front();
+    if (is_new(start)) return {start, "start"};
   } else if (settings_.first_phase || !references_.empty()) {
     if (monotone_) {
       if (std::optional<Genes> trial = monotone_->climb(); trial && is_new(*trial)) {
@@ -149,7 +175,7 @@ std::optional<Genocop::Proposal> Genocop::next_linear(RandomStream& random) {
 
 std::optional<Genocop::Proposal> Genocop::next_finish(RandomStream& random) {
   if (!finish_->running() && !start_finish()) return std::nullopt;
-  if (!random.chance(settings_.finish_share)) return std::nullopt;
+  if (!random.chance(share_of_finish())) return std::nullopt;
   constexpr int kMostKnown = 100;
   for (int known = 0; known < kMostKnown; ++known) {
     std::optional<Genes> trial = finish_->propose();
@@ -163,10 +189,19 @@ std::optional<Genocop::Proposal> Genocop::next_finish(RandomStream& random) {
   return std::nullopt;
 }
 
+// With many genes the points that a model needs would leave a short search only a few steps. Where
+// the model predicts well, the other strategies get less.
+double Genocop::share_of_finish() const {
+  constexpr double kFewGenes = 8;
+  if (!finish_->predicts_well()) return settings_.finish_share;
+  const double few = std::min(1.0, kFewGenes / static_cast<double>(domain_.movable().size()));
+  return 1 - (1 - settings_.finish_share) * few * few;
+}
+
 // Starts a local search at the best point of the populations that is far enough from the starts and
 // ends of earlier ones.
 bool Genocop::start_finish() {
-  if (told_ < starts_.size()) return false;
+  if (told_ < descent_.after_starts) return false;
   if (const Genes* end = finish_->centre()) {
     finished_.push_back(*end);
     finish_->stop();
@@ -251,9 +286,8 @@ double Genocop::remaining() const {
     budget = earlier;
     break;
   }
-  const double spent =
-      static_cast<double>(asked()) / static_cast<double>(std::max<std::uint64_t>(budget, 1));
-  return std::max(1 - spent, 0.0);
+  if (asked() >= budget) return 0;
+  return static_cast<double>(budget - asked()) / static_cast<double>(budget - descent_.first);
 }
 
 }  // namespace emax

@@ -6,7 +6,7 @@ namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
   using S = Settings;
-  static const std::array<SettingInfo, 31> infos = {{
+  static const std::array<SettingInfo, 32> infos = {{
       {"budget", &S::budget, 1, 1e9, "evaluations, including every trial"},
       {"look_ahead", &S::look_ahead, 1, 1e6,
        "candidate i depends on the results up to i - look_ahead; at least the number of workers; "
@@ -54,9 +54,13 @@ std::span<const SettingInfo> setting_infos() {
        "share of these steps among the candidates that other strategies leave"},
       {"finish", &S::finish, 0, 0, "local searches on the continuous genes from the best points"},
       {"finish_share", &S::finish_share, 0, 1,
-       "share of local searches among the candidates while one runs"},
+       "share of local searches among the candidates while one runs; greater with more than eight "
+       "genes where the local models predict well"},
       {"finish_radius", &S::finish_radius, 1e-6, 0.5,
        "first trust region of a local search, as a share of the genes' domains"},
+      {"restart_after", &S::restart_after, 0, 1e9,
+       "evaluations without gain after which populations and local searches begin anew; 0: never; "
+       "only where local searches run"},
       {"first_phase", &S::first_phase, 0, 0,
        "minimise the violation while nothing is feasible; false: draw at random"},
       {"adaptive_frequencies", &S::adaptive_frequencies, 0, 0,
@@ -90,6 +94,7 @@ Settings Settings::original() {
   settings.repair_only_promising = false;
   settings.frequency_of(uniform_mutation) = 0;
   settings.monotone_step = settings.linear_model = settings.finish = false;
+  settings.restart_after = 0;
   settings.adaptive_frequencies = settings.sobol_starts = false;
   settings.cache = false;
   return settings;
