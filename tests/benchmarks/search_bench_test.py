@@ -12,7 +12,8 @@ from documents_case import DocumentsCase
 
 
 def runs(way, problem, budget, gaps):
-    return "".join(json.dumps({"way": way, "problem": problem, "budget": budget, "seed": seed, "gap": gap}) + "\n"
+    return "".join(json.dumps({"way": way, "problem": problem, "budget": budget, "seed": seed, "optimum": 0,
+                               "gap": gap}) + "\n"
                    for seed, gap in enumerate(gaps))
 
 
@@ -29,7 +30,7 @@ class SearchBenchTest(DocumentsCase):
         bench.write(self.store(*own, *(runs(peer, problem, 200, [1e-9] * bench.SEEDS) for problem in bench.PROBLEMS
                                        for peer in bench.PEERS)), None)
         functions = sections.existing("functions", details)
-        self.assertIn("| 200 | 11 | 11 | 1.00 |", sections.existing("search"))
+        self.assertIn("| 200 | 11 | 11 | 22 | 1.00 |", sections.existing("search"))
         self.assertIn("\n| pagmo gaco | 1e-09 |", functions)
         self.assertEqual(sections.existing("scans"), "")
 
@@ -45,7 +46,7 @@ class SearchBenchTest(DocumentsCase):
         before = details.read_text()
         bench.write(self.store(on_scan, runs("pagmo gaco", bench.SCANS[0], bench.SCAN_BUDGET, [18838, 18554, 18838])), None)
         self.assertIn("| emax | 14168 (14152–14324) |", sections.existing("scans"))
-        self.assertIn("| 200 | 11 | 11 | 1.00 |", sections.existing("search"))
+        self.assertIn("| 200 | 11 | 11 | 22 | 1.00 |", sections.existing("search"))
         self.assertEqual(details.read_text(), before)
 
     def test_nothing_is_written_from_parts_of_sets(self):

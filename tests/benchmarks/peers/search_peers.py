@@ -1,4 +1,4 @@
-"""Runs pagmo and NLopt on the search's test functions; prints one JSON line for each run.
+"""Runs pagmo, NLopt and COBYQA on the search's test functions; prints one JSON line for each run.
 
 The functions come from a library with C linkage, those on scans from the program that also runs the
 search, so every optimizer minimises the very same ones.
@@ -16,9 +16,11 @@ import subprocess
 import sys
 from importlib.metadata import version
 
+import cobyqa
 import nlopt
 import numpy
 import pygmo
+import scipy.optimize
 
 EQUALITY, INEQUALITY = 1e-4, 1e-8
 
@@ -151,7 +153,7 @@ def self_adaptive(problem, seed):
             break
 
 
-def with_nlopt(problem, algorithm, x):
+def with_nlopt(problem, algorithm, x, most=None):
     optimizer = nlopt.opt(algorithm, problem.genes)
     optimizer.set_lower_bounds(problem.lower)
     optimizer.set_upper_bounds(problem.upper)
@@ -164,19 +166,48 @@ def with_nlopt(problem, algorithm, x):
             cache[key] = problem(point.copy())
         return cache[key]
 
+    differences = {}
+
+    def slopes(point):
+        """Forward differences, backward at the upper bound; each is an evaluation."""
+        key = point.tobytes()
+        if key not in differences:
+            differences.clear()
+            here, columns = values(point), []
+            for k, width in enumerate(problem.upper - problem.lower):
+                step = 1e-7 * width
+                step = -step if point[k] + step > problem.upper[k] else step
+                beside = point.copy()
+                beside[k] += step
+                columns.append((problem(beside) - here) / step)
+            cache[key] = here
+            differences[key] = numpy.array(columns).T
+        return differences[key]
+
     def fill(result, part):
         result[:] = part
 
-    optimizer.set_min_objective(lambda point, _: float(values(point)[0]))
+    def constrained(rows):
+        def constraint(result, point, gradient):
+            if gradient.size:
+                gradient[:] = slopes(point)[rows]
+            fill(result, values(point)[rows])
+        return constraint
+
+    def objective(point, gradient):
+        if gradient.size:
+            gradient[:] = slopes(point)[0]
+        return float(values(point)[0])
+
+    optimizer.set_min_objective(objective)
     first = 1 + problem.equalities
     if problem.equalities:
-        optimizer.add_equality_mconstraint(lambda result, point, _: fill(result, values(point)[1:first]),
-                                           [EQUALITY] * problem.equalities)
+        optimizer.add_equality_mconstraint(constrained(slice(1, first)), [EQUALITY] * problem.equalities)
     if problem.inequalities:
-        optimizer.add_inequality_mconstraint(lambda result, point, _: fill(result, values(point)[first:]),
-                                             [INEQUALITY] * problem.inequalities)
+        optimizer.add_inequality_mconstraint(constrained(slice(first, None)), [INEQUALITY] * problem.inequalities)
     optimizer.set_xtol_rel(1e-10)
-    optimizer.set_maxeval(problem.budget - problem.calls + 1)
+    left = problem.budget - problem.calls + 1
+    optimizer.set_maxeval(left if most is None else min(most, left))
     optimizer.optimize(x)
 
 
@@ -187,16 +218,45 @@ def isres(problem, seed):
     with_nlopt(problem, nlopt.GN_ISRES, x)
 
 
-def cobyla(problem, seed):
-    """With restarts from random points until the budget is spent."""
-    random = numpy.random.default_rng(seed)
-    x = problem.start if problem.has_start else random.uniform(problem.lower, problem.upper)
-    while problem.calls < problem.budget:
-        try:
-            with_nlopt(problem, nlopt.LN_COBYLA, x)
-        except (nlopt.RoundoffLimited, RuntimeError, ValueError):
-            pass
-        x = random.uniform(problem.lower, problem.upper)
+def from_random_points(search):
+    """The local search with restarts from random points until the budget is spent."""
+    def run(problem, seed):
+        random = numpy.random.default_rng(seed)
+        x = problem.start if problem.has_start else random.uniform(problem.lower, problem.upper)
+        while problem.calls < problem.budget:
+            try:
+                search(problem, x)
+            except (nlopt.RoundoffLimited, RuntimeError, ValueError):
+                pass
+            x = random.uniform(problem.lower, problem.upper)
+    return run
+
+
+def cobyla(problem, x):
+    with_nlopt(problem, nlopt.LN_COBYLA, x, 50 * (problem.genes + 1))
+
+
+def slsqp(problem, x):
+    with_nlopt(problem, nlopt.LD_SLSQP, x)
+
+
+def with_cobyqa(problem, x):
+    cache = {}
+
+    def values(point):
+        key = point.tobytes()
+        if key not in cache:
+            cache.clear()
+            cache[key] = problem(point)
+        return cache[key]
+
+    first = 1 + problem.equalities
+    constraints = [scipy.optimize.NonlinearConstraint(lambda point, rows=rows: values(point)[rows], low, 0)
+                   for rows, low, count in ((slice(1, first), 0, problem.equalities),
+                                            (slice(first, None), -numpy.inf, problem.inequalities)) if count]
+    cobyqa.minimize(lambda point: float(values(point)[0]), x, constraints=constraints,
+                    bounds=scipy.optimize.Bounds(problem.lower, problem.upper),
+                    options={"maxfev": problem.budget - problem.calls + 1, "feasibility_tol": INEQUALITY})
 
 
 def at_random(problem, seed):
@@ -208,8 +268,8 @@ def at_random(problem, seed):
         problem(numpy.where(problem.whole > 0, whole, random.uniform(problem.lower, problem.upper)))
 
 
-PEERS = {"pagmo gaco": gaco, "pagmo cstrs_self_adaptive": self_adaptive, "NLopt ISRES": isres, "NLopt COBYLA": cobyla,
-         "random search": at_random}
+PEERS = {"pagmo gaco": gaco, "pagmo cstrs_self_adaptive": self_adaptive, "NLopt ISRES": isres, "NLopt COBYLA": from_random_points(cobyla),
+         "NLopt SLSQP": from_random_points(slsqp), "COBYQA": from_random_points(with_cobyqa), "random search": at_random}
 
 
 def main():
@@ -222,7 +282,7 @@ def main():
     parser.add_argument("--budgets", nargs="+", type=int, required=True)
     parser.add_argument("--seeds", type=int, required=True)
     arguments = parser.parse_args()
-    print(json.dumps({"versions": f"pygmo {version('pygmo')}, nlopt {version('nlopt')}"}), flush=True)
+    print(json.dumps({"versions": f"pygmo {version('pygmo')}, nlopt {version('nlopt')}, cobyqa {version('cobyqa')}"}), flush=True)
     for name in arguments.problems:
         source = Served(arguments.program, name) if arguments.program else Library(arguments.library, name)
         for budget, title in itertools.product(arguments.budgets, arguments.ways):
@@ -236,7 +296,7 @@ def main():
                     print(json.dumps({"failure": f"{title} on {name}: {str(error)[:200]}"}), flush=True)
                 gap = problem.best - source.optimum
                 print(json.dumps({"way": title, "problem": name, "budget": budget, "seed": seed,
-                                  "gap": gap if math.isfinite(gap) else None}), flush=True)
+                                  "optimum": source.optimum, "gap": gap if math.isfinite(gap) else None}), flush=True)
 
 
 if __name__ == "__main__":

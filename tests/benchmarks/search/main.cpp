@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -37,6 +35,7 @@ const std::vector<Way>& ways() {
       {"without linear model", [](Settings& s) { s.linear_model = false; }},
       {"without both", [](Settings& s) { s.finish = s.linear_model = false; }},
       {"without monotone step", [](Settings& s) { s.monotone_step = false; }},
+      {"without restarts", [](Settings& s) { s.restart_after = 0; }},
       {"without adaptive frequencies", [](Settings& s) { s.adaptive_frequencies = false; }},
       {"without Sobol starts", [](Settings& s) { s.sobol_starts = false; }},
       {"without first phase", [](Settings& s) { s.first_phase = false; }},
@@ -100,10 +99,12 @@ void measure(const BenchmarkProblem& bench, const Way& way,
   for (const std::uint64_t budget : budgets) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const auto found = gap(bench, settings, budget, seed);
-      std::cout << fmt::format(
-                       R"({{"way": "{}", "problem": "{}", "budget": {}, "seed": {}, "gap": {}}})",
-                       way.name, bench.name, budget, seed,
-                       found ? fmt::format("{:.17g}", *found) : "null")
+      std::cout << nlohmann::json{{"way", way.name},
+                                  {"problem", bench.name},
+                                  {"budget", budget},
+                                  {"seed", seed},
+                                  {"optimum", bench.optimum},
+                                  {"gap", found ? nlohmann::json(*found) : nlohmann::json()}}
                 << std::endl;
     }
   }
