@@ -32,6 +32,9 @@ expect_silence() { # COMMAND...: it succeeds, prints nothing and does not call a
 }
 
 expect pass "./dev VERB" "no argument" "$dev"
+expect pass "remove build/" "the help of a verb" "$dev" clean --help
+expect pass "test neon" "the help of a verb with several lines" "$dev" test -h
+expect fail "no verb 'nonsense'" "the help of an unknown verb" "$dev" nonsense --help
 expect fail "no verb 'nonsense'" "an unknown verb" "$dev" nonsense
 expect fail "no preset 'nonsense'; there are: release" "an unknown preset" "$dev" build nonsense
 expect fail " bench" "the last preset of the list" "$dev" build nonsense
