@@ -18,6 +18,9 @@ function(emax_flags target)
     target_compile_options(${target} PRIVATE
       -g1 -fsanitize=${EMAX_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${EMAX_SANITIZE})
+    if(EMAX_SANITIZE MATCHES "address|thread")  # they reserve terabytes that they never touch
+      target_compile_definitions(${target} PRIVATE EMAX_UNLIMITED_ADDRESS_SPACE)
+    endif()
     # In what a sanitizer added GCC 12 sees reads of variables that are not set.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     # Under the address sanitizer Eigen would pad what it allocates, and the packaged PCL does not.

@@ -37,7 +37,7 @@ std::uint64_t usable_memory(const std::filesystem::path& group_limit) {
 
 EvaluationLimits standard_limits(std::size_t points) {
   const auto time = std::max(kLeastTime, static_cast<std::int64_t>(points) * kTimePerPoint);
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef EMAX_UNLIMITED_ADDRESS_SPACE
   return {time, 0};  // the sanitizer reserves terabytes that it never touches
 #else
   return {time, std::min(kLeastMemory + points * kMemoryPerPoint, memory_for_workers())};

@@ -33,7 +33,7 @@ TEST(EvaluationLimits, GrowWithTheCloud) {
   EXPECT_EQ(usable_memory(folder.write("limit", "max\n")), machine);
   EXPECT_EQ(usable_memory(folder.write("limit", "123456789\n")), 123456789u);
   EXPECT_EQ(usable_memory(folder.write("limit", "18446744073709551615\n")), machine);
-#ifndef __SANITIZE_ADDRESS__
+#ifndef EMAX_UNLIMITED_ADDRESS_SPACE
   const std::uint64_t usable = usable_memory(), most = usable - usable / 8;
   EXPECT_EQ(standard_limits(0).memory, std::min(most, std::uint64_t{2} << 30));
   EXPECT_EQ(standard_limits(1'000'000'000).memory,

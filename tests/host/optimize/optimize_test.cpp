@@ -23,7 +23,7 @@ const RunSettings kSettings = {{"of", "the test"}};
 // A gene of which the values up to 4 make workers fail, each in its own way
 // (tests/host/worker/test_methods.h).
 Parameter fault_gene() {
-#ifndef __SANITIZE_ADDRESS__
+#ifndef EMAX_UNLIMITED_ADDRESS_SPACE
   constexpr int kFirst = 0;
 #else
   constexpr int kFirst = 4;  // the sanitizer takes more memory than any limit
@@ -65,7 +65,7 @@ class OptimizeTest : public testing::Test {
     settings_.seed = seed_of_every_fault(settings_.config);
     settings_.worker = EMAX_TEST_WORKER;
     settings_.limits->time = 3s;
-#ifndef __SANITIZE_ADDRESS__
+#ifndef EMAX_UNLIMITED_ADDRESS_SPACE
     settings_.limits->memory = std::uint64_t{1} << 28;
 #endif
   }
@@ -118,7 +118,7 @@ TEST_F(OptimizeTest, FaultyWorkersCostTheirEvaluationsAndAreLogged) {
   std::uint64_t failed = 0;
   for (const auto& [reason, count] : whole.failures) failed += count;
   EXPECT_EQ(failed + measured_, kBudget);
-#ifndef __SANITIZE_ADDRESS__
+#ifndef EMAX_UNLIMITED_ADDRESS_SPACE
   for (const char* reason : {"crashed", "timed out", "out of memory", "garbled"}) {
     EXPECT_GE(whole.failures[reason], 1u) << reason;
   }

@@ -183,7 +183,7 @@ TEST(WorkerPool, HandsOnTheErrorsOfTheChain) {
   EXPECT_NE(failure.message.find("an error on purpose"), std::string::npos) << failure.message;
 }
 
-#ifndef __SANITIZE_ADDRESS__  // whose own address space is larger than any limit
+#ifndef EMAX_UNLIMITED_ADDRESS_SPACE  // whose own address space is larger than any limit
 TEST(WorkerPool, HoldsAWorkerToItsMemoryLimit) {
   WorkerPoolOptions small = options(1);
   small.memory_limit = std::uint64_t{1} << 30;
