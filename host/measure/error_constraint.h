@@ -12,12 +12,12 @@ namespace emax {
 
 // The kernel's measurement of one mesh.
 struct MeasuredError {
-  EmaxResult kept;                      // over the points that are not excluded
-  EmaxResult all;                       // over all points
+  EmaxResult kept = {};                 // over the points that are not excluded
+  EmaxResult all = {};                  // over all points
   std::vector<std::uint32_t> excluded;  // indices, ascending; beyond epsilon and within the share
-  bool feasible;
-  double violation;  // kernel distance over the greatest that proves e_max <= epsilon, minus 1;
-                     // at most 0 when feasible
+  bool feasible = false;
+  double violation = 0;  // kernel distance over the greatest that proves e_max <= epsilon, minus 1;
+                         // at most 0 when feasible
   bool operator==(const MeasuredError&) const = default;
 };
 

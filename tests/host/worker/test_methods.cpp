@@ -36,6 +36,9 @@ void run_test_method(const ChainSettings& settings, int channel) {
   if (method == "test.exit") _exit(3);
   if (method == "test.hang") hang();
   if (method == "test.memory") {
+#ifdef EMAX_UNLIMITED_ADDRESS_SPACE  // no limit would end this but the machine's memory
+    throw std::bad_alloc();
+#endif
     std::vector<std::unique_ptr<std::vector<char>>> kept;
     while (true) kept.push_back(std::make_unique<std::vector<char>>(std::size_t{1} << 26, 'x'));
   }
