@@ -103,7 +103,8 @@ void add_optimize(CLI::App& app, CommandLine& line) {
   command
       .add_option("--budget", optimize.budget,
                   "number of evaluations (default: by --effort; for normal that of --config, else "
-                  "40, or 60 with the paper's decimation, fewer for more than 100,000 points)")
+                  "16, 40 with another --method, 60 with the paper's decimation, fewer for more "
+                  "than 100,000 points)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   command.add_option("--time", optimize.seconds, "stop the search after this many seconds")
       ->check(positive("seconds"));
@@ -123,7 +124,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
   command.add_flag("--closed", optimize.closed, kClosedHelp);
   CLI::Option& polish =
       *command.add_flag("--polish,!--no-polish", optimize.polish,
-                        "at the end, decimate the best mesh once more with deep effort (default "
+                        "at the end, decimate the four best with deep effort (default "
                         "unless --effort is quick; only with the bounded decimator)");
   command.add_option("--resume", optimize.resume,
                      "folder of the run: created if it is missing, continued if it exists "

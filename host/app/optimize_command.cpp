@@ -59,6 +59,7 @@ class OptimizeCommand {
                    {options.common.cloud, options.config});
     const std::string folder = options.resume.empty() ? options.output + ".run" : options.resume;
     check_outside({options.output, certificate_path(options.output), options.common.json}, folder);
+    settings_.begun = begun_;
     settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
     phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
     scan_ = read_scan(options.common.cloud, options.common.skip_invalid);

@@ -46,8 +46,9 @@ std::string Progress::line(const OptimizeState& state) const {
     best = fmt::format("none within {:.4g} yet, least e_max {:.4g}", constraint_.epsilon(),
                        constraint_.in_file_units(state.least_error->squared_bits));
   }
-  return fmt::format("{}/{} evaluations, {}, {}", evaluations_, state.budget, best,
-                     polishing_ ? "decimating it deep" + polishing_time(state) : time_left(state));
+  return fmt::format(
+      "{}/{} evaluations, {}, {}", evaluations_, state.budget, best,
+      polishing_ ? "decimating the best deep" + polishing_time(state) : time_left(state));
 }
 
 std::string Progress::polishing_time(const OptimizeState& state) const {

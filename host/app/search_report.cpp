@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "host/app/device_report.h"
+#include "host/app/phase_progress.h"
 #include "host/app/reference_text.h"
 
 namespace emax {
@@ -82,13 +83,28 @@ void print_evaluations(const OptimizeState& state, double seconds) {
                                     : "");
 }
 
+// Prints when there were how many triangles: of many steps the first, the last and some between.
+void print_course(const std::vector<FewerTriangles>& course) {
+  constexpr std::size_t kMost = 6;
+  if (course.empty()) return;
+  std::string text;
+  const std::size_t steps = std::min(course.size(), kMost);
+  for (std::size_t i = 0; i < steps; ++i) {
+    const auto& [seconds, triangles] =
+        course[steps > 1 ? i * (course.size() - 1) / (steps - 1) : 0];
+    text += fmt::format("{}{}{} after {}", i > 0 ? ", " : "", grouped(triangles),
+                        i > 0 ? "" : " triangles", minutes(seconds));
+  }
+  fmt::print("course         {}\n", text);
+}
+
 void print_polish(const OptimizeState& state, std::size_t triangles) {
   if (!state.polished) return;
   fmt::print("polished       {}\n",
              triangles < *state.polished
-                 ? grouped(*state.polished) + " triangles before the best mesh was decimated deep" +
+                 ? grouped(*state.polished) + " triangles before the best were decimated deep" +
                        (state.polish_stopped ? ", as far as the time allowed" : "")
-                 : "the best mesh decimated deep has no fewer triangles");
+                 : "the best decimated deep have no fewer triangles");
 }
 
 // Prints shares of the workers' time.
@@ -124,6 +140,7 @@ void print(const SearchOutcome& o) {
   }
   fmt::print("kernel         e_max^2 bits 0x{:08x}\n", proven.kernel.squared_bits);
   print_evaluations(o.state, o.seconds);
+  print_course(o.state.course);
   print_polish(o.state, o.shown.triangles);
   print_shares(o.state, o.seconds * o.settings.jobs);
   fmt::print("device {:<7} {}\n", o.options.common.device, describe_counters(o.counters));
@@ -136,6 +153,10 @@ ResultReport report_of(const SearchOutcome& o) {
   report.evaluations = o.state.evaluations;
   report.failures = o.state.failures;
   report.ended_by = ended_by(o.state);
+  report.course.emplace();
+  for (const auto& [seconds, triangles] : o.state.course) {
+    report.course->emplace_back(seconds, triangles);
+  }
   report.seed = o.settings.seed;
   if (!o.is_reference) {
     report.reconstruction_triangles = o.shown.reconstruction_triangles;

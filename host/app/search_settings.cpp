@@ -17,7 +17,11 @@ std::uint64_t budget_of(const OptimizeOptions& options, std::uint64_t configured
   const SearchEffort effort = options.effort == "quick"  ? SearchEffort::kQuick
                               : options.effort == "deep" ? SearchEffort::kDeep
                                                          : SearchEffort::kNormal;
-  return search_budget(effort, points, !keeps_bound(options.decimator),
+  const SearchSpace space = !keeps_bound(options.decimator) ? SearchSpace::kDecimations
+                            : method_for(options.method, options.decimator) == kFitMethod
+                                ? SearchSpace::kOneReference
+                                : SearchSpace::kSurfaces;
+  return search_budget(effort, points, space,
                        options.config.empty() ? std::nullopt : std::optional(configured));
 }
 

@@ -14,7 +14,7 @@ verb_demo() {
   local mesh=$out/bunny.ply
   rm -rf "$out"
   mkdir -p "$out"
-  timed optimize "$emax" optimize "$cloud" --max-error 0.321% -o "$mesh" --seed 1 --budget 40 \
+  timed optimize "$emax" optimize "$cloud" --max-error 0.321% -o "$mesh" --seed 1 \
     --json "$out/optimize.json"
   for device in cpu sim; do
     timed "error on $device" "$emax" error "$cloud" "$mesh" --device $device \

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 
@@ -14,8 +15,8 @@ constexpr std::chrono::milliseconds kTimePerPoint{2};
 constexpr std::uint64_t kLeastMemory = std::uint64_t{2} << 30;
 constexpr std::uint64_t kMemoryPerPoint = 8192;
 
-constexpr std::uint64_t kNormalBudget = 40, kBudgetOfDecimation = 60;
-constexpr std::uint64_t kQuickBudget = 1, kQuickBudgetOfDecimation = 12;
+// Of each SearchSpace. From one reference, deep decimations gain more than evaluations do.
+constexpr std::array<std::uint64_t, 3> kNormalBudget = {40, 16, 60}, kQuickBudget = {1, 1, 12};
 constexpr std::uint64_t kDeepTimes = 4;
 constexpr std::size_t kManyPoints = 100'000;
 constexpr std::uint64_t kLeastShare = 5;  // of the budget remains, one in so many
@@ -44,12 +45,11 @@ EvaluationLimits standard_limits(std::size_t points) {
 #endif
 }
 
-std::uint64_t search_budget(SearchEffort effort, std::size_t points, bool searches_decimation,
+std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace space,
                             std::optional<std::uint64_t> configured) {
-  if (effort == SearchEffort::kQuick) {
-    return searches_decimation ? kQuickBudgetOfDecimation : kQuickBudget;
-  }
-  std::uint64_t normal = searches_decimation ? kBudgetOfDecimation : kNormalBudget;
+  const auto which = static_cast<std::size_t>(space);
+  if (effort == SearchEffort::kQuick) return kQuickBudget[which];
+  std::uint64_t normal = kNormalBudget[which];
   if (points > kManyPoints) {
     normal = std::max(normal / kLeastShare, normal * kManyPoints / points);
   }

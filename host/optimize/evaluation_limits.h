@@ -21,11 +21,14 @@ EvaluationLimits standard_limits(std::size_t points);
 
 enum class SearchEffort { kQuick, kNormal, kDeep };
 
-// How many evaluations a search makes unless it is told. `searches_decimation`: the decimator's own
-// parameters decide whether a candidate is feasible, as Schroeder's do, so that one is not enough.
-// `configured`: what a configuration says is normal; without one it is fewer for more than 100,000
-// points, down to a fifth.
-std::uint64_t search_budget(SearchEffort effort, std::size_t points, bool searches_decimation,
+// What the candidates of a search differ in: in the surface, under a decimator that keeps the
+// bound; in little but chance, where all are decimated from one reference; or also in whether they
+// keep the bound at all, as with Schroeder's parameters, so that one evaluation is not enough.
+enum class SearchSpace { kSurfaces, kOneReference, kDecimations };
+
+// How many evaluations a search makes unless it is told. `configured`: what a configuration says is
+// normal; without one it is fewer for more than 100,000 points, down to a fifth.
+std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace space,
                             std::optional<std::uint64_t> configured);
 
 // How many workers the memory holds, each with a quarter of its limit.

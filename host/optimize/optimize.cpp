@@ -17,6 +17,8 @@ constexpr int kPolishTimes = 10;  // as long as an evaluation may the deep decim
 // So many of the longest decimations is it expected to take: 1.3 to 1.6, and up to 3 where the
 // reference is rough (decision 0020).
 constexpr double kPolishDecimations = 3;
+// So many of the best are decimated deep: what that gains differs from one to the next.
+constexpr std::size_t kPolished = 4;
 
 bool same_bits(const Genes& a, const Genes& b) {
   return std::ranges::equal(
@@ -46,6 +48,11 @@ class Run {
         genocop_(problem_, settings.config.search, settings.seed),
         scheduler_(genocop_, settings.config.search.budget) {
     state_.budget = settings.config.search.budget;
+    if (settings.log != nullptr) {
+      for (const auto& [index, e] : settings.log->evaluations()) {
+        seconds_before_ = std::max(seconds_before_, e.seconds);
+      }
+    }
     search_.interrupted = [this] { return !stopping_ && settings_.interrupted(); };
   }
 
@@ -101,7 +108,13 @@ class Run {
   double polish_seconds() const {
     constexpr double kShare = 0.25;
     if (!settings_.polish || !takes_bound(settings_.decimator) || std::isinf(seconds_)) return 0;
-    return std::min(kShare * seconds_, surface_seconds_ + kPolishDecimations * decimation_seconds_);
+    return std::min(kShare * seconds_, expected_polish_seconds(kPolished));
+  }
+
+  double expected_polish_seconds(std::size_t meshes) const {
+    const std::size_t rounds = (meshes + settings_.jobs - 1) / settings_.jobs;
+    return static_cast<double>(rounds) *
+           (surface_seconds_ + kPolishDecimations * decimation_seconds_);
   }
 
   bool may_polish() const {
@@ -201,44 +214,68 @@ class Run {
     return result;
   }
 
-  // As the candidate behind the last one.
-  void polish() {
+  // The best candidates with the deep effort, in order of their ranks. Empty where none has
+  // another.
+  std::vector<Genes> deep_candidates() const {
+    std::vector<Genes> deep;
     const auto effort = std::ranges::find(problem_.genes, Bounded::kEffort.name, &Gene::name);
-    if (effort == problem_.genes.end()) return;
-    const std::uint64_t index = kPolishIndex;
-    Genes deep = best_genes_;
-    double& value = deep[static_cast<std::size_t>(effort - problem_.genes.begin())];
-    if (value >= Bounded::kDeepEffort) return;
-    value = Bounded::kDeepEffort;
-    if (!chain(deep).parameters.contains(Bounded::kEffort)) return;  // it has another decimator
-    const std::size_t before = state_.best->triangles;
-    const LoggedEvaluation* known = settings_.log != nullptr ? settings_.log->find(index) : nullptr;
-    std::optional<Result> result;
-    // What is known may be of another best, where the run then ended elsewhere.
-    if (known != nullptr && !known->stopped && same_bits(known->genes, deep)) {
-      result = Result{*known, {}, {}};
-    } else {
-      state_.polishing = true;
-      state_.polish_seconds = surface_seconds_ + kPolishDecimations * decimation_seconds_;
-      start_workers(1, kPolishTimes);
-      pool_->submit(index, chain(deep));
-      in_work_.clear();
-      in_work_[index].genes = std::move(deep);
-      while (!result && !state_.interrupted && state_.device_failure.empty() &&
-             settings_.seconds_left() > stopping_seconds()) {
-        observe_(state_);
-        result = receive();
-        state_.interrupted = settings_.interrupted();
+    if (effort == problem_.genes.end()) return deep;
+    for (const auto& [rank, genes] : ranking_) {
+      Genes polished = genes;
+      polished[static_cast<std::size_t>(effort - problem_.genes.begin())] = Bounded::kDeepEffort;
+      // It may be deep already, or have another decimator.
+      if (same_bits(polished, genes) || !chain(polished).parameters.contains(Bounded::kEffort)) {
+        continue;
       }
-      if (!result) {
-        for (Result& stopped : stop_workers()) result = std::move(stopped);
-        state_.polish_stopped = !state_.interrupted;
-      }
-      pool_.reset();
+      const auto same = [&](const Genes& other) { return same_bits(other, polished); };
+      if (std::ranges::none_of(deep, same)) deep.push_back(std::move(polished));
     }
-    if (!result) return;
-    if (!result->failed()) state_.polished = before;
-    enter(std::move(*result));
+    return deep;
+  }
+
+  // As the candidates behind the last one.
+  void polish() {
+    const std::vector<Genes> deep = deep_candidates();
+    if (deep.empty()) return;
+    const std::size_t before = state_.best->triangles;
+    in_work_.clear();
+    for (std::size_t i = 0; i < deep.size(); ++i) {
+      const std::uint64_t index = kPolishIndex + i;
+      const LoggedEvaluation* known =
+          settings_.log != nullptr ? settings_.log->find(index) : nullptr;
+      // What is known may be of another best, where the run then ended elsewhere.
+      if (known != nullptr && !known->stopped && same_bits(known->genes, deep[i])) {
+        results_[index] = Result{*known, {}, {}};
+      } else {
+        in_work_[index].genes = deep[i];
+      }
+    }
+    if (!in_work_.empty()) decimate_deep();
+    for (auto& [index, result] : results_) {
+      if (!result.failed()) state_.polished = before;
+      enter(std::move(result));
+    }
+    results_.clear();
+  }
+
+  // What is in work.
+  void decimate_deep() {
+    state_.polishing = true;
+    state_.polish_seconds = expected_polish_seconds(in_work_.size());
+    start_workers(settings_.jobs, kPolishTimes);
+    for (const auto& [index, work] : in_work_) pool_->submit(index, chain(work.genes));
+    while (!in_work_.empty() && !state_.interrupted && state_.device_failure.empty() &&
+           settings_.seconds_left() > stopping_seconds()) {
+      observe_(state_);
+      if (std::optional<Result> result = receive()) {
+        results_.insert_or_assign(result->evaluation.index, std::move(*result));
+      }
+      state_.interrupted = settings_.interrupted();
+    }
+    state_.polish_stopped = !in_work_.empty() && !state_.interrupted;
+    for (Result& result : stop_workers()) {
+      results_.insert_or_assign(result.evaluation.index, std::move(result));
+    }
   }
 
   // The meshes at hand of what is in work, as far as they come soon, where somebody waits for the
@@ -313,6 +350,8 @@ class Run {
 
   // In the log before the search hears of it, its mesh if that may be the best.
   void keep(Result& result) {
+    result.evaluation.seconds =
+        seconds_before_ + std::chrono::duration<double>(Clock::now() - settings_.begun).count();
     const bool may_be_best = !result.failed() && beats_the_best(result);
     if (!may_be_best) result.mesh = {};
     if (settings_.log == nullptr) return;
@@ -373,6 +412,7 @@ class Run {
       state_.last_failure = e.message;
       return;
     }
+    if (result.feasible()) rank(e);
     if (!beats_the_best(result)) {
       drop(e.index);
       return;
@@ -381,7 +421,10 @@ class Run {
     for (const auto& old : {&state_.best, &state_.least_error}) {
       if (*old) drop((*old)->index);
     }
-    if (result.feasible()) best_genes_ = e.genes;
+    if (result.feasible()) {
+      const double before = state_.course.empty() ? 0 : state_.course.back().seconds;
+      state_.course.push_back({std::max(before, e.seconds), e.triangles});
+    }
     place = BestMesh{e.index,
                      e.triangles,
                      e.violation(),
@@ -392,6 +435,12 @@ class Run {
                      std::move(result.mesh),
                      std::move(result.error)};
     improved_ = e.index + 1;
+  }
+
+  // Keeps the best candidates.
+  void rank(const LoggedEvaluation& e) {
+    ranking_.insert_or_assign({e.triangles, e.index}, e.genes);
+    if (ranking_.size() > kPolished) ranking_.erase(std::prev(ranking_.end()));
   }
 
   // The folder keeps the mesh of the best alone; one that is the best by a result out of order may
@@ -430,7 +479,7 @@ class Run {
   }
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
-    start_workers(1, known.index == kPolishIndex ? kPolishTimes : 1);
+    start_workers(1, known.index >= kPolishIndex ? kPolishTimes : 1);
     pool_->submit(known.index, chain(known));
     Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();
@@ -457,9 +506,10 @@ class Run {
   std::optional<WorkerPool> pool_;
   SearchOptions search_;
   bool stopping_ = false;
+  double seconds_before_ = 0;                            // that earlier commands took, by the log
   double surface_seconds_ = 0, decimation_seconds_ = 0;  // the most that an evaluation took
   OptimizeState state_;
-  Genes best_genes_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Genes> ranking_;  // by triangles and index
   std::map<std::uint64_t, CandidateInWork> in_work_;
   std::map<std::uint64_t, Result> results_;  // not entered yet
   std::uint64_t next_ = 0;                   // to enter

@@ -34,6 +34,8 @@ struct OptimizeSettings {
   Config config;
   ParameterValues fitted;  // values to begin with where the configuration has the standard ones
   std::uint64_t seed = 1;
+  // When the command began: the course's seconds count from here.
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
   unsigned jobs = 1;                       // worker processes
   std::optional<EvaluationLimits> limits;  // standard_limits unless given
   std::filesystem::path worker;            // empty: emax_worker beside the running program
@@ -43,8 +45,9 @@ struct OptimizeSettings {
   std::function<double()> seconds_left = [] { return HUGE_VAL; };  // for all of it, the end too
   std::optional<std::uint64_t> target_triangles;  // a feasible mesh of at most so many
   std::optional<std::uint64_t> stagnation;        // so many evaluations without a better mesh
-  // The best mesh of the bounded decimator is decimated once more in the end, deep, unless the run
-  // was interrupted, failed or has reached its target. Of limited time the last part is for that.
+  // The best candidates of the bounded decimator are decimated once more in the end, deep and in
+  // parallel, unless the run was interrupted, failed or has reached its target. Of limited time the
+  // last part is for that.
   bool polish = true;
   std::filesystem::path output;  // what this file will hold is what is measured
   std::function<bool()> interrupted = [] { return false; };
@@ -65,6 +68,13 @@ struct BestMesh {
   MeasuredError error;
 };
 
+// A mesh that had fewer triangles than all before it.
+struct FewerTriangles {
+  double seconds;  // that the run's commands had taken by then
+  std::size_t triangles;
+  bool operator==(const FewerTriangles&) const = default;
+};
+
 struct OptimizeState {
   std::uint64_t evaluations = 0;  // completed, failed and repeated ones included
   std::uint64_t from_log = 0;     // of these, known before
@@ -74,6 +84,7 @@ struct OptimizeState {
   std::string last_failure;
   std::optional<BestMesh> best;         // feasible
   std::optional<BestMesh> least_error;  // the least violation of the meshes before that
+  std::vector<FewerTriangles> course;   // of `best`; seconds never fall
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   bool polishing = false;               // has begun to
   double polish_seconds = 0;            // that it is expected to take
@@ -88,7 +99,7 @@ struct OptimizeState {
 // Called after every evaluation and, while workers are waited for, every tenth of a second.
 using OptimizeObserver = std::function<void(const OptimizeState&)>;
 
-// The record in a run's log that is the best mesh decimated deep.
+// The first record in a run's log that is one of the best candidates decimated deep.
 inline constexpr std::uint64_t kPolishIndex = 1'000'000'000'000;
 
 // How often, while workers are waited for, an observer is called and an interrupt looked for.

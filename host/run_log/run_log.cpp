@@ -83,7 +83,7 @@ std::vector<double> doubles(const ordered_json& json) {
 }  // namespace
 
 std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
-  ordered_json json = {{"index", e.index}, {"genes", binary(e.genes)}};
+  ordered_json json = {{"index", e.index}, {"genes", binary(e.genes)}, {"seconds", e.seconds}};
   if (!e.failure.empty()) {
     json["failure"] = e.failure;
     json["message"] = e.message;
@@ -106,6 +106,7 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
     LoggedEvaluation e;
     json.at("index").get_to(e.index);
     e.genes = doubles(json.at("genes"));
+    json.at("seconds").get_to(e.seconds);
     if (json.contains("failure")) {
       json.at("failure").get_to(e.failure);
       json.at("message").get_to(e.message);

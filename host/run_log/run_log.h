@@ -22,6 +22,7 @@ using RunSettings = std::vector<std::pair<std::string, std::string>>;
 struct LoggedEvaluation {
   std::uint64_t index = 0;  // of the candidate
   std::vector<double> genes;
+  double seconds = 0;  // when it was known, of the time that the run's commands took
 
   std::string failure;  // the reason; empty for a candidate that was measured
   std::string message;  // one line

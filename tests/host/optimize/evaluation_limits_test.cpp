@@ -11,17 +11,18 @@ using namespace std::chrono_literals;
 
 TEST(SearchBudget, FollowsEffortAndPoints) {
   using enum SearchEffort;
-  EXPECT_EQ(search_budget(kQuick, 1'000'000, false, {}), 1u);
-  EXPECT_EQ(search_budget(kQuick, 1'000, false, 77), 1u);
-  EXPECT_GT(search_budget(kQuick, 1'000, true, {}), 1u);
-  EXPECT_EQ(search_budget(kNormal, 1'000, false, 77), 77u);
-  EXPECT_EQ(search_budget(kDeep, 1'000'000, false, 77), 308u);
-  for (const bool decimation : {false, true}) {
-    const std::uint64_t normal = search_budget(kNormal, 100'000, decimation, {});
-    EXPECT_EQ(search_budget(kNormal, 3, decimation, {}), normal);
-    EXPECT_EQ(search_budget(kDeep, 3, decimation, {}), 4 * normal);
-    EXPECT_EQ(search_budget(kNormal, 200'000, decimation, {}), normal / 2);
-    EXPECT_EQ(search_budget(kNormal, 100'000'000, decimation, {}), normal / 5);
+  using enum SearchSpace;
+  EXPECT_EQ(search_budget(kQuick, 1'000'000, kOneReference, {}), 1u);
+  EXPECT_EQ(search_budget(kQuick, 1'000, kOneReference, 77), 1u);
+  EXPECT_GT(search_budget(kQuick, 1'000, kDecimations, {}), 1u);
+  EXPECT_EQ(search_budget(kNormal, 1'000, kOneReference, 77), 77u);
+  EXPECT_EQ(search_budget(kDeep, 1'000'000, kOneReference, 77), 308u);
+  for (const SearchSpace space : {kSurfaces, kOneReference, kDecimations}) {
+    const std::uint64_t normal = search_budget(kNormal, 100'000, space, {});
+    EXPECT_EQ(search_budget(kNormal, 3, space, {}), normal);
+    EXPECT_EQ(search_budget(kDeep, 3, space, {}), 4 * normal);
+    EXPECT_EQ(search_budget(kNormal, 200'000, space, {}), normal / 2);
+    EXPECT_EQ(search_budget(kNormal, 100'000'000, space, {}), normal / 5);
   }
 }
 

@@ -17,6 +17,7 @@ LoggedEvaluation measured(std::uint64_t index) {
   LoggedEvaluation e;
   e.index = index;
   e.genes = {0.1, -0.0, 5e-324, 1.7976931348623157e308, 3};
+  e.seconds = 0.1;
   e.triangles = 100 + index;
   e.constraints = {-0.25, -1};
   e.squared_bits = 0x38f2c662;
