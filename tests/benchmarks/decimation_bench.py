@@ -1,18 +1,19 @@
-"""`./dev bench --decimate`: the bounded decimator beside OpenMesh, VTK, meshoptimizer and CGAL on
-five scans; writes the section "Decimation" of docs/benchmarks.md, its plots and
-docs/benchmarks_decimation.md.
+"""`./dev bench --decimate`: the bounded decimator beside OpenMesh, VTK, meshoptimizer, CGAL and five
+packages of PyPI and npm, on five scans and three known surfaces; writes the section "Decimation" of
+docs/benchmarks.md, its plots and docs/benchmarks_decimation.md.
 
 Every peer is bisected to its fewest triangles within the same one-sided bound. Each result is kept
 in build/bench/decimation/, so that a measurement can be interrupted and continued; --fresh begins
 anew, --fresh-own measures only emax anew, --scans and --tools measure some, --only-write writes
 from what is there. All of it takes about three hours of one core; --quick, which prints one small
-case and writes nothing, a minute.
+case without the packages and writes nothing, a minute.
 """
 
 import argparse
 import json
 import math
 import platform
+import shlex
 import shutil
 import subprocess
 import sys
@@ -29,9 +30,16 @@ PLOTS = Path("docs/plots")
 
 # Percent of the width.
 BOUNDS = {"bunny": [0.642, 0.321, 0.193, 0.0642], "fandisk": [0.5, 0.1, 0.02], "torus": [0.25], "building": [0.5],
-          "dragon": [0.2]}
+          "dragon": [0.2], "sphere": [0.05], "smooth-torus": [0.037037], "ellipsoid": [0.05]}
 QUICK = ("fandisk", 0.1)
-PEERS = ["meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh", "cgal-envelope"]
+LINKED = ["meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh", "cgal-envelope"]
+# In a process of their own: of peers/decimators.py, and npm's meshoptimizer.
+PACKAGES = ["meshlab", "pyfqmr", "fast-simplification", "manifold"]
+MESHOPTIMIZER = "meshoptimizer-npm"
+PEERS = LINKED + [MESHOPTIMIZER] + PACKAGES
+# The theory's fewest, of a smooth surface; of the known ones exactly. Not where edges are sharp.
+FEWEST, SURFACES = "fewest", ["sphere", "smooth-torus", "ellipsoid"]
+FEWEST_SCANS = ["bunny", "dragon"] + SURFACES
 TWO, ONE = "emax-two-sided", "emax-one-sided"
 FEATURES = TWO + "-features"
 OWN = [TWO, FEATURES, TWO + "-deep", ONE, ONE + "-deep"]
@@ -39,10 +47,12 @@ OWN = [TWO, FEATURES, TWO + "-deep", ONE, ONE + "-deep"]
 ENVELOPE, ENVELOPE_CASES = "cgal-envelope", [("fandisk", 0.1)]
 # What one of the three directions takes; no tool, it has no triangles of its own.
 THIRD, THIRD_CASES = "third-direction", [("bunny", 0.642), ("bunny", 0.321), ("bunny", 0.0642), ("fandisk", 0.1)]
-ONLY = {ENVELOPE: ENVELOPE_CASES, THIRD: THIRD_CASES, FEATURES: [("fandisk", percent) for percent in BOUNDS["fandisk"]]}
+ONLY = {ENVELOPE: ENVELOPE_CASES, THIRD: THIRD_CASES, FEATURES: [("fandisk", percent) for percent in BOUNDS["fandisk"]],
+        FEWEST: [(scan, percent) for scan in FEWEST_SCANS for percent in BOUNDS[scan]]}
 POINTS = [10000, 30000, 100000, 300000, 1000000]
 POINTS_PERCENT = 0.25
 POINTS_TOOLS = [TWO, ONE, "meshoptimizer", "vtk-pro", "vtk-quadric", "cgal-gh", "cgal-lt", "openmesh"]
+ALL = OWN + PEERS + [FEWEST, THIRD]
 DETAILS = "benchmarks_decimation.md"
 TIME_LIMIT = 7200
 NOTHING_GONE = 0.98  # of the triangles of the start: the tool found nothing to remove
@@ -96,22 +106,51 @@ class Store:
 
 def outcome(result):
     if not succeeded(result):
-        return result.get("failure", "cannot")
+        return why_not(result)
     return f"{result['triangles']} triangles" if "triangles" in result else "timed"
 
 
-def measure(store, scans, tools):
+def choosing(tool, python, module):
+    """The arguments that choose a tool, or None where it could not be installed."""
+    if tool in PACKAGES:
+        return python and ["--command", f"{shlex.quote(str(python))} -B {HERE / 'peers/decimators.py'} {tool}"]
+    if tool == MESHOPTIMIZER:
+        path, version = module or (None, None)
+        return path and ["--command", f"node {HERE / 'peers/meshoptimizer.mjs'} {shlex.quote(str(path))} {version}"]
+    return ["--tool", tool]
+
+
+def measure(store, scans, tools, python, module):
     for scan in scans:
         for percent in BOUNDS[scan]:
             for tool in tools:
                 key = scan, percent, tool
-                if (scan, percent) in ONLY.get(tool, [(scan, percent)]) and not store.get(*key):
-                    store.measure(key, ["--scan", scan, "--percent", percent, "--tool", tool])
+                if (scan, percent) not in ONLY.get(tool, [(scan, percent)]) or store.get(*key):
+                    continue
+                case = ["--scan", scan, "--percent", percent]
+                if tool == FEWEST:
+                    measure_fewest(store, key, case, python)
+                elif chosen := choosing(tool, python, module):
+                    store.measure(key, case + chosen)
     for points in POINTS:
         for tool in POINTS_TOOLS:
             key = "points", points, tool
             if "torus" in scans and tool in tools and not store.get(*key):
                 store.measure(key, ["--points", points, "--percent", POINTS_PERCENT, "--tool", tool])
+
+
+def measure_fewest(store, key, case, python):
+    """In the interpreter with NumPy; nothing without one."""
+    if not python:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        told = json.loads(subprocess.run([PROGRAM, *map(str, case), "--write-start", folder], check=True,
+                                         stdout=subprocess.PIPE, text=True).stdout)
+        source = key[0] if key[0] in SURFACES else folder
+        fewest = subprocess.run([python, "-B", HERE / "optimal_triangulation.py", str(told["epsilon"]), source], check=True,
+                                stdout=subprocess.PIPE, text=True).stdout
+    store.put(key, {**told, "name": "N*, the theory's fewest", "bound": json.loads(fewest)})
+    say(f"{' '.join(map(str, key))}: {fewest.strip()}")
 
 
 def succeeded(result):
@@ -128,12 +167,37 @@ def number(value, digits=3):
     return f"{value:.{min(places, 6)}f}"
 
 
+def cut(text):
+    """A reason as it fits into a cell."""
+    return " ".join(text.replace("|", "/").split())[:100]
+
+
+def why_not(result):
+    least, reason = result.get("least_error"), result.get("reason")
+    told = [f"its nearest is {number(least)}"] if least else []
+    told += [cut(reason)] if reason else []
+    return cut(result["failure"]) if "failure" in result else ": ".join(["cannot"] + ["; ".join(told)] * bool(told))
+
+
+def bounds_told(bound):
+    """N*, with its spread where it was estimated."""
+    spread = f" ({bound['least']}–{bound['greatest']})" if bound["least"] < bound["greatest"] else ""
+    return f"{bound['triangles']}{spread}"
+
+
+def options_told(result):
+    told = [result["options"]] if result.get("options") else []
+    told += [f"{number(result['tolerance'], 2)} ε"] if "tolerance" in result else []
+    failed = [f"{result['failed_calls']} calls failed: {cut(result['reason'])}"] if "failed_calls" in result else []
+    return "; ".join([", ".join(told)] * bool(told) + failed)
+
+
 def row(tool, result, compared, sharp):
     name = result.get("name", tool)
-    if not succeeded(result):
-        least = result.get("least_error")
-        why = result.get("failure", "cannot" + (f": its nearest is {number(least)}" if least else ""))
-        cells = [why] + ["–"] * (8 + compared + sharp)
+    if "bound" in result:
+        cells = [bounds_told(result["bound"])] + ["–"] * (8 + compared + sharp)
+    elif not succeeded(result):
+        cells = [why_not(result)] + ["–"] * (8 + compared + sharp)
     else:
         cells = [str(result["triangles"]), number(result["e_max"]), number(result["back"]),
                  str(result["intersecting"]), str(result["non_manifold"])]
@@ -142,7 +206,7 @@ def row(tool, result, compared, sharp):
         if sharp:
             cells += [number(result["edges"]) if "edges" in result else "none left"]
         cells += [number(result["seconds"]), number(result["search_seconds"]), str(result["search_calls"]),
-                  result.get("options", "")]
+                  options_told(result)]
     return f"| {name} | " + " | ".join(cells) + " |"
 
 
@@ -198,7 +262,7 @@ def missing(store):
     lacks = []
     for scan, bounds in BOUNDS.items():
         for percent in bounds:
-            tools = [tool for tool in OWN + PEERS if (scan, percent) in ONLY.get(tool, [(scan, percent)])]
+            tools = [tool for tool in OWN + PEERS + [FEWEST] if (scan, percent) in ONLY.get(tool, [(scan, percent)])]
             if unmeasured := [tool for tool in tools if not store.get(scan, percent, tool)]:
                 lacks.append(f"{scan} at {percent:g} %: {', '.join(unmeasured)}")
     return f"Not measured: {'; '.join(lacks)}.\n" if lacks else ""
@@ -218,6 +282,11 @@ def curves(store):
             if found:
                 lines.append(line(found[0][1]["name"], [percent for percent, _ in found],
                                   [result["triangles"] for _, result in found]))
+        found = [(percent, result) for percent in sorted(bounds) if (result := store.get(scan, percent, FEWEST))]
+        if lines and found:
+            told = {name: [result["bound"][name] for _, result in found] for name in ("triangles", "least", "greatest")}
+            lines.append({**line("N*", [percent for percent, _ in found], told["triangles"]), "least": told["least"],
+                          "greatest": told["greatest"]})
         if lines:
             plots.append({"name": f"decimation_{scan}", "axis": "ε, % of the width", "unit": "triangles",
                           "title": f"{scan}: triangles by ε", "lines": lines})
@@ -277,7 +346,8 @@ Written by `./dev bench --decimate`. The table has the fewest triangles such tha
 of the mesh (one-sided, e_max). emax is called once, and its time includes its certificate. For every peer a bisection
 over the peer's own parameter, a number of triangles or a bound, finds the fewest triangles whose e_max, by our engine,
 is within the same ε. Several sets of options are tried, and the table has the best. CGAL's AABB-tree confirms e_max of
-every result. All tools start from the mesh that emax starts from: manifold and free of self-intersections, with points
+every result. Packages of PyPI and npm run in a process of their own, with the same bisection and the same measurement;
+their time is the processor time of their calls. All tools start from the mesh that emax starts from: manifold and free of self-intersections, with points
 farther than ε/2 joined to it. No time here includes the making of that mesh.
 """
 
@@ -291,6 +361,13 @@ Written by `./dev bench --decimate`; [benchmarks.md](benchmarks.md#decimation) s
   ε too; the other tools do not bound it.
 - "from sharp edges": the greatest distance from an edge of the start that turns by more than 40° to an edge of the
   result that turns by more than 25°.
+- "N*": the fewest triangles of a free triangulation within ±ε of a smooth surface, as ε goes to 0: ∫ √K dA / (3√3 ε)
+  where the Gaussian curvature K is positive, plus ∫ √|K| dA / (4.6 ε) where it is negative (Pottmann et al. 2000;
+  Atariah, Rote and Wintraecken). Exact for the sphere, the smooth torus and the ellipsoid. For scans K comes from
+  quadrics fitted to neighbourhoods of two, three and four rings of vertices; in brackets the least and the greatest N*
+  of the three. Noise and details finer than ε raise it; a one-sided result, or one far from the limit, may be below it.
+- "options": those that gave the result. A number of ε is the tolerance or bound that the tool was given. Where it is
+  below 1 ε, the tool's result with ε itself is farther than ε from some point.
 - "s": the call that gave the result. "s, all calls": the whole bisection with these options. Processor time, one thread.
 """
 
@@ -298,7 +375,7 @@ Written by `./dev bench --decimate`; [benchmarks.md](benchmarks.md#decimation) s
 def details(store):
     parts = [COLUMNS]
     for scan, bounds in BOUNDS.items():
-        parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + PEERS))]
+        parts += [text for percent in bounds if (text := table(store, scan, percent, OWN + [FEWEST] + PEERS))]
     if succeeded(envelope := store.get(*ENVELOPE_CASES[0], ENVELOPE)):
         scan, percent = ENVELOPE_CASES[0]
         parts.append(f"CGAL's polyhedral envelope takes {number(envelope['seconds'])} s a call on {scan} at {percent:g} % and "
@@ -329,7 +406,7 @@ def section(store, plots):
 
 
 def quick():
-    (scan, percent), tools = QUICK, [TWO, ONE] + [tool for tool in PEERS if tool != ENVELOPE]
+    (scan, percent), tools = QUICK, [TWO, ONE] + [tool for tool in LINKED if tool != ENVELOPE]
     with tempfile.TemporaryDirectory() as folder:
         store = Store(Path(folder) / "quick.jsonl")
         for tool in tools:
@@ -337,12 +414,13 @@ def quick():
         print("\n" + table(store, scan, percent, tools))
 
 
-def main(words, is_quick, fetch_dragon, install_python):
-    """The last two make data/dragon.ply and an interpreter with Matplotlib, or None."""
+def main(words, is_quick, fetch_dragon, install_python, fetch_meshoptimizer):
+    """The last three make data/dragon.ply; an interpreter with Matplotlib and the packages, or None; npm's module with
+    its version, or None."""
     parser = argparse.ArgumentParser(prog="./dev bench --decimate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scans", nargs="+", choices=BOUNDS, default=list(BOUNDS))
-    parser.add_argument("--tools", nargs="+", choices=OWN + PEERS + [THIRD], default=OWN + PEERS + [THIRD])
+    parser.add_argument("--tools", nargs="+", choices=ALL, default=ALL)
     parser.add_argument("--fresh", action="store_true", help="forget earlier results")
     parser.add_argument("--fresh-own", action="store_true", help="forget emax's own earlier results")
     parser.add_argument("--only-write", action="store_true", help="from the results that are there")
@@ -359,7 +437,8 @@ def main(words, is_quick, fetch_dragon, install_python):
     if options.fresh_own:
         store.results = {key: result for key, result in store.results.items() if key[2] not in OWN + [THIRD]}
     if not options.only_write:
-        measure(store, options.scans, options.tools)
+        module = fetch_meshoptimizer() if MESHOPTIMIZER in options.tools else None
+        measure(store, options.scans, options.tools, python, module)
     plots = curves(store)
     sections.put("decimation", section(store, plots))
     sections.write(sections.DOCUMENT.with_name(DETAILS), details(store))

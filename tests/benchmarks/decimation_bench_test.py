@@ -60,7 +60,7 @@ class DecimationBenchTest(DocumentsCase):
     def test_what_was_not_measured_is_named(self):
         for scan, bounds in bench.BOUNDS.items():
             for percent in bounds:
-                for tool in bench.OWN + bench.PEERS:
+                for tool in bench.OWN + bench.PEERS + [bench.FEWEST]:
                     if (scan, percent, tool) != ("dragon", 0.2, "openmesh"):
                         self.put(scan, percent, tool, {"failure": "ended by signal 11"})
         self.assertEqual(bench.missing(self.store), "Not measured: dragon at 0.2 %: openmesh.\n")
@@ -88,6 +88,48 @@ class DecimationBenchTest(DocumentsCase):
         self.assertEqual(plots["decimation_bunny"]["lines"][0]["median"], [4000, 800])
         self.assertEqual([line["title"] for line in plots["decimation_time"]["lines"]], ["emax", "n log n"])
         self.assertIn("0.80 of what n log n", bench.growth(self.store))
+
+    def test_the_theory_is_a_row_and_a_line_and_no_peer(self):
+        for percent, least, middle, greatest in ((0.642, 300, 400, 450), (0.193, 1000, 1100, 1200), (0.321, 600, 600, 600)):
+            bound = {"triangles": middle, "least": least, "greatest": greatest}
+            self.put("bunny", percent, bench.FEWEST, {"name": "N*", "text": "a toy", "points": 10, "left_out": 0,
+                                                      "start": 5000, "bound": bound})
+            self.put("bunny", percent, "openmesh", result("OpenMesh", 2000))
+        told = bench.details(self.store)
+        self.assertIn("| N* | 400 (300–450) | – |", told)
+        self.assertIn("| N* | 600 | – |", told)
+        self.assertEqual(len({line.count("|") for line in told.splitlines() if line.startswith("|")}), 1)
+        self.assertEqual(bench.best_peer(self.store, "bunny", 0.642)["name"], "OpenMesh")
+        self.assertIn("0 minutes of the tools' own time", bench.section(bench.Store(Path("build/none.jsonl")), []))
+        line = bench.curves(self.store)[0]["lines"][-1]
+        self.assertEqual(line, {"title": "N*", "at": [0.193, 0.321, 0.642], "median": [1100, 600, 400],
+                                "least": [1000, 600, 300], "greatest": [1200, 600, 450]})
+
+    def test_why_a_tool_cannot_stands_in_its_row(self):
+        reason = "its process ended by signal 11: a | b\n" + 100 * "c"
+        self.put("bunny", 0.321, "manifold", {"name": "Manifold", "start": 5000, "least_error": None, "failed_calls": 4,
+                                              "reason": "it takes closed manifolds alone"})
+        self.put("bunny", 0.321, "pyfqmr", {"start": 5000, "failure": "cannot: No module named 'pyfqmr'"})
+        self.put("bunny", 0.321, "meshlab", {"name": "MeshLab", "start": 5000, "least_error": 0.5, "failed_calls": 2,
+                                             "reason": reason})
+        self.put("bunny", 0.321, bench.MESHOPTIMIZER, result("meshoptimizer, npm", 3000, options="simplify",
+                                                             tolerance=0.4567, failed_calls=2, reason=reason))
+        told = bench.table(self.store, "bunny", 0.321, bench.PEERS)
+        self.assertIn("| Manifold | cannot: it takes closed manifolds alone |", told)
+        self.assertIn("| pyfqmr | cannot: No module named 'pyfqmr' |", told)
+        self.assertIn("| MeshLab | cannot: its nearest is 0.500; its process ended by signal 11: a / b cc", told)
+        self.assertIn("| simplify, 0.46 ε; 2 calls failed: its process ended by signal 11: a / b cc", told)
+        self.assertEqual(len({line.count("|") for line in told.splitlines() if line.startswith("|")}), 1)
+
+    def test_packages_run_in_a_process_where_they_are_installed(self):
+        python, module = Path("build/bench-python/bin/python"), (Path("a b/module.mjs"), "1.3.0")
+        for tool in bench.PACKAGES:
+            option, command = bench.choosing(tool, python, module)
+            self.assertEqual((option, command.split()[-1]), ("--command", tool))
+            self.assertIsNone(bench.choosing(tool, None, module))
+        self.assertIn("'a b/module.mjs' 1.3.0", bench.choosing(bench.MESHOPTIMIZER, python, module)[1])
+        self.assertIsNone(bench.choosing(bench.MESHOPTIMIZER, python, None))
+        self.assertEqual(bench.choosing("openmesh", None, None), ["--tool", "openmesh"])
 
     def test_sections_outlive_each_other(self):
         sections.DOCUMENT.write_text("# Benchmarks\n\nthe engine\n")

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "host/geometry/triangle_mesh.h"
 
@@ -13,6 +14,7 @@ struct Trial {
   TriangleMesh mesh;
   double seconds = 0;
   double error = 0;
+  std::string failure = {};  // what the tool threw, if it did
 };
 
 // A tool with its options, called with a coarseness in [0, 1]: 0 asks for the finest mesh.

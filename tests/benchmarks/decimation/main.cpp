@@ -13,7 +13,9 @@
 #include "sw_model/base/error.h"
 #include "tests/benchmarks/bisection/bisection.h"
 #include "tests/benchmarks/decimation/cpu_time.h"
+#include "tests/benchmarks/decimation/external_tool.h"
 #include "tests/benchmarks/decimation/measures.h"
+#include "tests/benchmarks/decimation/raw_mesh.h"
 #include "tests/benchmarks/decimation/scans.h"
 #include "tests/benchmarks/decimation/tool.h"
 
@@ -31,7 +33,7 @@ constexpr double kNext = 0.99, kBetter = 0.985;
 
 struct Options {
   CaseFolders folders{"data", "build/bench/cases"};
-  std::string scan, tool;
+  std::string scan, tool, command, start_folder;
   double percent = 0;
   std::size_t points = 0;
   bool quick = false;
@@ -71,14 +73,15 @@ TriangleMesh decimated(const DecimationScan& scan, const OwnWay& way) {
   return decimate_certified(scan.start, scan.cloud, settings).mesh;
 }
 
-// What a call gave; nothing where the tool failed.
+// What a call gave; a mesh without triangles where the tool failed.
 Trial timed(const std::function<TriangleMesh()>& call) {
   Trial trial;
   const CpuTime time;
   try {
     trial.mesh = call();
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
     trial.mesh = {};
+    trial.failure = error.what();
   }
   trial.seconds = time.seconds();
   return trial;
@@ -106,7 +109,8 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
   if (quick) sets.resize(1);
   std::optional<Found> best;
   const OptionSet* best_set = nullptr;
-  int calls = 0;
+  int calls = 0, failed_calls = 0;
+  std::string failure;
   double seconds = 0, least_error = std::numeric_limits<double>::infinity();
   for (const OptionSet& set : sets) {
     const Range range = range_of(set, scan);
@@ -127,6 +131,11 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
     const Attempt attempt = [&](double coarseness) {
       Trial trial = timed(
           [&] { return set.simplify(parameter_at(coarseness, range.finest, range.coarsest)); });
+      if (set.seconds) trial.seconds = set.seconds();
+      if (!trial.failure.empty()) {
+        ++failed_calls;
+        failure = trial.failure;
+      }
       trial.error = error(trial.mesh);
       return trial;
     };
@@ -141,6 +150,10 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
     }
   }
   json result = {{"calls", calls}, {"all_seconds", seconds}};
+  if (failed_calls > 0) {
+    result["failed_calls"] = failed_calls;
+    result["reason"] = failure;
+  }
   if (!best) {
     result["least_error"] =
         std::isfinite(least_error) ? json(100 * least_error / scan.width) : json();
@@ -148,6 +161,10 @@ json searched(const DecimationScan& scan, const Tool& tool, bool quick) {
   }
   result.update(measures(tool.name, scan, error, best->best->mesh));
   result["options"] = best_set->name;
+  if (best_set->parameter == OptionSet::Parameter::kTolerance) {
+    const Range range = range_of(*best_set, scan);
+    result["tolerance"] = parameter_at(best->coarseness, range.finest, range.coarsest);
+  }
   result["seconds"] = best->best->seconds;
   result["search_seconds"] = best->seconds;
   result["search_calls"] = best->calls;
@@ -201,7 +218,28 @@ double call_seconds(const DecimationScan& scan, const Tool& tool) {
   constexpr double kTriangles = 2000;
   const OptionSet set = tool.option_sets(scan.start, scan.epsilon).front();
   const bool to_number = set.parameter == OptionSet::Parameter::kTriangles;
-  return timed([&] { return set.simplify(to_number ? kTriangles : 1); }).seconds;
+  const double seconds = timed([&] { return set.simplify(to_number ? kTriangles : 1); }).seconds;
+  return set.seconds ? set.seconds() : seconds;
+}
+
+json peer_result(const DecimationScan& scan, const Tool& tool, const Options& options) {
+  json result = {{"name", tool.name}, {"version", tool.version}};
+  if (options.points > 0) {
+    result["seconds"] = call_seconds(scan, tool);
+  } else {
+    result.update(searched(scan, tool, options.quick));
+  }
+  return result;
+}
+
+json external_result(const DecimationScan& scan, const Options& options) {
+  std::optional<Tool> tool;
+  try {
+    tool = external_tool(options.command);
+  } catch (const std::exception& error) {
+    return {{"failure", std::string("cannot: ") + error.what()}};
+  }
+  return peer_result(scan, *tool, options);
 }
 
 json measured(const Options& options) {
@@ -215,7 +253,16 @@ json measured(const Options& options) {
                  {"left_out", scan.left_out},
                  {"start", scan.start.triangles.size()},
                  {"start_seconds", scan.start_seconds},
+                 {"epsilon", scan.epsilon},
                  {"text", scan.text}};
+  if (!options.start_folder.empty()) {
+    write_raw(options.start_folder, scan.start);
+    return result;
+  }
+  if (!options.command.empty()) {
+    result.update(external_result(scan, options));
+    return result;
+  }
   if (options.tool == "third-direction") {
     result.update(third_direction(scan));
     return result;
@@ -234,13 +281,7 @@ json measured(const Options& options) {
   }
   for (const Tool& tool : tools()) {
     if (options.tool != tool.key) continue;
-    result["name"] = tool.name;
-    result["version"] = tool.version;
-    if (options.points > 0) {
-      result["seconds"] = call_seconds(scan, tool);
-    } else {
-      result.update(searched(scan, tool, options.quick));
-    }
+    result.update(peer_result(scan, tool, options));
     return result;
   }
   throw CLI::ValidationError("--tool", "there is no such tool: " + options.tool);
@@ -253,12 +294,17 @@ int main(int argc, char** argv) {
   app.add_option("--data", options.folders.data, "folder of the scans")->capture_default_str();
   app.add_option("--cache", options.folders.cache, "folder of meshes made once")
       ->capture_default_str();
-  app.add_option("--scan", options.scan, "bunny, dragon, fandisk, building or torus");
+  app.add_option("--scan", options.scan,
+                 "bunny, dragon, fandisk, building, torus, smooth-torus, sphere or ellipsoid");
   app.add_option("--points", options.points, "time alone, on a torus of about so many points");
   app.add_option("--percent", options.percent, "epsilon in percent of the width")
       ->required()
       ->check(CLI::PositiveNumber);
-  app.add_option("--tool", options.tool, "the decimator")->required();
+  CLI::Option* tool = app.add_option("--tool", options.tool, "the decimator");
+  app.add_option("--command", options.command, "starts a decimator in a process of its own")
+      ->excludes(tool);
+  app.add_option("--write-start", options.start_folder,
+                 "write what every decimator starts from into this folder, and end");
   app.add_flag("--quick", options.quick, "only the first set of options");
   try {
     app.parse(argc, argv);

@@ -1,7 +1,9 @@
 #include "tests/benchmarks/decimation/scans.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "host/decimate/bounded_decimation.h"
@@ -15,12 +17,17 @@
 namespace emax::benchmarks {
 namespace {
 
-constexpr double kAxisRadius = 1, kTubeRadius = 0.4, kTorusWidth = 2 * (kAxisRadius + kTubeRadius);
+// Of the torus with noise, and of the smooth one, whose curvature is integrated exactly.
+constexpr double kAxisRadius = 1, kTubeRadius = 0.4, kSmoothTubeRadius = 0.35,
+                 kTorusWidth = 2 * (kAxisRadius + kTubeRadius);
 constexpr double kPi = std::numbers::pi;
+const Point kSemiAxes(1, 0.7, 0.45);
 
-double distance_to_torus(const Point& p) {
-  const double across = std::hypot(p.x(), p.y()) - kAxisRadius;
-  return std::abs(std::hypot(across, p.z()) - kTubeRadius);
+std::function<double(const Point&)> distance_to_torus(double tube_radius) {
+  return [=](const Point& p) {
+    const double across = std::hypot(p.x(), p.y()) - kAxisRadius;
+    return std::abs(std::hypot(across, p.z()) - tube_radius);
+  };
 }
 
 // Standard deviation 1 (Box and Muller).
@@ -31,7 +38,8 @@ double gaussian(Random& random) {
 
 // As a scanner with its own grid gives it: points off their places in the grid by up to a quarter
 // of its cells, every coordinate noisy.
-TriangleMesh scanned_torus(std::uint32_t around, std::uint32_t across, double noise) {
+TriangleMesh scanned_torus(std::uint32_t around, std::uint32_t across, double tube_radius,
+                           double noise) {
   Random random(named_seed("torus", 1));
   const auto angle = [&](std::uint32_t i, std::uint32_t n) {
     return 2 * kPi * (i + random.uniform(-0.25, 0.25)) / n;
@@ -40,8 +48,8 @@ TriangleMesh scanned_torus(std::uint32_t around, std::uint32_t across, double no
   for (std::uint32_t i = 0; i < around; ++i) {
     for (std::uint32_t j = 0; j < across; ++j) {
       const double u = angle(i, around), v = angle(j, across);
-      const double radius = kAxisRadius + kTubeRadius * std::cos(v);
-      Point p(radius * std::cos(u), radius * std::sin(u), kTubeRadius * std::sin(v));
+      const double radius = kAxisRadius + tube_radius * std::cos(v);
+      Point p(radius * std::cos(u), radius * std::sin(u), tube_radius * std::sin(v));
       for (int axis = 0; axis < 3; ++axis) p[axis] += noise * gaussian(random);
       mesh.vertices.push_back(p);
       const std::uint32_t next_i = (i + 1) % around, next_j = (j + 1) % across;
@@ -49,6 +57,37 @@ TriangleMesh scanned_torus(std::uint32_t around, std::uint32_t across, double no
                           d = i * across + next_j;
       mesh.triangles.push_back({a, b, c});
       mesh.triangles.push_back({a, c, d});
+    }
+  }
+  return mesh;
+}
+
+// The octahedron with `divisions` steps along an edge, moved onto the unit sphere. Its vertices are
+// the lattice points whose coordinates' magnitudes sum to `divisions`, which names those on shared
+// edges once.
+TriangleMesh unit_sphere(int divisions) {
+  TriangleMesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> known;
+  const auto vertex = [&](const std::array<int, 3>& lattice) {
+    const auto [at, is_new] =
+        known.try_emplace(lattice, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (is_new) mesh.vertices.push_back(Point(lattice[0], lattice[1], lattice[2]).normalized());
+    return at->second;
+  };
+  for (int octant = 0; octant < 8; ++octant) {
+    const std::array<int, 3> sign = {octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1};
+    const bool turned = sign[0] * sign[1] * sign[2] < 0;
+    const auto at = [&](int x, int y) {
+      return vertex({sign[0] * x, sign[1] * y, sign[2] * (divisions - x - y)});
+    };
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh.triangles.push_back(turned ? Triangle{a, c, b} : Triangle{a, b, c});
+    };
+    for (int x = 0; x < divisions; ++x) {
+      for (int y = 0; x + y < divisions; ++y) {
+        add(at(x, y), at(x + 1, y), at(x, y + 1));
+        if (x + y + 1 < divisions) add(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+      }
     }
   }
   return mesh;
@@ -99,22 +138,42 @@ DecimationScan decimation_scan(const CaseFolders& folders, std::string_view name
                    reconstructed(folders, "building", cloud), cloud, percent);
   }
   if (name == "torus") {
-    const TriangleMesh mesh = scanned_torus(500, 200, 0.0005 * kTorusWidth);
+    const TriangleMesh mesh = scanned_torus(500, 200, kTubeRadius, 0.0005 * kTorusWidth);
     DecimationScan scan = scan_of(
         "a torus of radii 1 and 0.4, scanned on a grid with a Gaussian noise of 0.05 % of the "
         "width in every coordinate",
         mesh, mesh.vertices, percent);
-    scan.true_distance = distance_to_torus;
+    scan.true_distance = distance_to_torus(kTubeRadius);
     return scan;
   }
+  if (name == "smooth-torus") {
+    const TriangleMesh mesh = scanned_torus(540, 189, kSmoothTubeRadius, 0);
+    DecimationScan scan =
+        scan_of("points of a torus of radii 1 and 0.35", mesh, mesh.vertices, percent);
+    scan.true_distance = distance_to_torus(kSmoothTubeRadius);
+    return scan;
+  }
+  if (name == "sphere" || name == "ellipsoid") {
+    constexpr int kDivisions = 158;
+    TriangleMesh mesh = unit_sphere(kDivisions);
+    if (name == "sphere") {
+      DecimationScan scan = scan_of("points of a sphere of radius 1", mesh, mesh.vertices, percent);
+      scan.true_distance = [](const Point& p) { return std::abs(p.norm() - 1); };
+      return scan;
+    }
+    for (Point& p : mesh.vertices) p = p.cwiseProduct(kSemiAxes);
+    return scan_of("points of an ellipsoid of semi-axes 1, 0.7 and 0.45", mesh, mesh.vertices,
+                   percent);
+  }
   throw Error("there is no scan '" + std::string(name) +
-              "'; choose bunny, dragon, fandisk, building or torus");
+              "'; choose bunny, dragon, fandisk, building, torus, smooth-torus, sphere or "
+              "ellipsoid");
 }
 
 DecimationScan smooth_torus(std::size_t points, double percent) {
   const auto across = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(points) / 2.5));
   const auto around = static_cast<std::uint32_t>(points / across);
-  const TriangleMesh mesh = scanned_torus(around, across, 1e-4 * kTorusWidth);
+  const TriangleMesh mesh = scanned_torus(around, across, kTubeRadius, 1e-4 * kTorusWidth);
   return scan_of("torus", mesh, mesh.vertices, percent);
 }
 

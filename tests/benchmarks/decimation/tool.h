@@ -17,6 +17,8 @@ struct OptionSet {
   // Throws what the tool throws. A mesh without triangles where it gives none.
   std::function<TriangleMesh(double)> simplify;
   double finest = 0.05, coarsest = 3;  // tolerances of the bisection
+  // Processor time of the last call, where the tool measures it itself.
+  std::function<double()> seconds = {};
 };
 
 // A decimator made by others. Its option sets, for one start and epsilon; the likeliest to be best
