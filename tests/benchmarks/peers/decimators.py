@@ -29,7 +29,7 @@ class Pyfqmr:
     # standard alpha that of the first pass is coarser than most tolerances here.
     sets = [(f"aggressiveness {aggressiveness}, alpha {alpha:g}", TRIANGLES,
              {"aggressiveness": aggressiveness, "alpha": alpha, "preserve_border": False})
-            for aggressiveness, alpha in [(4, 1e-9), (7, 1e-17), (5, 1e-13), (3, 1e-9), (7, 1e-9)]]
+            for aggressiveness, alpha in [(4, 1e-9), (7, 1e-17), (5, 1e-13), (3, 1e-9), (2, 1e-9), (7, 1e-9)]]
     sets += [("aggressiveness 4, alpha 1e-9, preserve_border", TRIANGLES,
               {"aggressiveness": 4, "alpha": 1e-9, "preserve_border": True}),
              ("lossless, threshold", TOLERANCE, None)]
@@ -53,7 +53,7 @@ class Pyfqmr:
 
 class FastSimplification:
     name, package = "fast-simplification", "fast-simplification"
-    sets = [(f"agg {agg:g}", TRIANGLES, agg) for agg in [4, 5, 3, 7]]
+    sets = [(f"agg {agg:g}", TRIANGLES, agg) for agg in [4, 5, 3, 2, 7]]
 
     def prepared(self, vertices, triangles):
         import fast_simplification
