@@ -38,7 +38,7 @@ PACKAGES = ["meshlab", "pyfqmr", "fast-simplification", "manifold"]
 MESHOPTIMIZER = "meshoptimizer-npm"
 PEERS = LINKED + [MESHOPTIMIZER] + PACKAGES
 # The theory's fewest, of a smooth surface; of the known ones exactly. Not where edges are sharp.
-FEWEST, SURFACES = "fewest", ["sphere", "smooth-torus", "ellipsoid"]
+FEWEST, SURFACES = "fewest", ["torus", "sphere", "smooth-torus", "ellipsoid"]
 FEWEST_SCANS = ["bunny", "dragon"] + SURFACES
 TWO, ONE = "emax-two-sided", "emax-one-sided"
 FEATURES = TWO + "-features"
@@ -363,7 +363,7 @@ Written by `./dev bench --decimate`; [benchmarks.md](benchmarks.md#decimation) s
   result that turns by more than 25°.
 - "N*": the fewest triangles of a free triangulation within ±ε of a smooth surface, as ε goes to 0: ∫ √K dA / (3√3 ε)
   where the Gaussian curvature K is positive, plus ∫ √|K| dA / (4.6 ε) where it is negative (Pottmann et al. 2000;
-  Atariah, Rote and Wintraecken). Exact for the sphere, the smooth torus and the ellipsoid. For scans K comes from
+  Atariah, Rote and Wintraecken). Exact for the sphere, both tori (without the noise) and the ellipsoid. For scans K comes from
   quadrics fitted to neighbourhoods of two, three and four rings of vertices; in brackets the least and the greatest N*
   of the three. Noise and details finer than ε raise it; a one-sided result, or one far from the limit, may be below it.
 - "options": those that gave the result. A number of ε is the tolerance or bound that the tool was given. Where it is

@@ -8,8 +8,8 @@ function; Atariah, Rote and Wintraecken, "Optimal triangulation of saddle surfac
 constant of saddles. A triangulation that is less than two-sided, or an ε beyond the surface's
 details, may need fewer.
 
-usage: optimal_triangulation.py EPSILON SURFACE | FOLDER. SURFACE is sphere, smooth-torus or
-ellipsoid; FOLDER holds a mesh as tests/benchmarks/decimation/raw_mesh.h has it. Prints JSON.
+usage: optimal_triangulation.py EPSILON SURFACE | FOLDER. SURFACE is sphere, smooth-torus,
+torus or ellipsoid; FOLDER holds a mesh as tests/benchmarks/decimation/raw_mesh.h has it. Prints JSON.
 """
 
 import json
@@ -53,7 +53,7 @@ def ellipsoid(a=1.0, b=0.7, c=0.45):
     return (numpy.sin(theta) / numpy.sqrt(weights)).sum() * 2 * (math.pi / STEPS) ** 2, 0.0
 
 
-SURFACES = {"sphere": sphere, "smooth-torus": torus, "ellipsoid": ellipsoid}
+SURFACES = {"sphere": sphere, "smooth-torus": torus, "torus": lambda: torus(tube=0.4), "ellipsoid": ellipsoid}
 
 
 def vertex_areas_and_normals(vertices, faces):

@@ -47,6 +47,9 @@ class OptimalTriangulationTest(unittest.TestCase):
         for name, wanted in (("sphere", 2418), ("smooth-torus", 3587), ("ellipsoid", 1578)):
             self.assertEqual(round(optimal.triangles(*optimal.SURFACES[name](), EPSILON)), wanted, name)
 
+    def test_a_thicker_torus_needs_more(self):
+        self.assertGreater(optimal.triangles(*optimal.SURFACES["torus"](), EPSILON), 3587)
+
     def test_an_ellipsoid_of_equal_axes_is_a_sphere(self):
         for radius in (1, 3):
             self.assertAlmostEqual(optimal.ellipsoid(radius, radius, radius)[0], optimal.sphere(radius)[0], 4)
