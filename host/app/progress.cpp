@@ -29,6 +29,7 @@ std::string Progress::time_left(const OptimizeState& state) const {
   if (state.evaluations > state.from_log) {
     left = elapsed.count() * static_cast<double>(state.budget - state.evaluations) /
            static_cast<double>(state.evaluations - state.from_log);
+    left += state.polish_seconds;
   }
   if (const double until = std::max(0.0, seconds_left_()); std::isfinite(until)) {
     left = left < 0 ? until : std::min(left, until);

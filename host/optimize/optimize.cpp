@@ -72,6 +72,7 @@ class Run {
       enter_in_order();
       state_.evaluations = genocop_.asked() - in_work_.size();
       if (pool_->outstanding() > 0) load_best();
+      if (polishes()) state_.polish_seconds = expected_polish_seconds(ranking_.size());
       observe_(state_);
     }
     for (Result& result : stop_workers()) {
@@ -107,9 +108,11 @@ class Run {
   // an evaluation, and gains more than the last evaluations do.
   double polish_seconds() const {
     constexpr double kShare = 0.25;
-    if (!settings_.polish || !takes_bound(settings_.decimator) || std::isinf(seconds_)) return 0;
+    if (!polishes() || std::isinf(seconds_)) return 0;
     return std::min(kShare * seconds_, expected_polish_seconds(kPolished));
   }
+
+  bool polishes() const { return settings_.polish && takes_bound(settings_.decimator); }
 
   double expected_polish_seconds(std::size_t meshes) const {
     const std::size_t rounds = (meshes + settings_.jobs - 1) / settings_.jobs;
@@ -245,21 +248,16 @@ class Run {
           settings_.log != nullptr ? settings_.log->find(index) : nullptr;
       // What is known may be of another best, where the run then ended elsewhere.
       if (known != nullptr && !known->stopped && same_bits(known->genes, deep[i])) {
-        results_[index] = Result{*known, {}, {}};
+        enter_polished(Result{*known, {}, {}}, before);
       } else {
         in_work_[index].genes = deep[i];
       }
     }
-    if (!in_work_.empty()) decimate_deep();
-    for (auto& [index, result] : results_) {
-      if (!result.failed()) state_.polished = before;
-      enter(std::move(result));
-    }
-    results_.clear();
+    if (!in_work_.empty()) decimate_deep(before);
   }
 
-  // What is in work.
-  void decimate_deep() {
+  // What is in work. Which is the best does not depend on the order in which they enter.
+  void decimate_deep(std::size_t before) {
     state_.polishing = true;
     state_.polish_seconds = expected_polish_seconds(in_work_.size());
     start_workers(settings_.jobs, kPolishTimes);
@@ -267,15 +265,17 @@ class Run {
     while (!in_work_.empty() && !state_.interrupted && state_.device_failure.empty() &&
            settings_.seconds_left() > stopping_seconds()) {
       observe_(state_);
-      if (std::optional<Result> result = receive()) {
-        results_.insert_or_assign(result->evaluation.index, std::move(*result));
-      }
+      if (std::optional<Result> result = receive()) enter_polished(std::move(*result), before);
       state_.interrupted = settings_.interrupted();
     }
     state_.polish_stopped = !in_work_.empty() && !state_.interrupted;
-    for (Result& result : stop_workers()) {
-      results_.insert_or_assign(result.evaluation.index, std::move(result));
-    }
+    for (Result& result : stop_workers()) enter_polished(std::move(result), before);
+  }
+
+  // `before`: the triangles of the best before any.
+  void enter_polished(Result result, std::size_t before) {
+    if (!result.failed()) state_.polished = before;
+    enter(std::move(result));
   }
 
   // The meshes at hand of what is in work, as far as they come soon, where somebody waits for the

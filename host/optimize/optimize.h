@@ -87,7 +87,7 @@ struct OptimizeState {
   std::vector<FewerTriangles> course;   // of `best`; seconds never fall
   bool interrupted = false, out_of_time = false, target_reached = false, stagnated = false;
   bool polishing = false;               // has begun to
-  double polish_seconds = 0;            // that it is expected to take
+  double polish_seconds = 0;            // that this is expected to take
   std::optional<std::size_t> polished;  // has, without a failure; the triangles before that
   bool polish_stopped = false;          // for want of time
   std::string device_failure;           // that ended the run
