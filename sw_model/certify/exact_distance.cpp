@@ -1,5 +1,6 @@
 #include "sw_model/certify/exact_distance.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -141,6 +142,42 @@ bool is_farther(const Point& p, const std::array<Point, 3>& corners, double uppe
          support * support > squared * (least * least) * (1 + 64 * kUnit);
 }
 
+// A point of the triangle, mostly the nearest, by Ericson's formula: weights of b and c, both at
+// least 0 and together at most 1 up to a rounding. `a`, `b`, `c` lead from the point to the
+// corners.
+struct Foot {
+  double b, c;
+};
+
+inline Foot likely_foot(const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a;
+  const double d1 = -ab.dot(a), d2 = -ac.dot(a);
+  if (d1 <= 0 && d2 <= 0) return {0, 0};
+  const double d3 = -ab.dot(b), d4 = -ac.dot(b);
+  if (d3 >= 0 && d4 <= d3) return {1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {d1 / (d1 - d3), 0};
+  const double d5 = -ab.dot(c), d6 = -ac.dot(c);
+  if (d6 >= 0 && d5 <= d6) return {0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {0, d2 / (d2 - d6)};
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {1 - t, t};
+  }
+  const double scale = 1 / (va + vb + vc);
+  return {vb * scale, vc * scale};
+}
+
+bool is_sliver(const std::array<Point, 3>& corners, double scale) {
+  const Point ab = scale * (corners[1] - corners[0]), ac = scale * (corners[2] - corners[0]);
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  return !(ab.cross(ac).squaredNorm() > 1e-6 * longest * longest && longest > 0x1p-200);
+}
+
+constexpr double kLeastPlain = 0x1p-400, kMostPlain = 0x1p400;
+
 }  // namespace
 
 DistanceBounds point_triangle_distance(const Point& p, const std::array<Point, 3>& corners) {
@@ -189,6 +226,15 @@ ExactMesh::ExactMesh(MeshView mesh) {
     by_place[place] = corners_[order_[place]];
   }
   corners_ = std::move(by_place);
+  const double extent = (nodes_[0].high - nodes_[0].low).maxCoeff();
+  if (extent > 0x1p-900) {
+    scale_ = std::ldexp(1, -std::ilogb(extent));
+    unscale_ = 1 / scale_;
+  }
+  is_sliver_.resize(count);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    is_sliver_[place] = is_sliver(corners_[place], scale_) ? 1 : 0;
+  }
 }
 
 std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
@@ -225,6 +271,80 @@ std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
 DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) const {
   require_no_flush("the exact distance");
   return bounds(p, corners_[place_of_.at(triangle)]);
+}
+
+double ExactMesh::upper_to(const Point& p, std::uint32_t triangle) const {
+  const std::uint32_t place = place_of_[triangle];
+  const std::array<Point, 3>& corners = corners_[place];
+  if (!is_sliver_[place]) {
+    const Point a = scale_ * (corners[0] - p), b = scale_ * (corners[1] - p),
+                c = scale_ * (corners[2] - p);
+    const Foot foot = likely_foot(a, b, c);
+    const double weight = (1 - foot.b) - foot.c;
+    const double squared = (std::max(weight, 0.0) * a + foot.b * b + foot.c * c).squaredNorm();
+    if (foot.b >= 0 && foot.c >= 0 && weight >= -0x1p-50 && squared > kLeastPlain &&
+        squared < kMostPlain) {
+      // docs/numerics.md, "The oracle's rounding".
+      const double size = std::max({a.lpNorm<1>(), b.lpNorm<1>(), c.lpNorm<1>()});
+      return (std::sqrt(squared) + 6 * kUnit * size) * (1 + 32 * kUnit) * unscale_ + 0x1p-1060;
+    }
+  }
+  return bounds(p, corners).upper;
+}
+
+// The square of about the distance.
+inline double ExactMesh::likely_squared(const Point& p, std::uint32_t place) const {
+  const std::array<Point, 3>& corners = corners_[place];
+  if (!is_sliver_[place]) {
+    const Point a = scale_ * (corners[0] - p), b = scale_ * (corners[1] - p),
+                c = scale_ * (corners[2] - p);
+    const Foot foot = likely_foot(a, b, c);
+    const double squared = (((1 - foot.b) - foot.c) * a + foot.b * b + foot.c * c).squaredNorm();
+    if (squared > kLeastPlain && squared < kMostPlain) return squared * unscale_ * unscale_;
+  }
+  const double upper = bounds(p, corners).upper;
+  return upper * upper;
+}
+
+std::uint32_t ExactMesh::likely_nearest(const Point& p, std::uint32_t seed) const {
+  std::uint32_t best = place_of_[seed];
+  double least = likely_squared(p, best);
+  struct Pending {
+    std::uint32_t node;
+    double squared_distance;
+  };
+  std::array<Pending, kMaxDepth> stack;
+  std::size_t depth = 0;
+  std::uint32_t at = 0;
+  for (;;) {
+    const Node& node = nodes_[at];
+    if (node.right != 0) {
+      Pending near = {at + 1, 0}, far = {node.right, 0};
+      for (Pending* child : {&near, &far}) {
+        const Node& box = nodes_[child->node];
+        child->squared_distance = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
+      }
+      if (far.squared_distance < near.squared_distance) std::swap(near, far);
+      if (near.squared_distance < least) {
+        if (far.squared_distance < least) stack[depth++] = far;
+        at = near.node;
+        continue;
+      }
+    } else {
+      for (std::uint32_t place = node.begin; place < node.end; ++place) {
+        const double squared = likely_squared(p, place);
+        if (squared < least) {
+          least = squared;
+          best = place;
+        }
+      }
+    }
+    do {
+      if (depth == 0) return order_[best];
+      --depth;
+    } while (!(stack[depth].squared_distance < least));
+    at = stack[depth].node;
+  }
 }
 
 bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) const {

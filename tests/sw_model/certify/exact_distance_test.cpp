@@ -210,6 +210,40 @@ TEST(ExactMesh, StopsEarlyOnlyWithinWhatIsEnough) {
   EXPECT_GT(stopped_early, 0);
 }
 
+// Proven, and close to the bound of twice the cost, whatever the shape and the scale.
+TEST(ExactMesh, BoundsTheDistanceToATriangleFromAbove) {
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::Random random(seed);
+    const double scale = std::pow(10.0, random.uniform(-130, 130));
+    Corners corners = random_corners(random);
+    const Point p = scale * random_point_near(random, corners);
+    for (Point& corner : corners) corner *= scale;
+    const std::vector<Point> vertices(corners.begin(), corners.end());
+    const std::vector<Triangle> triangles = {{0, 1, 2}};
+    const ExactMesh mesh(MeshView{vertices, triangles});
+    const double upper = mesh.upper_to(p, 0);
+    const double size = size_of(p, corners);
+    ASSERT_GE(upper + 0x1p-61 * size, test::long_double_distance(p, corners));
+    ASSERT_LE(upper, mesh.distance_to(p, 0).upper + 1e-9 * size);
+  }
+}
+
+TEST(ExactMesh, TellsALikelyNearestTriangle) {
+  for (const test::Stimulus& s : test::all_stimuli(64)) {
+    SCOPED_TRACE(s.name + ", seed 64");
+    const ExactMesh tree(s.mesh());
+    for (const Point& p : s.cloud) {
+      const double least = tree.nearest(p).distance.upper;
+      const auto seed = static_cast<std::uint32_t>(s.triangles.size() / 2);
+      for (const std::uint32_t likely : {tree.likely_nearest(p), tree.likely_nearest(p, seed)}) {
+        const double size = size_of(p, s.mesh().corners(likely));
+        ASSERT_LE(tree.distance_to(p, likely).upper, least + 1e-9 * size);
+      }
+    }
+  }
+}
+
 // The corners decide only where the upper end would, slivers and tiny limits included.
 TEST(ExactMesh, IsWithinExactlyWhereTheUpperEndIs) {
   std::array<std::size_t, 2> seen{};
