@@ -17,6 +17,11 @@ constexpr int kRings = 3;
 constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be restored
 constexpr double kFewBeyond = 0.005;  // share of the triangles that is left to exact restoration
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
+constexpr int kFirstRestorations = 2;             // rounds without splits
+// What restoration leaves even has room for fewer: of a mesh within its limits, and at most so many
+// times its triangles while the limits are restored again.
+constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhileThinning = 1.05;
+constexpr int kThinningRounds = 2, kLastThinningRounds = 3;
 // Restoration is given up where more than this share of the triangles is beyond the limit, or where
 // splitting all of these would leave more than a share of the triangles that were there at first.
 constexpr double kTooManyBeyond = 0.25, kTooManyLeft = 0.95;
@@ -24,7 +29,7 @@ constexpr double kTooManyBeyond = 0.25, kTooManyLeft = 0.95;
 }  // namespace
 
 bool ErrorEquidistribution::run() {
-  const std::size_t first = state_.mesh().triangles();
+  const auto first = static_cast<double>(state_.mesh().triangles());
   passes_.use(LocalSearch::Steps::kNewton);
   state_.loosen(kLoosened, kLoosened);
   for (const int power : {4, 8, 16}) relax(power, 2);
@@ -35,9 +40,29 @@ bool ErrorEquidistribution::run() {
   exchange_at_last();
   state_.loosen(kLessLoosened, kLoosened);
   relax(64, extent_.last_rounds);
-  if (!restore_loosely(first)) return false;
-  restore();
-  return !passes_.stopped() && state_.keep_limits();
+  if (!restore_loosely(kTooManyLeft * first) || !restore()) return false;
+  for (int i = 0; i < extent_.thinnings && thin(); ++i) {
+  }
+  return true;
+}
+
+// Exchanges triangles of a mesh within its limits once more. Returns false, and leaves the mesh as
+// it was, where that leaves no fewer.
+bool ErrorEquidistribution::thin() {
+  const DecimationState::Snapshot before = state_.snapshot();
+  const FeatureEdges features = passes_.features();
+  const std::size_t triangles = state_.mesh().triangles();
+  state_.loosen(kLoosened, kLoosened);
+  exchange(kThinningQuantile, 1, kThinningCollapsed, 16);
+  relax(32, kThinningRounds);
+  state_.loosen(kLessLoosened, kLoosened);
+  relax(64, kLastThinningRounds);
+  const double most = kMostWhileThinning * static_cast<double>(triangles);
+  if (restore_loosely(most) && restore() && state_.mesh().triangles() < triangles) return true;
+  state_.restore(before);
+  passes_.restart(features);
+  passes_.use(LocalSearch::Steps::kNewton);
+  return false;
 }
 
 void ErrorEquidistribution::relax(int power, int rounds) {
@@ -94,24 +119,27 @@ std::vector<std::uint32_t> ErrorEquidistribution::beyond_limit() {
   return passes_.beyond_limit();
 }
 
-// A third of what is beyond the limit is split at a time: relaxing around it restores more. Returns
-// false where it is given up.
-bool ErrorEquidistribution::restore_loosely(std::size_t first) {
+// Relaxing around what is beyond the limit restores most. Then a third of it is split at a time.
+// Returns false where it is given up, as where more than `most` triangles would be left.
+bool ErrorEquidistribution::restore_loosely(double most) {
   for (int i = 0; i < kRestorations && !passes_.stopped(); ++i) {
     std::vector<std::uint32_t> worst = beyond_limit();
     const auto triangles = static_cast<double>(state_.mesh().triangles());
     const auto beyond = static_cast<double>(worst.size());
     if (beyond > kTooManyBeyond * triangles) return false;
-    if (triangles + beyond > kTooManyLeft * static_cast<double>(first)) return false;
+    if (triangles + beyond > most) return false;
     if (beyond < kFewBeyond * triangles) break;
-    worst.resize((worst.size() + 2) / 3);
-    tell_("splits", passes_.split_at_worst(worst, 16));
+    if (i >= kFirstRestorations) {
+      worst.resize((worst.size() + 2) / 3);
+      tell_("splits", passes_.split_at_worst(worst, 16));
+    }
     for (const int power : {16, 16, 32, 32}) relax_around(passes_.beyond_limit(), power);
   }
   return true;
 }
 
-void ErrorEquidistribution::restore() {
+// Returns whether every limit holds.
+bool ErrorEquidistribution::restore() {
   state_.tighten();
   for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
     state_.prove_all();
@@ -123,6 +151,7 @@ void ErrorEquidistribution::restore() {
     if (i % 2 == 1) tell_("splits", passes_.split_at_worst(beyond, 16));
     for (const int power : {32, 32, 16}) relax_around(beyond, power);
   }
+  return !passes_.stopped() && state_.keep_limits();
 }
 
 }  // namespace emax

@@ -20,12 +20,13 @@ class ErrorEquidistribution {
   // Told of each pass: its name, the number of edits.
   using Tell = std::function<void(const char*, std::size_t)>;
   // How long it goes on: at most so many exchanges of triangles, the last ones with higher powers,
-  // and rounds of flips and relocations with powers of 32 and 64.
+  // rounds of flips and relocations with powers of 32 and 64, and thinnings.
   struct Extent {
     int exchanges, last_exchanges;
     int rounds, last_rounds;
+    int thinnings;
   };
-  static constexpr Extent kShort = {2, 2, 2, 2}, kLong = {6, 4, 4, 3};
+  static constexpr Extent kShort = {2, 2, 2, 2, 1}, kLong = {6, 4, 4, 3, 20};
   ErrorEquidistribution(DecimationState& state, DecimationPasses& passes, const Extent& extent,
                         Tell tell)
       : state_(state), passes_(passes), extent_(extent), tell_(std::move(tell)) {}
@@ -41,8 +42,9 @@ class ErrorEquidistribution {
   void exchange_at_last();
   std::size_t fitting(double quantile) const;
   std::vector<std::uint32_t> beyond_limit();
-  bool restore_loosely(std::size_t first);
-  void restore();
+  bool restore_loosely(double most);
+  bool restore();
+  bool thin();
 
   DecimationState& state_;
   DecimationPasses& passes_;

@@ -31,8 +31,8 @@ struct Bench {
         state(reference, cloud, &back, limit * limit, {}, nullptr, reference.triangles),
         passes(state, {}, [this](double) { return polls == 0 || --polls == 0; }) {}
 
-  bool run() {
-    return ErrorEquidistribution(state, passes, ErrorEquidistribution::kLong,
+  bool run(const ErrorEquidistribution::Extent& extent = ErrorEquidistribution::kLong) {
+    return ErrorEquidistribution(state, passes, extent,
                                  [this](const char*, std::size_t) {
                                    most = std::max(most, state.mesh().triangles());
                                  })
@@ -87,6 +87,31 @@ TEST(ErrorEquidistribution, NeedsFewerTrianglesThanCollapsesWithinTheLimits) {
     bench.passes.relocate(4);
     bench.expect_within();
   }
+}
+
+// Stopped while it thins, it leaves the last mesh within its limits.
+TEST(ErrorEquidistribution, ThinsWhatIsWithinTheLimits) {
+  const TriangleMesh surface = sheet(40, 0.3);
+  ErrorEquidistribution::Extent extent = ErrorEquidistribution::kLong;
+  extent.thinnings = 0;
+  Bench plain(surface, 0.01), thinned(surface, 0.01), stopped(surface, 0.01);
+  for (Bench* bench : {&plain, &thinned, &stopped}) {
+    bench->passes.sweep();
+    bench->passes.collapse();
+  }
+  ASSERT_TRUE(plain.run(extent));
+  const std::size_t triangles = plain.state.mesh().triangles();
+
+  ASSERT_TRUE(thinned.run());
+  EXPECT_LT(thinned.state.mesh().triangles(), triangles);
+  thinned.expect_within();
+
+  stopped.polls -= (plain.polls + thinned.polls) / 2;  // amid the thinnings
+  ASSERT_TRUE(stopped.run());
+  EXPECT_TRUE(stopped.passes.stopped());
+  EXPECT_LE(stopped.state.mesh().triangles(), triangles);
+  EXPECT_GE(stopped.state.mesh().triangles(), thinned.state.mesh().triangles());
+  stopped.expect_within();
 }
 
 // Wherever it is stopped, it does not call a mesh within its limits that is not.
