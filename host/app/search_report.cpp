@@ -153,10 +153,6 @@ ResultReport report_of(const SearchOutcome& o) {
   report.evaluations = o.state.evaluations;
   report.failures = o.state.failures;
   report.ended_by = ended_by(o.state);
-  report.course.emplace();
-  for (const auto& [seconds, triangles] : o.state.course) {
-    report.course->emplace_back(seconds, triangles);
-  }
   report.seed = o.settings.seed;
   if (!o.is_reference) {
     report.reconstruction_triangles = o.shown.reconstruction_triangles;

@@ -6,14 +6,6 @@
 namespace emax {
 namespace {
 
-Json course_of(const std::vector<std::pair<double, std::size_t>>& course) {
-  Json json = Json::array();
-  for (const auto& [seconds, triangles] : course) {
-    json.push_back({{"seconds", seconds}, {"triangles", triangles}});
-  }
-  return json;
-}
-
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
@@ -40,7 +32,6 @@ std::string to_json_text(const ResultReport& r) {
       {"evaluations", or_null(r.evaluations)},
       {"failures", or_null(r.failures)},
       {"ended_by", or_null(r.ended_by)},
-      {"course", r.course ? course_of(*r.course) : Json()},
       {"seed", or_null(r.seed)},
       {"device", r.device},
       {"device_counters", r.counters ? to_json(*r.counters) : Json()},

@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "host/geometry/mesh_topology.h"
@@ -33,8 +32,6 @@ struct ResultReport {
   std::optional<std::uint64_t> seed;
   std::optional<std::map<std::string, std::uint64_t>> failures;  // of evaluations, by reason
   std::optional<std::string> ended_by;                           // of a search
-  // Of a search: when there were so many triangles, in seconds from its start.
-  std::optional<std::vector<std::pair<double, std::size_t>>> course;
   std::optional<std::size_t> reconstruction_triangles, unmeshed_points;
   std::optional<std::vector<std::string>> lost_attributes;  // of the mesh that was decimated
   std::string device;

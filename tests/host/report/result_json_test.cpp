@@ -21,7 +21,7 @@ TEST(ResultJson, HoldsEveryKeyAndNullWhereNothingWasAskedFor) {
         "evaluations",     "failures",        "ended_by",           "seed",
         "device_counters", "validity",        "topology",           "reconstruction_triangles",
         "unmeshed_points", "lost_attributes", "reference",          "predicted",
-        "errors",          "course"}) {
+        "errors"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json[key].is_null()) << key;
   }
@@ -43,10 +43,7 @@ TEST(ResultJson, SaysWhatWasMeasured) {
   report.certified->excluded_distances = {0.75};
   report.certified->e_max_upper_all = 0.75;
   report.failures = std::map<std::string, std::uint64_t>{{"crashed", 2}};
-  report.course = {{0.5, 1056}, {2, 1012}};
   const nlohmann::json json = written(report);
-  EXPECT_EQ(json["course"].dump(),
-            R"([{"seconds":0.5,"triangles":1056},{"seconds":2.0,"triangles":1012}])");
   EXPECT_EQ(json["bound"], "two-sided");
   EXPECT_EQ(json["feasible"], true);
   EXPECT_EQ(json["e_max"], 0.25);
