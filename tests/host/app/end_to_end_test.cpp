@@ -393,7 +393,7 @@ TEST_F(EndToEnd, TimeIsKept) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   // Enough for the reference surface and a few evaluations, in a slow build too.
-  const double limit = std::max(6.0, std::ceil(3 * timed({"--budget", "1"})));
+  const double limit = std::max(6.0, std::ceil(2 * timed({"--effort", "quick"})));
   EXPECT_LT(timed({"--budget", "100000", "--time", std::to_string(limit)}), limit * 4 / 3);
   EXPECT_EQ(emax({"verify", "mesh.ply.certificate.json"}).exit_code, 0);
 
