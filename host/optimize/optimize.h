@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/config/config.h"
 #include "host/files/mesh_file.h"

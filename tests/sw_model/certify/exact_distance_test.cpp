@@ -210,18 +210,23 @@ TEST(ExactMesh, StopsEarlyOnlyWithinWhatIsEnough) {
   EXPECT_GT(stopped_early, 0);
 }
 
+const std::vector<Triangle> kOneTriangle = {{0, 1, 2}};
+
+std::pair<Point, Corners> random_pair_of_any_scale(std::uint64_t seed) {
+  test::Random random(seed);
+  const double scale = std::pow(10.0, random.uniform(-130, 130));
+  Corners corners = random_corners(random);
+  const Point p = scale * random_point_near(random, corners);
+  for (Point& corner : corners) corner *= scale;
+  return {p, corners};
+}
+
 // Proven, and close to the bound of twice the cost, whatever the shape and the scale.
 TEST(ExactMesh, BoundsTheDistanceToATriangleFromAbove) {
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    test::Random random(seed);
-    const double scale = std::pow(10.0, random.uniform(-130, 130));
-    Corners corners = random_corners(random);
-    const Point p = scale * random_point_near(random, corners);
-    for (Point& corner : corners) corner *= scale;
-    const std::vector<Point> vertices(corners.begin(), corners.end());
-    const std::vector<Triangle> triangles = {{0, 1, 2}};
-    const ExactMesh mesh(MeshView{vertices, triangles});
+    const auto [p, corners] = random_pair_of_any_scale(seed);
+    const ExactMesh mesh(MeshView{corners, kOneTriangle});
     const double upper = mesh.upper_to(p, 0);
     const double size = size_of(p, corners);
     ASSERT_GE(upper + 0x1p-61 * size, test::long_double_distance(p, corners));
@@ -249,16 +254,10 @@ TEST(ExactMesh, IsWithinExactlyWhereTheUpperEndIs) {
   std::array<std::size_t, 2> seen{};
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    test::Random random(seed);
-    const double scale = std::pow(10.0, random.uniform(-130, 130));
-    Corners corners = random_corners(random);
-    const Point p = scale * random_point_near(random, corners);
-    std::vector<Point> vertices;
-    for (const Point& corner : corners) vertices.push_back(scale * corner);
-    const std::vector<Triangle> triangles = {{0, 1, 2}};
-    const ExactMesh mesh(MeshView{vertices, triangles});
+    const auto [p, corners] = random_pair_of_any_scale(seed);
+    const ExactMesh mesh(MeshView{corners, kOneTriangle});
     double nearest = INFINITY;
-    for (const Point& corner : vertices) nearest = std::min(nearest, (corner - p).norm());
+    for (const Point& corner : corners) nearest = std::min(nearest, (corner - p).norm());
     const double upper = mesh.distance_to(p, 0).upper;
     for (const double limit : {2 * nearest, 2.000001 * nearest, nearest, upper,
                                std::nextafter(upper, 0), 3 * upper, 0.0, -1.0}) {
