@@ -22,7 +22,9 @@ constexpr double kMargin = 1e-7;
 // that comes as near to its limit as it may does not fail.
 constexpr double kUndecided = 0x1p-29, kMostUndecided = 0.01;  // and at most of the limit
 constexpr double kBelongs = 0.1;                               // of the mesh's width
-constexpr double kSampledEdge = 4;  // times the limit: longer edges of the reference get a sample
+// Times the limit: longer edges of the reference get a sample, those of its border several.
+constexpr double kSampledEdge = 4, kSampledBorder = 1;
+constexpr double kMostOnBorder = 7;
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -121,18 +123,33 @@ std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<
   return point_of;
 }
 
+// Of all triangles, from their corners to the next ones; sorted.
+std::vector<std::array<std::uint32_t, 2>> directed_edges(const TriangleMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) edges.push_back({t[i], t[(i + 1) % 3]});
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
 // Adds the middles of the reference's edges that are much longer than the limit. Without them a
-// coarse reference has no points between its vertices that show the error.
+// coarse reference has no points between its vertices that show the error. Along borders they lie
+// as close as the limit: there the mesh ends, so that a corner of its border, drawn inwards, leaves
+// the middle of an edge uncovered that has both ends near the mesh.
 void add_samples(const TriangleMesh& reference, double limit, std::vector<Point>& points) {
-  for (const Triangle& t : reference.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = t[i], to = t[(i + 1) % 3];
-      const Point &a = reference.vertices[from], &b = reference.vertices[to];
-      if ((b - a).norm() <= kSampledEdge * limit) continue;
-      // Only once for each edge. A border edge from a higher to a lower vertex gets no sample,
-      // which changes nothing but its weight.
-      if (from < to) points.push_back(0.5 * (a + b));
-    }
+  const std::vector<std::array<std::uint32_t, 2>> edges = directed_edges(reference);
+  for (const auto& [from, to] : edges) {
+    const Point &a = reference.vertices[from], &b = reference.vertices[to];
+    const double length = (b - a).norm() / limit;
+    if (!(length > kSampledBorder)) continue;
+    const bool border = !std::ranges::binary_search(edges, std::array{to, from});
+    if (!border && (length <= kSampledEdge || from > to)) continue;
+    const double most = border ? kMostOnBorder : 1;
+    const double count = std::clamp(std::ceil(length / kSampledBorder) - 1, 1.0, most);
+    for (int i = 1; i <= static_cast<int>(count); ++i)
+      points.push_back(a + i / (count + 1) * (b - a));
   }
 }
 
