@@ -98,6 +98,10 @@ BackBound::Sight BackBound::sight(const Point& p, std::uint32_t hint) const {
   return {nearest.slot, nearest.squared_distance / squared_limit_};
 }
 
+double BackBound::share_of(const Point& p, std::uint32_t triangle) const {
+  return squared_distance(p, reference_.corners(triangle)) / squared_limit_;
+}
+
 Point BackBound::toward(const Point& p, std::uint32_t triangle) const {
   return -foot_on(local_frame(reference_.corners(triangle)), p).residual;
 }

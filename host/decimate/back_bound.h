@@ -51,6 +51,8 @@ class BackBound {
   // Walks from triangle to triangle through the sides that the point is beyond, as long as the
   // distance decreases. The result may not be the nearest triangle.
   Sight sight_from(const Point& p, std::uint32_t hint) const;
+  // Of one triangle of the reference.
+  double share_of(const Point& p, std::uint32_t triangle) const;
   // The vector from a point to the nearest point of a triangle of the reference.
   Point toward(const Point& p, std::uint32_t triangle) const;
 

@@ -53,10 +53,10 @@ class DecimationPasses {
 
   // Greatest squared distance / limit^2 that a triangle answers for: of its points, its vertices
   // and its edges.
-  double worst_of(std::uint32_t slot) const;
+  double worst_of(std::uint32_t slot);
   // The triangles with a point beyond the limit or that break the back bound as last tested, the
   // worst first.
-  std::vector<std::uint32_t> beyond_limit() const;
+  std::vector<std::uint32_t> beyond_limit();
   // Collapses edges that do not touch, the one that adds least to the energy first, until at most
   // `target` triangles are left. Returns the number of collapses.
   std::size_t collapse_to(std::size_t target, int power);
@@ -104,7 +104,7 @@ class DecimationPasses {
     double share = 0;  // squared distance / limit^2
   };
   Witness worst_place(std::uint32_t slot) const;
-  double energy_of(std::uint32_t slot, int power) const;
+  double energy_of(std::uint32_t slot, int power);
   std::vector<Edge> cheapest_collapses(std::size_t most);
   bool untouched(std::uint32_t slot) const;
   void touch_around(std::uint32_t vertex);

@@ -19,7 +19,7 @@ constexpr int kPower = DecimationPasses::kPower;
 constexpr int kHighPower = 16;
 // With this share of the triangles left, nothing else is tried.
 constexpr double kMuch = 0.85;
-constexpr double kSmooth = 0.6;  // of the limit: the usual rise of a smooth reference
+constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth reference
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 

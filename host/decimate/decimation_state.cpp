@@ -107,6 +107,10 @@ bool DecimationState::keeps_back_bound(const MeshEdit& edit) {
   if (loosened()) return true;
   auto spare = std::ranges::count_if(edit.removed,
                                      [&](std::uint32_t slot) { return breaks_back_bound(slot); });
+  // The parts of a triangle that was beyond are smaller, so that they are nearer even where several
+  // are beyond.
+  const bool splits = edit.added.size() > edit.removed.size();
+  if (splits && spare > 0) spare = std::ssize(edit.added);
   for (std::size_t k = 0; k < edit.added.size(); ++k) {
     const Triangle& t = edit.added[k];
     // Begins at the vertex that moved, or at any vertex if none did.
@@ -323,28 +327,6 @@ void DecimationState::take_area_normals() {
   for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
     if (mesh_.alive(slot)) area_normals_[slot] = area_normal_of(mesh_.corners(slot));
   }
-}
-
-DecimationState::EdgeProfile DecimationState::profile_of(std::uint32_t a, std::uint32_t b) const {
-  constexpr double kFlat = 1e-3;   // a bend of the parabola that has no extremum to find
-  constexpr double kFirst = 0.15;  // places nearer to an end add nothing to the end itself
-  const Point &from = mesh_.position(a), &to = mesh_.position(b);
-  const Point middle = 0.5 * (from + to);
-  EdgeProfile profile;
-  profile.sight = back_->sight(middle, sight_[a].triangle);
-  const bool seen = profile.sight.triangle != kNoIndex && sight_[a].triangle != kNoIndex &&
-                    sight_[b].triangle != kNoIndex;
-  if (!seen) return profile;
-  const Point up = back_->toward(middle, profile.sight.triangle);
-  profile.middle = up.norm();
-  if (!(profile.middle > 0)) return profile;
-  profile.first = back_->toward(from, sight_[a].triangle).dot(up) / profile.middle;
-  profile.second = back_->toward(to, sight_[b].triangle).dot(up) / profile.middle;
-  const double bend = profile.first - 2 * profile.middle + profile.second;
-  if (!(std::abs(bend) > kFlat * profile.middle)) return profile;
-  const double along = 0.5 + 0.25 * (profile.first - profile.second) / bend;
-  if (along > kFirst && along < 1 - kFirst) profile.farthest = along;
-  return profile;
 }
 
 void DecimationState::place_vertex(std::uint32_t vertex, const Point& at, std::uint32_t near) {

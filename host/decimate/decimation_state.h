@@ -70,6 +70,7 @@ class DecimationState {
   bool loosened() const { return permitted_ > 1; }
   // The greatest squared distance / limit^2 that points may have, 1 unless loosened.
   double permitted() const { return permitted_; }
+  double permitted_back() const { return permitted_back_; }
   // Ends loosening. What is beyond its limit may stay as far, and edits do not increase the number
   // of triangles that break the back bound. O((triangles + points) log triangles).
   void tighten();
@@ -87,15 +88,6 @@ class DecimationState {
            (may_stay_beyond_ && squared <= assigned_.squared_distance(point));
   }
 
-  // The heights of the reference over the ends and the middle of an edge, along the direction from
-  // the middle to it; where the parabola through them has its extremum, as a share of the way from
-  // a to b, else 0.5; the sight from the middle. Needs a back bound.
-  struct EdgeProfile {
-    double farthest = 0.5;
-    BackBound::Sight sight;
-    double first = 0, middle = 0, second = 0;
-  };
-  EdgeProfile profile_of(std::uint32_t a, std::uint32_t b) const;
   const Guards& guards() const { return guards_; }
 
   // Whether every point was assigned. False after an interrupt.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/decimate/local_distance.h"
 #include "sw_model/base/sort_once.h"
@@ -10,7 +11,6 @@ namespace emax {
 namespace {
 
 constexpr double kNegligible = 1e-9;    // a weight relative to the greatest
-constexpr double kDeviation = 0.1;      // of the limit: a parabola is as good
 constexpr std::size_t kMostKnown = 16;  // edges for each triangle, before all are forgotten
 
 // The edges of triangles, each once and sorted, the lower vertex first.
@@ -28,7 +28,6 @@ void EdgeSamples::take(std::span<const std::uint32_t> removed, std::span<const T
   before_.clear();
   after_.clear();
   if (none()) return;
-  if (known_.size() > kMostKnown * state_.mesh().triangles()) known_.clear();
   edges_before_.clear();
   edges_after_.clear();
   for (const std::uint32_t slot : removed) collect(state_.mesh().triangle(slot), edges_before_);
@@ -41,7 +40,7 @@ void EdgeSamples::take(std::span<const std::uint32_t> removed, std::span<const T
   };
   for (const Edge& e : edges_before_) {
     if (!moves(e) && std::ranges::binary_search(edges_after_, e)) continue;
-    for (const Place& at : places(e)) before_.push_back({e[0], e[1], at});
+    for (const EdgePlace& at : places(e)) before_.push_back({e[0], e[1], at});
   }
   for (const Edge& e : edges_after_) {
     if (moves(e)) {
@@ -49,63 +48,65 @@ void EdgeSamples::take(std::span<const std::uint32_t> removed, std::span<const T
       const Edge others = {std::min(other, to), std::max(other, to)};
       add_moving(!was_there(e) && was_there(others) ? others : e, to);
     } else if (!was_there(e)) {
-      for (const Place& at : places(e)) after_.push_back({e[0], e[1], at});
+      for (const EdgePlace& at : places(e)) after_.push_back({e[0], e[1], at});
     }
   }
 }
 
 // The places of an edge that ends at `to` as places between the moving vertex and `to`.
 void EdgeSamples::add_moving(const Edge& edge, std::uint32_t to) {
-  for (Place at : places(edge)) {
+  for (EdgePlace at : places(edge)) {
     if (edge[0] == to) at.along = 1 - at.along;
     after_.push_back({kNoIndex, to, at});
   }
 }
 
-const std::vector<EdgeSamples::Place>& EdgeSamples::places(const Edge& edge) {
-  const Point& low = state_.mesh().position(edge[0]);
-  const Point& high = state_.mesh().position(edge[1]);
-  Known& known = known_[std::uint64_t{edge[0]} << 32 | edge[1]];
-  if (known.places.empty() || known.low != low || known.high != high) {
-    known.low = low;
-    known.high = high;
-    known.places.clear();
-    find_places(edge[0], edge[1], known.places);
+const std::vector<EdgePlace>& EdgeSamples::places(const Edge& edge) {
+  return places_between(edge[0], {state_.mesh().position(edge[0]), state_.sight(edge[0])}, edge[1]);
+}
+
+// Of the edge that the first vertex has where it is, or is about to be.
+const std::vector<EdgePlace>& EdgeSamples::places_between(std::uint32_t from, const EdgeEnd& at,
+                                                          std::uint32_t to) {
+  if (known_.size() > kMostKnown * state_.mesh().triangles()) known_.clear();
+  EdgeEnd low = at, high = {state_.mesh().position(to), state_.sight(to)};
+  if (from > to) {
+    std::swap(from, to);
+    std::swap(low, high);
+  }
+  Known& known = known_[std::uint64_t{from} << 32 | to];
+  if (known.places.empty() || known.low != low.at || known.high != high.at) {
+    known.low = low.at;
+    known.high = high.at;
+    known.places = farthest_places(*state_.back(), low, high);
   }
   return known.places;
 }
 
-void EdgeSamples::find_places(std::uint32_t from, std::uint32_t to,
-                              std::vector<Place>& places) const {
-  const EditableMesh& mesh = state_.mesh();
-  const Point &a = mesh.position(from), &b = mesh.position(to);
-  const double fitting = std::round(0.5 * (b - a).norm() / state_.back()->mean_edge());
-  const int count = static_cast<int>(std::clamp(fitting, 1.0, static_cast<double>(most_)));
-  const DecimationState::EdgeProfile profile = state_.profile_of(from, to);
-  const auto add = [&](double along, std::uint32_t near) {
-    places.push_back({along, state_.back()->sight((1 - along) * a + along * b, near)});
-  };
-  if (count == 1 || is_parabola(from, to, profile)) {
-    add(profile.farthest, profile.sight.triangle);
-    return;
+bool EdgeSamples::permits(const Point& position, std::uint32_t vertex, double permitted) {
+  for (const Sample& s : before_) permitted = std::max(permitted, s.at.sight.share);
+  EdgeEnd at = {position, {}};
+  if (vertex != kNoIndex) {
+    at.sight = state_.back()->sight(position, state_.sight(vertex).triangle);
   }
-  add(0.5 / count, state_.sight(from).triangle);
-  for (int i = 1; i < count; ++i) add((i + 0.5) / count, places.back().sight.triangle);
-}
-
-// Whether the distances at the quarters are those of the parabola through ends and middle.
-bool EdgeSamples::is_parabola(std::uint32_t from, std::uint32_t to,
-                              const DecimationState::EdgeProfile& profile) const {
-  const EditableMesh& mesh = state_.mesh();
-  for (const double t : {0.25, 0.75}) {
-    const Point at = (1 - t) * mesh.position(from) + t * mesh.position(to);
-    const double expected = profile.first * (1 - t) * (1 - 2 * t) +
-                            4 * profile.middle * t * (1 - t) + profile.second * t * (2 * t - 1);
-    const double found = std::sqrt(state_.back()->sight_from(at, profile.sight.triangle).share);
-    if (!(std::abs(std::abs(expected) / state_.back()->limit() - found) <= kDeviation))
-      return false;
+  std::uint32_t last = kNoIndex;
+  for (const Sample& s : after_) {
+    if (s.from != kNoIndex) {
+      if (s.at.sight.share > permitted) return false;
+    } else if (std::exchange(last, s.to) != s.to) {
+      for (const EdgePlace& p : places_between(vertex, at, s.to)) {
+        if (p.sight.share > permitted) return false;
+      }
+    }
   }
   return true;
+}
+
+double EdgeSamples::worst_on(std::uint32_t a, std::uint32_t b) {
+  const auto [low, high] = std::minmax(a, b);
+  double worst = 0;
+  for (const EdgePlace& at : places({low, high})) worst = std::max(worst, at.sight.share);
+  return worst;
 }
 
 Point EdgeSamples::place(const Sample& s, const Point& moving) const {

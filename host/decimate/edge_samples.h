@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/decimate/decimation_state.h"
+#include "host/decimate/edge_places.h"
 
 namespace emax {
 
@@ -17,16 +18,18 @@ class EdgeSamples {
  public:
   explicit EdgeSamples(const DecimationState& state) : state_(state) {}
 
-  // At most so many places on an edge, about two edges of the reference apart; 0 takes none. Where
-  // the distances along the edge are a parabola, one place at its extremum is enough.
-  void set_most(int most) { most_ = most; }
-  bool none() const { return most_ == 0 || state_.back() == nullptr; }
+  // Off at first: take() then takes none.
+  void enable(bool on) { enabled_ = on; }
+  bool none() const { return !enabled_ || state_.back() == nullptr; }
 
   // Of the edges that only one of both sets of triangles has, and of those at `vertex`, which
   // moves; it may be kNoIndex. New edges of `vertex` that were edges of `other` begin with what is
   // known of these.
   void take(std::span<const std::uint32_t> removed, std::span<const Triangle> added,
             std::uint32_t vertex, std::uint32_t other = kNoIndex);
+
+  // The greatest squared distance / limit^2 between the ends of an edge of the mesh.
+  double worst_on(std::uint32_t a, std::uint32_t b);
 
   // The sum of (distance / limit)^power as it stands.
   double energy_before(int power) const;
@@ -36,37 +39,36 @@ class EdgeSamples {
     double sum = 0, worst = 0;
   };
   Energy measure(const Point& position, int power);
+  // Whether the new edges of the vertex at `position` are nowhere farther from the reference than
+  // the greater of `permitted`, a squared distance / limit^2, and what the edges before were. Looks
+  // for the farthest places anew, unlike measure().
+  bool permits(const Point& position, std::uint32_t vertex, double permitted);
   // Adds to the normal equations of a step of the vertex, at the position last measured. Weights
   // are relative to `worst`.
   void add_to(Eigen::Matrix3d& matrix, Point& right, const Point& position, double worst,
               int power) const;
 
  private:
-  struct Place {
-    double along;  // share of the way
-    BackBound::Sight sight;
-  };
   struct Sample {
     std::uint32_t from;  // kNoIndex: the moving vertex
     std::uint32_t to;
-    Place at;
+    EdgePlace at;
   };
   using Edge = std::array<std::uint32_t, 2>;
   // The places of an edge, from its lower vertex, as long as its ends are there.
   struct Known {
     Point low, high;
-    std::vector<Place> places;
+    std::vector<EdgePlace> places;
   };
 
-  const std::vector<Place>& places(const Edge& edge);
-  void find_places(std::uint32_t from, std::uint32_t to, std::vector<Place>& places) const;
-  bool is_parabola(std::uint32_t from, std::uint32_t to,
-                   const DecimationState::EdgeProfile& profile) const;
+  const std::vector<EdgePlace>& places(const Edge& edge);
+  const std::vector<EdgePlace>& places_between(std::uint32_t from, const EdgeEnd& at,
+                                               std::uint32_t to);
   void add_moving(const Edge& edge, std::uint32_t to);
   Point place(const Sample& s, const Point& moving) const;
 
   const DecimationState& state_;
-  int most_ = 0;
+  bool enabled_ = false;
   std::unordered_map<std::uint64_t, Known> known_;
   std::vector<Sample> before_, after_;
   std::vector<Edge> edges_before_, edges_after_;  // scratch

@@ -23,7 +23,7 @@ std::vector<std::uint32_t> worst_first(std::vector<std::pair<double, std::uint32
 
 }  // namespace
 
-double DecimationPasses::worst_of(std::uint32_t slot) const {
+double DecimationPasses::worst_of(std::uint32_t slot) {
   double worst = 0;
   state_.assigned().for_each(slot, [&](std::uint32_t p) {
     worst = std::max(worst, state_.assigned().squared_distance(p) / state_.squared_limit());
@@ -31,17 +31,13 @@ double DecimationPasses::worst_of(std::uint32_t slot) const {
   if (state_.back() == nullptr) return worst;
   const Triangle& t = state_.mesh().triangle(slot);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point& from = state_.mesh().position(t[i]);
-    const Point& to = state_.mesh().position(t[(i + 1) % 3]);
-    const DecimationState::EdgeProfile profile = state_.profile_of(t[i], t[(i + 1) % 3]);
-    const Point farthest = from + profile.farthest * (to - from);
-    worst = std::max({worst, state_.sight(t[i]).share, profile.sight.share,
-                      state_.back()->sight(farthest, profile.sight.triangle).share});
+    worst =
+        std::max({worst, state_.sight(t[i]).share, search_.worst_on_edge(t[i], t[(i + 1) % 3])});
   }
   return worst;
 }
 
-double DecimationPasses::energy_of(std::uint32_t slot, int power) const {
+double DecimationPasses::energy_of(std::uint32_t slot, int power) {
   double energy = power_of(worst_of(slot), power);
   state_.assigned().for_each(slot, [&](std::uint32_t p) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
@@ -49,7 +45,7 @@ double DecimationPasses::energy_of(std::uint32_t slot, int power) const {
   return energy;
 }
 
-std::vector<std::uint32_t> DecimationPasses::beyond_limit() const {
+std::vector<std::uint32_t> DecimationPasses::beyond_limit() {
   const EditableMesh& mesh = state_.mesh();
   std::vector<std::pair<double, std::uint32_t>> found;
   for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {

@@ -24,7 +24,7 @@ constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhil
 constexpr int kThinningRounds = 2, kLastThinningRounds = 3;
 // Restoration is given up where more than this share of the triangles is beyond the limit, or where
 // splitting all of these would leave more than a share of the triangles that were there at first.
-constexpr double kTooManyBeyond = 0.25, kTooManyLeft = 0.95;
+constexpr double kTooManyBeyond = 0.35, kTooManyLeft = 0.9;
 
 }  // namespace
 

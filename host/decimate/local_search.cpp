@@ -20,7 +20,6 @@ constexpr double kNegligible = 0.01;
 constexpr double kFixedDamping = 1e-3, kLeastDamping = 1e-5;
 constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 
-constexpr int kSamplesOfEdge = 8;
 // Points for each triangle of an edit that guide the steps of Newton.
 constexpr std::size_t kGuidingPoints = 20;
 
@@ -34,7 +33,7 @@ Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
 
 void LocalSearch::use(Steps steps) {
   steps_ = steps;
-  samples_.set_most(steps == Steps::kNewton && spring_ == 0 ? kSamplesOfEdge : 0);
+  samples_.enable(steps == Steps::kNewton && spring_ == 0);
 }
 
 void LocalSearch::begin(std::uint32_t vertex, std::uint32_t other) {
@@ -394,6 +393,9 @@ bool LocalSearch::serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer)
 bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
   edit.clear();
   if (!shape(fit.position)) return false;
+  const bool edges_count = limit && state_.loosened() && !samples_.none();
+  if (edges_count && !samples_.permits(fit.position, vertex_, state_.permitted_back()))
+    return false;
   const bool all_guide = guiding_ids_.size() == ids_.size();
   if (!all_guide) {
     points_.clear();

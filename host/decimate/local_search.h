@@ -63,6 +63,9 @@ class LocalSearch {
   // permitted or, with `limit`, if a point is beyond the limit.
   bool finish(const Fit& fit, bool limit, MeshEdit& edit);
 
+  // The greatest squared distance / epsilon^2 of an edge of the mesh to the reference.
+  double worst_on_edge(std::uint32_t a, std::uint32_t b) { return samples_.worst_on(a, b); }
+
   // Whether the mesh is still about as fine as the cloud here. Errors are then far from the limit,
   // and one good position is enough.
   bool fine() const { return ids_.size() < 3 * added_.size(); }

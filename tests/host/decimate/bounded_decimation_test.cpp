@@ -114,10 +114,10 @@ TEST(BoundedDecimator, EvensTheErrorOutWhereTheReferenceIsSmooth) {
     return any;
   };
   const double rise = BackBound(mesh, 1).usual_rise();
-  EXPECT_TRUE(evens_out(2 * rise, Effort::kRelax, true));
-  EXPECT_FALSE(evens_out(rise, Effort::kRelax, true));
-  EXPECT_FALSE(evens_out(2 * rise, Effort::kRelax, false));
-  EXPECT_TRUE(evens_out(rise, Effort::kDeep, true));
+  EXPECT_TRUE(evens_out(rise, Effort::kRelax, true));
+  EXPECT_FALSE(evens_out(rise / 2, Effort::kRelax, true));
+  EXPECT_FALSE(evens_out(rise, Effort::kRelax, false));
+  EXPECT_TRUE(evens_out(rise / 2, Effort::kDeep, true));
 }
 
 TEST(BoundedDecimator, RepeatsItsBytes) {

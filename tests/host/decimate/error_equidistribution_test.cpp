@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <set>
+
 #include "host/geometry/mesh_validity.h"
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
@@ -10,13 +13,18 @@
 namespace emax::test {
 namespace {
 
-// The vertices and the middles of the edges.
-std::vector<Point> with_middles(const TriangleMesh& mesh) {
-  std::vector<Point> points = mesh.vertices;
+// The vertices, the middles of the edges and more places along the border.
+std::vector<Point> with_samples(const TriangleMesh& mesh) {
+  constexpr int kOnBorder = 8;
+  std::set<std::array<std::uint32_t, 2>> edges;
   for (const Triangle& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      points.push_back(0.5 * (mesh.vertices[t[i]] + mesh.vertices[t[(i + 1) % 3]]));
-    }
+    for (std::size_t i = 0; i < 3; ++i) edges.insert({t[i], t[(i + 1) % 3]});
+  }
+  std::vector<Point> points = mesh.vertices;
+  for (const auto& [from, to] : edges) {
+    const Point &a = mesh.vertices[from], &b = mesh.vertices[to];
+    const int parts = edges.contains({to, from}) ? 2 : kOnBorder;
+    for (int i = 1; i < parts; ++i) points.push_back(a + static_cast<double>(i) / parts * (b - a));
   }
   return points;
 }
@@ -27,7 +35,7 @@ struct Bench {
       : reference(mesh),
         limit(at_most),
         back(reference, limit),
-        cloud(with_middles(reference)),
+        cloud(with_samples(reference)),
         state(reference, cloud, &back, limit * limit, {}, nullptr, reference.triangles),
         passes(state, {}, [this](double) { return polls == 0 || --polls == 0; }) {}
 
@@ -87,6 +95,21 @@ TEST(ErrorEquidistribution, NeedsFewerTrianglesThanCollapsesWithinTheLimits) {
     bench.passes.relocate(4);
     bench.expect_within();
   }
+}
+
+// Over a rough reference edges are farthest from it at several places.
+TEST(ErrorEquidistribution, RestoresTheLimitsOverARoughReference) {
+  TriangleMesh rough = bumpy(50, 80);
+  Random random(3);
+  for (Point& p : rough.vertices) p += random.point(-0.004, 0.004);
+  Bench bench(rough, 0.02);
+  EXPECT_GT(bench.back.usual_rise(), 0.3 * bench.limit);
+  bench.passes.sweep();
+  bench.passes.collapse();
+  const std::size_t before = bench.state.mesh().triangles();
+  ASSERT_TRUE(bench.run(ErrorEquidistribution::kShort));
+  EXPECT_LT(bench.state.mesh().triangles(), before * 9 / 10);
+  bench.expect_within();
 }
 
 // Stopped while it thins, it leaves the last mesh within its limits.
