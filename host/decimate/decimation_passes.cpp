@@ -176,6 +176,20 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
   return made;
 }
 
+std::size_t DecimationPasses::collapse_at(const std::vector<std::uint32_t>& slots) {
+  const auto collapse_one = [&](std::uint32_t slot) {
+    return std::ranges::any_of(shortest_first(state_.mesh(), slot), [&](const Edge& e) {
+      Candidate candidate;
+      return judge(e[0], e[1], candidate) && apply_collapse(candidate);
+    });
+  };
+  std::size_t collapses = 0;
+  for (std::size_t i = 0; i < slots.size() && !poll(i, slots.size()); ++i) {
+    collapses += state_.mesh().alive(slots[i]) && collapse_one(slots[i]) ? 1 : 0;
+  }
+  return collapses;
+}
+
 bool DecimationPasses::keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const {
   return options_.features.stays_near(a, b, at, state_.mesh().positions(), state_.squared_limit());
 }

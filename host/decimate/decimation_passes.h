@@ -66,6 +66,9 @@ class DecimationPasses {
   // Splits each of these triangles, or an edge of it, where it is farthest from the reference or
   // from one of its points; none beside another. Returns the number of splits.
   std::size_t split_at_worst(const std::vector<std::uint32_t>& slots, int power);
+  // Collapses an edge of each of these triangles, the shortest that can be. Returns the number of
+  // collapses.
+  std::size_t collapse_at(const std::vector<std::uint32_t>& slots);
   // Flips and relocations within so many rings of triangles around these. Returns their number.
   std::size_t relax_around(const std::vector<std::uint32_t>& slots, int rings, int power);
 

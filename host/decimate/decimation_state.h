@@ -70,7 +70,6 @@ class DecimationState {
   bool loosened() const { return permitted_ > 1; }
   // The greatest squared distance / limit^2 that points may have, 1 unless loosened.
   double permitted() const { return permitted_; }
-  double permitted_back() const { return permitted_back_; }
   // Ends loosening. What is beyond its limit may stay as far, and edits do not increase the number
   // of triangles that break the back bound. O((triangles + points) log triangles).
   void tighten();

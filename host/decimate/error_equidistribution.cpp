@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace emax {
 namespace {
@@ -17,7 +18,9 @@ constexpr int kRings = 3;
 constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be restored
 constexpr double kFewBeyond = 0.005;  // share of the triangles that is left to exact restoration
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
-constexpr int kFirstRestorations = 2;             // rounds without splits
+constexpr int kVainRepairs = 10;                  // in a row
+constexpr int kReturns = 3;
+constexpr int kFirstRestorations = 2;  // rounds without splits
 // What restoration leaves even has room for fewer: of a mesh within its limits, and at most so many
 // times its triangles while the limits are restored again.
 constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhileThinning = 1.05;
@@ -40,7 +43,7 @@ bool ErrorEquidistribution::run() {
   exchange_at_last();
   state_.loosen(kLessLoosened, kLoosened);
   relax(64, extent_.last_rounds);
-  if (!restore_loosely(kTooManyLeft * first) || !restore()) return false;
+  if (!restore(kTooManyLeft * first)) return false;
   for (int i = 0; i < extent_.thinnings && thin(); ++i) {
   }
   return true;
@@ -58,7 +61,7 @@ bool ErrorEquidistribution::thin() {
   state_.loosen(kLessLoosened, kLoosened);
   relax(64, kLastThinningRounds);
   const double most = kMostWhileThinning * static_cast<double>(triangles);
-  if (restore_loosely(most) && restore() && state_.mesh().triangles() < triangles) return true;
+  if (restore(most) && state_.mesh().triangles() < triangles) return true;
   state_.restore(before);
   passes_.restart(features);
   passes_.use(LocalSearch::Steps::kNewton);
@@ -119,16 +122,28 @@ std::vector<std::uint32_t> ErrorEquidistribution::beyond_limit() {
   return passes_.beyond_limit();
 }
 
-// Relaxing around what is beyond the limit restores most. Then a third of it is split at a time.
-// Returns false where it is given up, as where more than `most` triangles would be left.
-bool ErrorEquidistribution::restore_loosely(double most) {
+// Loosely, then exactly. What is then left in a shape in which no edit is permitted is given
+// another one under loosened limits. Returns false where it is given up.
+bool ErrorEquidistribution::restore(double most) {
+  for (int i = 0; i < kReturns && !passes_.stopped(); ++i) {
+    if (i > 0) state_.loosen(kLessLoosened, kLoosened);
+    if (!restore_loosely(most, i == 0 ? kFewBeyond : 0)) return false;
+    if (restore_exactly()) return true;
+  }
+  return false;
+}
+
+// Relaxing around what is beyond the limit restores most. Then a third of it is split at a time,
+// until at most a share `few` of the triangles is beyond. Returns false where it is given up, as
+// where more than `most` triangles would be left.
+bool ErrorEquidistribution::restore_loosely(double most, double few) {
   for (int i = 0; i < kRestorations && !passes_.stopped(); ++i) {
     std::vector<std::uint32_t> worst = beyond_limit();
     const auto triangles = static_cast<double>(state_.mesh().triangles());
     const auto beyond = static_cast<double>(worst.size());
     if (beyond > kTooManyBeyond * triangles) return false;
     if (triangles + beyond > most) return false;
-    if (beyond < kFewBeyond * triangles) break;
+    if (worst.empty() || beyond < few * triangles) break;
     if (i >= kFirstRestorations) {
       worst.resize((worst.size() + 2) / 3);
       tell_("splits", passes_.split_at_worst(worst, 16));
@@ -139,16 +154,22 @@ bool ErrorEquidistribution::restore_loosely(double most) {
 }
 
 // Returns whether every limit holds.
-bool ErrorEquidistribution::restore() {
+bool ErrorEquidistribution::restore_exactly() {
   state_.tighten();
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  int vain = 0;
   for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
     state_.prove_all();
     std::vector<std::uint32_t> beyond = passes_.beyond_limit();
     const std::vector<std::uint32_t> around = state_.around_unproven();
     beyond.insert(beyond.end(), around.begin(), around.end());
-    if (beyond.empty()) break;
-    // Relaxations alone every other time.
+    vain = beyond.size() < fewest ? 0 : vain + 1;
+    fewest = std::min(fewest, beyond.size());
+    if (beyond.empty() || vain == kVainRepairs) break;
+    // Relaxations alone every other time. What several splits did not restore has mostly a shape in
+    // which nothing can move, and is taken away.
     if (i % 2 == 1) tell_("splits", passes_.split_at_worst(beyond, 16));
+    if (i % 4 == 2 && i > 2) tell_("collapses", passes_.collapse_at(beyond));
     for (const int power : {32, 32, 16}) relax_around(beyond, power);
   }
   return !passes_.stopped() && state_.keep_limits();

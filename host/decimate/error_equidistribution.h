@@ -42,8 +42,9 @@ class ErrorEquidistribution {
   void exchange_at_last();
   std::size_t fitting(double quantile) const;
   std::vector<std::uint32_t> beyond_limit();
-  bool restore_loosely(double most);
-  bool restore();
+  bool restore(double most);
+  bool restore_loosely(double most, double few);
+  bool restore_exactly();
   bool thin();
 
   DecimationState& state_;

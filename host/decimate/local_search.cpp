@@ -20,6 +20,9 @@ constexpr double kNegligible = 0.01;
 constexpr double kFixedDamping = 1e-3, kLeastDamping = 1e-5;
 constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 
+// Squared distance / limit^2 of edges under loosened limits. What lies farther over a gap is seldom
+// restored.
+constexpr double kLoosenedEdge = 2;
 // Points for each triangle of an edit that guide the steps of Newton.
 constexpr std::size_t kGuidingPoints = 20;
 
@@ -394,8 +397,7 @@ bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
   edit.clear();
   if (!shape(fit.position)) return false;
   const bool edges_count = limit && state_.loosened() && !samples_.none();
-  if (edges_count && !samples_.permits(fit.position, vertex_, state_.permitted_back()))
-    return false;
+  if (edges_count && !samples_.permits(fit.position, vertex_, kLoosenedEdge)) return false;
   const bool all_guide = guiding_ids_.size() == ids_.size();
   if (!all_guide) {
     points_.clear();
