@@ -207,10 +207,18 @@ TEST_F(DecimateCommand, VerifyCatchesEveryFalseClaim) {
     const double claimed = honest.at("reference").at(key);
     EXPECT_EQ(verdict([&](json&, json& r) { r[key] = claimed / 2; }), 2) << key;
   }
-  for (const char* key : {"mesh_to_reference", "reference_to_mesh"}) {
-    const double claimed = honest.at("reference").at(key);
-    for (const double wrong : {0.9 * claimed, 1.5 * claimed, -claimed}) {
-      EXPECT_EQ(verdict([&](json&, json& r) { r[key] = wrong; }), 2) << key << wrong;
+  const TriangleMesh mesh = read_mesh(folder_ / "out.ply");
+  const TriangleMesh reference =
+      read_mesh(folder_ / honest.at("reference").at("file").get<std::string>());
+  struct Claim {
+    const char* key;
+    const TriangleMesh &from, &to;
+  };
+  for (const Claim& claim :
+       {Claim{"mesh_to_reference", mesh, reference}, Claim{"reference_to_mesh", reference, mesh}}) {
+    const double claimed = honest.at("reference").at(claim.key);
+    for (const double wrong : {0.97 * distance(claim.from, claim.to), 1.5 * claimed, -claimed}) {
+      EXPECT_EQ(verdict([&](json&, json& r) { r[claim.key] = wrong; }), 2) << claim.key << wrong;
     }
   }
   EXPECT_EQ(verdict([](json&, json& r) { r["points_to_reference"] = -1; }), 2);
