@@ -19,8 +19,8 @@ constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be
 constexpr double kFewBeyond = 0.005;  // share of the triangles that is left to exact restoration
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
 constexpr int kVainRepairs = 10;                  // in a row
-constexpr int kReturns = 3;
-constexpr int kFirstRestorations = 2;  // rounds without splits
+constexpr int kTries = 3;                         // of the exact limits
+constexpr int kFirstRestorations = 2;             // rounds without splits
 // What restoration leaves even has room for fewer: of a mesh within its limits, and at most so many
 // times its triangles while the limits are restored again.
 constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhileThinning = 1.05;
@@ -125,7 +125,7 @@ std::vector<std::uint32_t> ErrorEquidistribution::beyond_limit() {
 // Loosely, then exactly. What is then left in a shape in which no edit is permitted is given
 // another one under loosened limits. Returns false where it is given up.
 bool ErrorEquidistribution::restore(double most) {
-  for (int i = 0; i < kReturns && !passes_.stopped(); ++i) {
+  for (int i = 0; i < kTries && !passes_.stopped(); ++i) {
     if (i > 0) state_.loosen(kLessLoosened, kLoosened);
     if (!restore_loosely(most, i == 0 ? kFewBeyond : 0)) return false;
     if (restore_exactly()) return true;
