@@ -22,6 +22,14 @@ class AssignedPoints {
   std::size_t size() const { return owner_.size(); }
   std::uint32_t owner(std::uint32_t point) const { return owner_[point]; }
   double squared_distance(std::uint32_t point) const { return squared_[point]; }
+  // Belongs to no triangle at first. Returns its number.
+  std::uint32_t add_point() {
+    owner_.push_back(kNoIndex);
+    squared_.push_back(0);
+    next_.push_back(kNoIndex);
+    previous_.push_back(kNoIndex);
+    return static_cast<std::uint32_t>(owner_.size() - 1);
+  }
   void add_slots(std::size_t slots) {
     if (slots > first_.size()) first_.resize(slots, kNoIndex);
   }

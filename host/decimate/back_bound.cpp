@@ -98,6 +98,71 @@ BackBound::Sight BackBound::sight(const Point& p, std::uint32_t hint) const {
   return {nearest.slot, nearest.squared_distance / squared_limit_};
 }
 
+// A segment and the plane through it.
+class BackBound::Segment {
+ public:
+  Segment(const BackBound& bound, const Point& from, const Point& to, const Point& up)
+      : bound_(bound),
+        from_(from),
+        along_((to - from) / (to - from).squaredNorm()),
+        normal_((to - from).cross(up)) {}
+
+  struct Exit {
+    double along = 0;
+    std::size_t side = 3;  // 3: there is none
+  };
+  // Of the sides of the triangle that the plane cuts, except the one to `entered`, the farthest in
+  // the direction of `sense`, 1 or -1.
+  Exit exit(std::uint32_t triangle, std::uint32_t entered, double sense) const {
+    const Face& face = bound_.faces_[triangle];
+    std::array<double, 3> above;
+    for (std::size_t i = 0; i < 3; ++i) above[i] = normal_.dot(corner(face, i) - from_);
+    Exit exit;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const bool cut = (above[i] >= 0) != (above[j] >= 0);
+      if (!cut || (entered != kNoIndex && face.neighbours[i] == entered)) continue;
+      const Point& a = corner(face, i);
+      const Point at = a + above[i] / (above[i] - above[j]) * (corner(face, j) - a);
+      const double along = along_.dot(at - from_);
+      if (exit.side == 3 || sense * along > sense * exit.along) exit = {along, i};
+    }
+    return exit;
+  }
+
+ private:
+  const Point& corner(const Face& face, std::size_t i) const {
+    return bound_.reference_.position(face.corners[i]);
+  }
+
+  const BackBound& bound_;
+  Point from_, along_, normal_;
+};
+
+bool BackBound::follow(const Point& from, const Point& to, const Point& up, std::uint32_t middle,
+                       std::vector<Crossing>& crossings) const {
+  constexpr std::size_t kMostCrossings = 600;
+  constexpr double kTurnsBack = 1e-3;
+  const Segment segment(*this, from, to, up);
+  crossings.clear();
+  for (const double sense : {-1.0, 1.0}) {
+    std::uint32_t at = middle, entered = kNoIndex;
+    for (double last = 0.5;;) {
+      const Segment::Exit exit = segment.exit(at, entered, sense);
+      if (exit.side == 3 || crossings.size() == kMostCrossings) return false;
+      if (sense > 0 ? exit.along >= 1 : exit.along <= 0) break;
+      if (entered != kNoIndex && sense * (exit.along - last) < -kTurnsBack) return false;
+      last = exit.along;
+      entered = at;
+      at = faces_[at].neighbours[exit.side];
+      if (at == kNoIndex) return false;
+      crossings.push_back({last, sense > 0 ? entered : at, sense > 0 ? at : entered});
+    }
+    if (sense < 0) std::ranges::reverse(crossings);
+  }
+  return true;
+}
+
 double BackBound::share_of(const Point& p, std::uint32_t triangle) const {
   return squared_distance(p, reference_.corners(triangle)) / squared_limit_;
 }

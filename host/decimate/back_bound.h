@@ -53,6 +53,18 @@ class BackBound {
   Sight sight_from(const Point& p, std::uint32_t hint) const;
   // Of one triangle of the reference.
   double share_of(const Point& p, std::uint32_t triangle) const;
+  // An edge of the reference under a segment: the share of the way where they cross, and the
+  // triangles before and behind it.
+  struct Crossing {
+    double along;
+    std::uint32_t before, behind;
+  };
+  // The edges of the reference that the plane through the segment and `up` cuts, from one end of
+  // the segment to the other; from triangle to triangle, where `middle` is the one under the
+  // segment's middle. Returns false, with some of them, where the reference has a border or turns
+  // back before an end. O(crossings).
+  bool follow(const Point& from, const Point& to, const Point& up, std::uint32_t middle,
+              std::vector<Crossing>& crossings) const;
   // The vector from a point to the nearest point of a triangle of the reference.
   Point toward(const Point& p, std::uint32_t triangle) const;
 
@@ -63,6 +75,7 @@ class BackBound {
   class Faces;
 
   double find_usual_rise() const;
+  class Segment;
   Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near) const;
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                    std::uint32_t triangle) const;

@@ -295,8 +295,7 @@ bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, boo
   if (options_.features.on(a, b) || !search_.prepare_flip(a, b)) return false;
   const double before = search_.energy_before(power);
   Fit fit;
-  if (!search_.evaluate(Point::Zero(), power, fit)) return false;
-  if (!(fit.energy < before * (1 - least_gain(power)))) return false;
+  if (!search_.evaluate(Point::Zero(), power, fit, before * (1 - least_gain(power)))) return false;
   if (!search_.finish(fit, limit, edit_)) return false;
   return state_.permits(edit_, !limit);
 }

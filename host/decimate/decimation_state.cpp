@@ -36,6 +36,7 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
                                  std::span<const Triangle> reference)
     : mesh_(mesh),
       cloud_(cloud),
+      points_(cloud.begin(), cloud.end()),
       back_(back),
       squared_limit_(squared_limit),
       guards_(guards),
@@ -54,14 +55,14 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
 
 bool DecimationState::reassign(const Interrupted& interrupted) {
   std::uint32_t last = kNoIndex;
-  for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
     if (p % kPollEvery == 0 && interrupted && interrupted()) return false;
     const std::uint32_t owner = assigned_.owner(p);
     // Slightly more than the known distance, so that the point's triangle is found again.
     const double known = owner == kNoIndex ? std::max(squared_limit_, guards_.squared_reach)
                                            : assigned_.squared_distance(p);
     const SlotTree::Nearest nearest =
-        tree_.nearest(mesh_, cloud_[p], known * (1 + 1e-9) + std::numeric_limits<double>::min(),
+        tree_.nearest(mesh_, points_[p], known * (1 + 1e-9) + std::numeric_limits<double>::min(),
                       owner == kNoIndex ? last : owner);
     if (nearest.slot == kNoIndex) continue;
     last = nearest.slot;
@@ -297,6 +298,33 @@ void DecimationState::prove_all() {
   for (std::uint32_t t = 0; t < reference_.size(); ++t) cover_->prove(t, mesh_, tree_);
 }
 
+std::size_t DecimationState::add_witnesses() {
+  constexpr int kSteps = 8;
+  const std::size_t before = points_.size();
+  if (unproven() == 0) return 0;
+  for (std::uint32_t t = 0; t < reference_.size(); ++t) {
+    if (cover_->proven(t)) continue;
+    const Point &a = points_[reference_[t][0]], &b = points_[reference_[t][1]],
+                &c = points_[reference_[t][2]];
+    Point farthest = a;
+    SlotTree::Nearest nearest{kNoIndex, squared_limit_};
+    for (int i = 0; i <= kSteps; ++i) {
+      for (int j = 0; i + j <= kSteps; ++j) {
+        const Point p = a + (i * (b - a) + j * (c - a)) / kSteps;
+        const SlotTree::Nearest of_p =
+            tree_.nearest(mesh_, p, std::numeric_limits<double>::infinity(), nearest.slot);
+        if (!(of_p.squared_distance > nearest.squared_distance)) continue;
+        farthest = p;
+        nearest = of_p;
+      }
+    }
+    if (nearest.slot == kNoIndex) continue;
+    points_.push_back(farthest);
+    assigned_.assign(assigned_.add_point(), nearest.slot, nearest.squared_distance);
+  }
+  return points_.size() - before;
+}
+
 std::vector<std::uint32_t> DecimationState::around_unproven() const {
   std::vector<std::uint32_t> slots;
   if (unproven() == 0) return slots;
@@ -313,6 +341,7 @@ std::vector<std::uint32_t> DecimationState::around_unproven() const {
 void DecimationState::restore(const Snapshot& snapshot) {
   mesh_ = snapshot.mesh;
   assigned_ = snapshot.assigned;
+  points_.resize(assigned_.size());
   sight_ = snapshot.sight;
   permitted_ = permitted_back_ = 1;
   may_stay_beyond_ = false;

@@ -55,7 +55,8 @@ class DecimationState {
   const EditableMesh& mesh() const { return mesh_; }
   const AssignedPoints& assigned() const { return assigned_; }
   const SlotTree& tree() const { return tree_; }
-  const Point& point(std::uint32_t i) const { return cloud_[i]; }
+  // Those of the cloud, then the witnesses.
+  const Point& point(std::uint32_t i) const { return points_[i]; }
   std::span<const Point> cloud() const { return cloud_; }
   // The normal of the triangle in a slot; its length is twice the triangle's area.
   const Point& area_normal(std::uint32_t slot) const { return area_normals_[slot]; }
@@ -119,6 +120,10 @@ class DecimationState {
   }
   // Tries to prove every triangle of the reference that is not proven.
   void prove_all();
+  // Makes a point of the farthest of 45 places on each triangle of the reference that is not
+  // proven, if that is beyond the limit. Edits then bring the mesh near it. Returns the number of
+  // points. O(log n) a place.
+  std::size_t add_witnesses();
   // The triangles that answer for the corners of those that are not proven; sorted.
   std::vector<std::uint32_t> around_unproven() const;
   // Number of triangles of the reference that are not proven to be within the limit.
@@ -131,7 +136,7 @@ class DecimationState {
   // Assigns every point to its nearest triangle; returns false after an interrupt.
   bool reassign(const Interrupted& interrupted = nullptr);
 
-  // A state to come back to. Numbers of vertices and slots stay valid.
+  // A state to come back to. Numbers of vertices and slots stay valid; later witnesses are gone.
   struct Snapshot {
     EditableMesh mesh;
     AssignedPoints assigned;
@@ -163,6 +168,7 @@ class DecimationState {
 
   EditableMesh mesh_;
   std::span<const Point> cloud_;
+  std::vector<Point> points_;
   const BackBound* back_;
   double squared_limit_;
   double permitted_ = 1, permitted_back_ = 1;  // squared distance / limit^2

@@ -9,13 +9,14 @@ namespace emax {
 namespace {
 
 constexpr std::size_t kMostPlaces = 8;
-constexpr double kCounts = 0.25;      // of the greatest squared distance
+constexpr double kCounts = 0.25;      // of the greatest squared distance, or of the limit squared
 constexpr double kDeviation = 0.1;    // of the limit: a parabola is as good
+constexpr double kSameSheet = 0.5;    // of the squared distance to the sheet that is followed
 constexpr double kFlat = 1e-3;        // a bend of the parabola that has no extremum to find
 constexpr double kAtEnd = 0.15;       // places nearer to an end add nothing to the end itself
 constexpr double kFarther = 1.02;     // times the ends' distances, where a stretch is looked into
 constexpr double kLeastShare = 0.02;  // of a stretch, of its parts
-constexpr int kMostHalvings = 5;
+constexpr int kHalvings = 4, kMostHalvings = 5;  // of stretches: between crossings, and even ones
 constexpr double kMostStretches = 16;  // at first, about one for each edge of the reference
 
 class EdgeScan {
@@ -26,14 +27,7 @@ class EdgeScan {
   std::vector<EdgePlace> run() {
     const EdgePlace extremum = parabola();
     if (is_parabola()) return {extremum};
-    const double length = (to_.at - from_.at).norm();
-    const auto stretches = static_cast<int>(
-        std::clamp(std::round(length / reference_.mean_edge()), 2.0, kMostStretches));
-    places_.push_back({0, from_.sight});
-    for (int i = 1; i < stretches; ++i) {
-      reach(look(static_cast<double>(i) / stretches, places_.back()), kMostHalvings);
-    }
-    reach({1, to_.sight}, kMostHalvings);
+    if (!scan_crossings()) scan_evenly();
     std::vector<EdgePlace> farthest = local_maxima();
     if (farthest.empty()) farthest.push_back(extremum);
     return farthest;
@@ -53,11 +47,11 @@ class EdgeScan {
     const bool seen = place.sight.triangle != kNoIndex && from_.sight.triangle != kNoIndex &&
                       to_.sight.triangle != kNoIndex;
     if (!seen) return place;
-    const Point up = reference_.toward(middle, place.sight.triangle);
-    middle_ = up.norm();
+    up_ = reference_.toward(middle, place.sight.triangle);
+    middle_ = up_.norm();
     if (!(middle_ > 0)) return place;
-    first_ = reference_.toward(from_.at, from_.sight.triangle).dot(up) / middle_;
-    second_ = reference_.toward(to_.at, to_.sight.triangle).dot(up) / middle_;
+    first_ = reference_.toward(from_.at, from_.sight.triangle).dot(up_) / middle_;
+    second_ = reference_.toward(to_.at, to_.sight.triangle).dot(up_) / middle_;
     near_ = place.sight.triangle;
     const double bend = first_ - 2 * middle_ + second_;
     if (!(std::abs(bend) > kFlat * middle_)) return place;
@@ -74,6 +68,70 @@ class EdgeScan {
       const double found = std::sqrt(reference_.sight_from(at(t), near_).share);
       return std::abs(std::abs(expected) / reference_.limit() - found) <= kDeviation;
     });
+  }
+
+  // The distance to the reference has its maxima about over the edges of the reference and between
+  // its walls. Takes such places where it is a maximum, with their neighbours and what lies
+  // between. Returns false where the reference under the edge is no single sheet or another one is
+  // nearer.
+  bool scan_crossings() {
+    std::vector<BackBound::Crossing> crossings;
+    if (near_ == kNoIndex || !reference_.follow(from_.at, to_.at, up_, near_, crossings)) {
+      return false;
+    }
+    std::vector<EdgePlace> rough = {{0, from_.sight}};
+    for (const BackBound::Crossing& c : crossings) {
+      add_with_between(rough, nearer(c.along, c.before, c.behind));
+    }
+    add_with_between(rough, {1, to_.sight});
+    std::vector<std::size_t> tops;
+    for (std::size_t i = 1; i + 1 < rough.size(); ++i) {
+      if (is_maximum(rough, i)) tops.push_back(i);
+    }
+    double greatest = 0;
+    for (const std::size_t i : tops) {
+      const double followed = rough[i].sight.share;
+      rough[i] = look(rough[i].along, rough[i]);
+      if (followed > kCounts && rough[i].sight.share < kSameSheet * followed) return false;
+      greatest = std::max(greatest, rough[i].sight.share);
+    }
+    std::erase_if(tops, [&](std::size_t i) { return rough[i].sight.share < kCounts * greatest; });
+    places_ = {rough.front()};
+    std::size_t last = 0;  // of `rough`, in places_
+    for (const std::size_t top : tops) {
+      for (std::size_t i = std::max(last + 1, top - 1); i <= top + 1; ++i) {
+        const bool known = i == top || i + 1 == rough.size();
+        reach(known ? rough[i] : look(rough[i].along, rough[i]), i == last + 1 ? kHalvings : 0);
+        last = i;
+      }
+    }
+    if (last + 1 < rough.size()) places_.push_back(rough.back());
+    return true;
+  }
+
+  // Of two triangles of the reference.
+  EdgePlace nearer(double along, std::uint32_t a, std::uint32_t b) const {
+    const double to_a = reference_.share_of(at(along), a), to_b = reference_.share_of(at(along), b);
+    return {along, to_a <= to_b ? BackBound::Sight{a, to_a} : BackBound::Sight{b, to_b}};
+  }
+
+  // Adds the place, and before it the one between two walls of the reference.
+  void add_with_between(std::vector<EdgePlace>& places, const EdgePlace& next) const {
+    const EdgePlace last = places.back();
+    const double along = farthest_between(last, next);
+    if (along > 0) places.push_back(nearer(along, last.sight.triangle, next.sight.triangle));
+    places.push_back(next);
+  }
+
+  void scan_evenly() {
+    const double length = (to_.at - from_.at).norm();
+    const auto stretches = static_cast<int>(
+        std::clamp(std::round(length / reference_.mean_edge()), 2.0, kMostStretches));
+    places_ = {{0, from_.sight}};
+    for (int i = 1; i < stretches; ++i) {
+      reach(look(static_cast<double>(i) / stretches, places_.back()), kMostHalvings);
+    }
+    reach({1, to_.sight}, kMostHalvings);
   }
 
   // Adds the place, and before it those of the stretch from the last one that may be farther.
@@ -101,16 +159,17 @@ class EdgeScan {
     return a.along + part * (b.along - a.along);
   }
 
+  static bool is_maximum(const std::vector<EdgePlace>& places, std::size_t i) {
+    const double share = places[i].sight.share;
+    return places[i - 1].sight.share <= share && places[i + 1].sight.share < share;
+  }
+
   std::vector<EdgePlace> local_maxima() const {
     double greatest = 0;
     for (const EdgePlace& p : places_) greatest = std::max(greatest, p.sight.share);
     std::vector<EdgePlace> maxima;
     for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
-      const double share = places_[i].sight.share;
-      const bool least_before = places_[i - 1].sight.share <= share;
-      if (share < kCounts * greatest || !least_before || places_[i + 1].sight.share >= share) {
-        continue;
-      }
+      if (places_[i].sight.share < kCounts * greatest || !is_maximum(places_, i)) continue;
       maxima.push_back(places_[i]);
     }
     if (maxima.size() > kMostPlaces) {
@@ -124,6 +183,7 @@ class EdgeScan {
 
   const BackBound& reference_;
   const EdgeEnd &from_, &to_;
+  Point up_ = Point::Zero();                    // from the middle to the reference
   double first_ = 0, middle_ = 0, second_ = 0;  // signed distances at the ends and the middle
   std::uint32_t near_ = kNoIndex;               // the triangle nearest to the middle
   std::vector<EdgePlace> places_;

@@ -21,7 +21,7 @@ struct EdgeEnd {
 // least half of the greatest one, in their order along the edge: one to eight, the farthest.
 //
 // Where the distances along the edge are a parabola, as over a smooth reference, this is its
-// extremum. Else the edge is halved where its distance may be greater than at the places known: the
+// extremum. Else the maxima are sought over the edges of the reference below, and near these: the
 // distance to one triangle is convex, so that between two places the reference is no farther than
 // where the chords of the distances to the two nearest triangles cross. Distances between the
 // places are at most a few hundredths greater. O(triangles of the reference along the edge).

@@ -27,30 +27,37 @@ void EdgeSamples::take(std::span<const std::uint32_t> removed, std::span<const T
                        std::uint32_t vertex, std::uint32_t other) {
   before_.clear();
   after_.clear();
-  if (none()) return;
   edges_before_.clear();
   edges_after_.clear();
+  vertex_ = vertex;
+  other_ = other;
+  if (none()) return;
   for (const std::uint32_t slot : removed) collect(state_.mesh().triangle(slot), edges_before_);
   for (const Triangle& t : added) collect(t, edges_after_);
   sort_once(edges_before_);
   sort_once(edges_after_);
-  const auto moves = [&](const Edge& e) { return e[0] == vertex || e[1] == vertex; };
-  const auto was_there = [&](const Edge& e) {
-    return std::ranges::binary_search(edges_before_, e);
-  };
   for (const Edge& e : edges_before_) {
     if (!moves(e) && std::ranges::binary_search(edges_after_, e)) continue;
     for (const EdgePlace& at : places(e)) before_.push_back({e[0], e[1], at});
   }
+}
+
+// The places after the edit, which edits that are refused for their points never need.
+std::vector<EdgeSamples::Sample>& EdgeSamples::after() {
+  if (!after_.empty()) return after_;
+  const auto was_there = [&](const Edge& e) {
+    return std::ranges::binary_search(edges_before_, e);
+  };
   for (const Edge& e : edges_after_) {
     if (moves(e)) {
-      const std::uint32_t to = e[0] == vertex ? e[1] : e[0];
-      const Edge others = {std::min(other, to), std::max(other, to)};
+      const std::uint32_t to = e[0] == vertex_ ? e[1] : e[0];
+      const Edge others = {std::min(other_, to), std::max(other_, to)};
       add_moving(!was_there(e) && was_there(others) ? others : e, to);
     } else if (!was_there(e)) {
       for (const EdgePlace& at : places(e)) after_.push_back({e[0], e[1], at});
     }
   }
+  return after_;
 }
 
 // The places of an edge that ends at `to` as places between the moving vertex and `to`.
@@ -90,7 +97,7 @@ bool EdgeSamples::permits(const Point& position, std::uint32_t vertex, double pe
     at.sight = state_.back()->sight(position, state_.sight(vertex).triangle);
   }
   std::uint32_t last = kNoIndex;
-  for (const Sample& s : after_) {
+  for (const Sample& s : after()) {
     if (s.from != kNoIndex) {
       if (s.at.sight.share > permitted) return false;
     } else if (std::exchange(last, s.to) != s.to) {
@@ -122,7 +129,7 @@ double EdgeSamples::energy_before(int power) const {
 
 EdgeSamples::Energy EdgeSamples::measure(const Point& position, int power) {
   Energy energy;
-  for (Sample& s : after_) {
+  for (Sample& s : after()) {
     s.at.sight = state_.back()->sight_from(place(s, position), s.at.sight.triangle);
     energy.sum += power_of(s.at.sight.share, power);
     energy.worst = std::max(energy.worst, s.at.sight.share);

@@ -64,6 +64,8 @@ class EdgeSamples {
   const std::vector<EdgePlace>& places(const Edge& edge);
   const std::vector<EdgePlace>& places_between(std::uint32_t from, const EdgeEnd& at,
                                                std::uint32_t to);
+  bool moves(const Edge& e) const { return e[0] == vertex_ || e[1] == vertex_; }
+  std::vector<Sample>& after();
   void add_moving(const Edge& edge, std::uint32_t to);
   Point place(const Sample& s, const Point& moving) const;
 
@@ -71,7 +73,8 @@ class EdgeSamples {
   bool enabled_ = false;
   std::unordered_map<std::uint64_t, Known> known_;
   std::vector<Sample> before_, after_;
-  std::vector<Edge> edges_before_, edges_after_;  // scratch
+  std::vector<Edge> edges_before_, edges_after_;  // of the triangles taken, each once
+  std::uint32_t vertex_ = kNoIndex, other_ = kNoIndex;
 };
 
 }  // namespace emax

@@ -13,6 +13,7 @@ constexpr int kSureLastExchanges = 2;
 // within the limit, if the error falls with the area. High powers that come later allow fewer.
 constexpr double kQuantile = 0.9, kFewerLater = 0.93, kLastQuantile = 0.95;
 constexpr double kCollapsed = 0.93, kLastCollapsed = 0.97;  // of these, before splits fill up
+constexpr double kMostAdded = 1.1;  // times the triangles before an exchange
 constexpr double kEnough = 0.99;  // an exchange that would leave more than this share gains little
 constexpr int kRings = 3;
 constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be restored
@@ -27,7 +28,7 @@ constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhil
 constexpr int kThinningRounds = 2, kLastThinningRounds = 3;
 // Restoration is given up where more than this share of the triangles is beyond the limit, or where
 // splitting all of these would leave more than a share of the triangles that were there at first.
-constexpr double kTooManyBeyond = 0.35, kTooManyLeft = 0.9;
+constexpr double kTooManyBeyond = 0.35, kTooManyLeft = 1;
 
 }  // namespace
 
@@ -79,9 +80,13 @@ void ErrorEquidistribution::relax_around(const std::vector<std::uint32_t>& slots
   tell_("relaxations", passes_.relax_around(slots, kRings, power));
 }
 
-// Takes triangles where they cost least energy and adds some where there is most.
+// Takes triangles where they cost least energy and adds some where there is most. The quantile may
+// be that of triangles over gaps and folds, which no number brings within the limit; so not many
+// more are left than there were.
 void ErrorEquidistribution::exchange(double quantile, double share, double collapsed, int power) {
-  const auto target = static_cast<std::size_t>(share * static_cast<double>(fitting(quantile)));
+  const auto fit = static_cast<std::size_t>(share * static_cast<double>(fitting(quantile)));
+  const auto most = kMostAdded * static_cast<double>(state_.mesh().triangles());
+  const std::size_t target = std::min(fit, static_cast<std::size_t>(most));
   const auto fewer = static_cast<std::size_t>(collapsed * static_cast<double>(target));
   tell_("loose collapses", passes_.collapse_to(fewer, power));
   relax(8, 2);
@@ -89,7 +94,7 @@ void ErrorEquidistribution::exchange(double quantile, double share, double colla
   relax(16, 2);
 }
 
-// Until there are as few triangles as can be restored. These exchanges may also add triangles.
+// Until there are as few triangles as can be restored.
 void ErrorEquidistribution::exchange_at_last() {
   for (int i = 0; i < extent_.last_exchanges && !passes_.stopped(); ++i) {
     if (i >= kSureLastExchanges) {
@@ -160,6 +165,7 @@ bool ErrorEquidistribution::restore_exactly() {
   int vain = 0;
   for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
     state_.prove_all();
+    state_.add_witnesses();
     std::vector<std::uint32_t> beyond = passes_.beyond_limit();
     const std::vector<std::uint32_t> around = state_.around_unproven();
     beyond.insert(beyond.end(), around.begin(), around.end());

@@ -26,7 +26,7 @@ class ErrorEquidistribution {
     int rounds, last_rounds;
     int thinnings;
   };
-  static constexpr Extent kShort = {2, 2, 2, 2, 1}, kLong = {6, 4, 4, 3, 20};
+  static constexpr Extent kShort = {2, 2, 2, 2, 2}, kLong = {6, 4, 4, 3, 20};
   ErrorEquidistribution(DecimationState& state, DecimationPasses& passes, const Extent& extent,
                         Tell tell)
       : state_(state), passes_(passes), extent_(extent), tell_(std::move(tell)) {}

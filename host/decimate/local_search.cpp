@@ -20,8 +20,7 @@ constexpr double kNegligible = 0.01;
 constexpr double kFixedDamping = 1e-3, kLeastDamping = 1e-5;
 constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 
-// Squared distance / limit^2 of edges under loosened limits. What lies farther over a gap is seldom
-// restored.
+// Squared distance / limit^2 of edges and of triangles' middles under loosened limits.
 constexpr double kLoosenedEdge = 2;
 // Points for each triangle of an edit that guide the steps of Newton.
 constexpr std::size_t kGuidingPoints = 20;
@@ -257,9 +256,11 @@ bool LocalSearch::shape(const Point& position) {
   return true;
 }
 
-Fit LocalSearch::measured(const Point& position, int power) {
+// Returns whether the energy is below `most`. The points are measured first, since that costs
+// least.
+bool LocalSearch::measure_at(const Point& position, int power, double most, Fit& fit) {
   measure(guiding_, frames_);
-  Fit fit;
+  fit = {};
   fit.position = position;
   if (spring_ > 0) fit.energy = spring_after(position);
   const double scale = 1 / state_.squared_limit();
@@ -268,6 +269,7 @@ Fit LocalSearch::measured(const Point& position, int power) {
     fit.energy += power_of(squared, power);
     fit.worst = std::max(fit.worst, squared);
   }
+  if (!(fit.energy < most)) return false;
   // The greatest distances between two surfaces of flat pieces are at vertices of one of them.
   if (watch_back_) {
     sight_ = state_.back()->sight_from(position, sight_.triangle);
@@ -277,13 +279,11 @@ Fit LocalSearch::measured(const Point& position, int power) {
   const EdgeSamples::Energy of_edges = samples_.measure(position, power);
   fit.energy += of_edges.sum;
   fit.worst = std::max(fit.worst, of_edges.worst);
-  return fit;
+  return fit.energy < most;
 }
 
-bool LocalSearch::evaluate(const Point& position, int power, Fit& result) {
-  if (!shape(position)) return false;
-  result = measured(position, power);
-  return true;
+bool LocalSearch::evaluate(const Point& position, int power, Fit& result, double most) {
+  return shape(position) && measure_at(position, power, most, result);
 }
 
 // One step of Gauss-Newton on the distances as functions of the vertex. The weights make the sum of
@@ -340,7 +340,7 @@ bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
     // A step that does not lower the energy is halved once.
     for (int halving = 0; halving < 2 && !better; ++halving) {
       if (halving > 0) at.position = 0.5 * (at.position + best.position);
-      better = evaluate(at.position, options.power, next) && next.energy < best.energy;
+      better = evaluate(at.position, options.power, next, best.energy);
     }
     if (!better) break;
     const bool enough = next.energy > (1 - options.gain) * best.energy;
@@ -363,7 +363,7 @@ bool LocalSearch::fit_by_newton(const Options& options, Fit& best) {
       // The step is of the frames and sights of the position last evaluated.
       if (attempt > 0 && !evaluate(best.position, options.power, at)) return true;
       if (!step(options, damping, at)) return true;
-      better = evaluate(at.position, options.power, next) && next.energy < best.energy;
+      better = evaluate(at.position, options.power, next, best.energy);
       if (!better) damping *= kMoreDamping;
     }
     if (!better) break;
@@ -393,11 +393,35 @@ bool LocalSearch::serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer)
   return state_.permits_point(point, answer.squared_distance);
 }
 
+double LocalSearch::share_of_middle(const std::array<Point, 3>& corners, std::uint32_t near) const {
+  return state_.back()->sight((corners[0] + corners[1] + corners[2]) / 3, near).share;
+}
+
+// Whether no new triangle's middle is farther from the reference than edges may be and than those
+// of before were. What spans a pit or a gap is seldom restored.
+bool LocalSearch::middles_are_near(const Point& position) const {
+  const EditableMesh& mesh = state_.mesh();
+  double farthest = 0;
+  for (const Triangle& t : added_) {
+    const Point& first = vertex_ == kNoIndex ? mesh.position(t[0]) : position;
+    const std::uint32_t near = state_.sight(t[1]).triangle;
+    farthest = std::max(farthest,
+                        share_of_middle({first, mesh.position(t[1]), mesh.position(t[2])}, near));
+  }
+  return farthest <= kLoosenedEdge || std::ranges::any_of(removed_, [&](std::uint32_t slot) {
+           const std::uint32_t near = state_.sight(mesh.triangle(slot)[0]).triangle;
+           return share_of_middle(mesh.corners(slot), near) >= farthest;
+         });
+}
+
 bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
   edit.clear();
   if (!shape(fit.position)) return false;
   const bool edges_count = limit && state_.loosened() && !samples_.none();
-  if (edges_count && !samples_.permits(fit.position, vertex_, kLoosenedEdge)) return false;
+  if (edges_count &&
+      !(samples_.permits(fit.position, vertex_, kLoosenedEdge) && middles_are_near(fit.position))) {
+    return false;
+  }
   const bool all_guide = guiding_ids_.size() == ids_.size();
   if (!all_guide) {
     points_.clear();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "host/decimate/decimation_state.h"
@@ -56,8 +57,10 @@ class LocalSearch {
   // The best position found from `start`, which may be `start` itself; returns false if no shape
   // was permitted.
   bool fit(const Point& start, const Options& options, Fit& best);
-  // The energy of a given position, or of a flip; returns false if the shape is not permitted.
-  bool evaluate(const Point& position, int power, Fit& result);
+  // The energy of a given position, or of a flip; returns false if the shape is not permitted or
+  // the energy is not below `most`.
+  bool evaluate(const Point& position, int power, Fit& result,
+                double most = std::numeric_limits<double>::infinity());
 
   // Fills the edit for the position last evaluated or fitted. Returns false if the shape is not
   // permitted or, with `limit`, if a point is beyond the limit.
@@ -78,9 +81,11 @@ class LocalSearch {
   void take_edges();
   double spring_after(const Point& position) const;
   bool shape(const Point& position);
-  Fit measured(const Point& position, int power);
+  bool measure_at(const Point& position, int power, double most, Fit& fit);
   bool step(const Options& options, double damping, Fit& at) const;
   bool fit_by_newton(const Options& options, Fit& best);
+  double share_of_middle(const std::array<Point, 3>& corners, std::uint32_t near) const;
+  bool middles_are_near(const Point& position) const;
   bool serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer) const;
 
   const DecimationState& state_;

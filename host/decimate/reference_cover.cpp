@@ -189,6 +189,7 @@ bool ReferenceCover::permits(const EditableMesh& mesh, const AssignedPoints& ass
       if (std::exchange(seen_[t], search_) != search_) affected_.push_back(t);
     }
   }
+  if (answer_of_.size() < assigned.size()) answer_of_.resize(assigned.size(), kNoIndex);
   for (std::uint32_t i = 0; i < edit.answers.size(); ++i) answer_of_[edit.answers[i].point] = i;
   around_->look_at(mesh, edit);
   bool permitted = true;

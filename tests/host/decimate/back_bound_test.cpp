@@ -124,6 +124,63 @@ TEST(BackBound, ProvesATriangleThatHangsOverAnEdge) {
   }
 }
 
+// Of all edges of a reference that has one sheet under the segment, sorted.
+std::vector<double> crossings_of_all_edges(const EditableMesh& mesh, const Point& from,
+                                           const Point& to, const Point& up) {
+  const Point along = to - from, normal = along.cross(up);
+  std::vector<double> found;
+  for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
+    const std::array<Point, 3> c = mesh.corners(slot);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triangle& t = mesh.triangle(slot);
+      const double a = normal.dot(c[i] - from), b = normal.dot(c[(i + 1) % 3] - from);
+      if (t[i] > t[(i + 1) % 3] || (a >= 0) == (b >= 0)) continue;
+      const Point at = c[i] + a / (a - b) * (c[(i + 1) % 3] - c[i]);
+      const double share = along.dot(at - from) / along.squaredNorm();
+      if (share > 0 && share < 1) found.push_back(share);
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+TEST(BackBound, FollowsTheReferenceUnderASegment) {
+  constexpr double kHeight = 0.1;
+  const BackBound bound(sheet(20, kHeight), 0.5);
+  Random random(5);
+  std::size_t followed = 0;
+  for (int i = 0; i < 300; ++i) {
+    Point from = random.point(-1.2, 1.2), to = random.point(-1.2, 1.2);
+    from[2] = random.uniform(-0.1, 0.1);
+    to[2] = random.uniform(-0.1, 0.1);
+    const Point middle = 0.5 * (from + to);
+    const std::uint32_t near = bound.sight(middle).triangle;
+    const auto inside = [](const Point& p) { return std::abs(p[0]) < 0.9 && std::abs(p[1]) < 0.9; };
+    if (near == kNoIndex || !inside(middle)) continue;
+    const Point up = bound.toward(middle, near);
+    std::vector<BackBound::Crossing> crossings;
+    if (!bound.follow(from, to, up, near, crossings)) {
+      EXPECT_FALSE(inside(from) && inside(to)) << i;
+      continue;
+    }
+    ++followed;
+    const std::vector<double> all = crossings_of_all_edges(bound.reference(), from, to, up);
+    ASSERT_EQ(crossings.size(), all.size()) << i;
+    for (std::size_t k = 0; k < all.size(); ++k) EXPECT_NEAR(crossings[k].along, all[k], 1e-12);
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      EXPECT_EQ(crossings[k].before, crossings[k - 1].behind);
+    }
+  }
+  EXPECT_GT(followed, 50u);
+}
+
+TEST(BackBound, DoesNotFollowAReferenceThatTurnsBack) {
+  const BackBound bound(cube(8), 0.5);
+  const Point from(0.4, 0.1, 1), to(1.6, 0.13, 0.9), up(0, 0, 1);
+  std::vector<BackBound::Crossing> crossings;
+  EXPECT_FALSE(bound.follow(from, to, up, bound.sight({0.9, 0.11, 1}).triangle, crossings));
+}
+
 // Far from everything, out of sight of the hint.
 // By all pairs of triangles.
 TEST(BackBound, KnowsHowHighNeighboursUsuallyRise) {

@@ -217,5 +217,62 @@ TEST_P(Edits, OfOneKindAfterSplitsAreUndoneToo) {
 INSTANTIATE_TEST_SUITE_P(Surfaces, Edits, testing::Bool(),
                          [](const auto& param) { return param.param ? "Closed" : "Open"; });
 
+// A triangle of the reference whose corners the mesh has and whose inside lies under a tent.
+class Tent : public testing::Test {
+ protected:
+  static constexpr double kSquaredLimit = kLimit * kLimit;
+
+  explicit Tent(double height = 2.5 * kLimit)
+      : mesh_{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0.1, -0.2, height}},
+              {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
+        cloud_(mesh_.vertices.begin(), mesh_.vertices.begin() + 3),
+        state_(mesh_, cloud_, nullptr, kSquaredLimit, {}, nullptr, reference_) {}
+
+  double to_mesh(const Point& p) const {
+    double least = 1e300;
+    for (std::size_t t = 0; t < 3; ++t) {
+      least = std::min(least, squared_distance(p, mesh_.view().corners(t)));
+    }
+    return least;
+  }
+
+  const TriangleMesh mesh_;
+  const std::vector<Point> cloud_;
+  const std::vector<Triangle> reference_ = {{0, 1, 2}};
+  DecimationState state_;
+};
+
+TEST_F(Tent, GetsAWitnessWhereTheReferenceIsFarthest) {
+  ASSERT_EQ(state_.unproven(), 1u);
+  const DecimationState::Snapshot before = state_.snapshot();
+  ASSERT_EQ(state_.add_witnesses(), 1u);
+  const AssignedPoints& assigned = state_.assigned();
+  ASSERT_EQ(assigned.size(), 4u);
+  double farthest = 0;
+  for (int i = 0; i <= 100; ++i) {
+    for (int j = 0; i + j <= 100; ++j) {
+      farthest = std::max(farthest, to_mesh(cloud_[0] + i / 100.0 * (cloud_[1] - cloud_[0]) +
+                                            j / 100.0 * (cloud_[2] - cloud_[0])));
+    }
+  }
+  EXPECT_GT(to_mesh(state_.point(3)), 0.8 * farthest);
+  EXPECT_DOUBLE_EQ(assigned.squared_distance(3), to_mesh(state_.point(3)));
+  EXPECT_GT(assigned.squared_distance(3), kSquaredLimit);
+  EXPECT_DOUBLE_EQ(squared_distance(state_.point(3), state_.mesh().corners(assigned.owner(3))),
+                   to_mesh(state_.point(3)));
+  state_.restore(before);
+  EXPECT_EQ(state_.assigned().size(), 3u);
+}
+
+class FlatTent : public Tent {
+ protected:
+  FlatTent() : Tent(0.5 * kLimit) {}
+};
+
+TEST_F(FlatTent, NeedsNoWitness) {
+  EXPECT_EQ(state_.unproven(), 0u);
+  EXPECT_EQ(state_.add_witnesses(), 0u);
+}
+
 }  // namespace
 }  // namespace emax::test

@@ -12,10 +12,18 @@ namespace {
 
 constexpr double kLimit = 0.1;
 
-enum class Surface { kSmooth, kRough, kFaceted };
+enum class Surface { kSmooth, kRough, kFaceted, kGrooved };
 
 TriangleMesh surface(Surface kind) {
   if (kind == Surface::kFaceted) return cube(2);
+  if (kind == Surface::kGrooved) {
+    // Over a groove the reference is farthest between its walls, where it has no edge.
+    TriangleMesh mesh = sheet(41, 0);
+    for (Point& p : mesh.vertices) {
+      if (std::lround((p[0] + 1) * 20) % 8 < 4) p[2] -= 0.3;
+    }
+    return mesh;
+  }
   TriangleMesh mesh = sheet(30, 0.2);
   Random random(11);
   if (kind == Surface::kSmooth) return mesh;
@@ -104,7 +112,8 @@ TEST_P(EdgePlaces, AreFewInsideTheEdgeAndInOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, EdgePlaces,
-                         testing::Values(Surface::kSmooth, Surface::kRough, Surface::kFaceted));
+                         testing::Values(Surface::kSmooth, Surface::kRough, Surface::kFaceted,
+                                         Surface::kGrooved));
 
 // A ridge of the reference between two places far from it.
 TEST(EdgePlacesOfARidge, AreOnTheRidge) {

@@ -140,7 +140,7 @@ TEST(ErrorEquidistribution, ThinsWhatIsWithinTheLimits) {
 // Wherever it is stopped, it does not call a mesh within its limits that is not.
 TEST(ErrorEquidistribution, SaysThatAStoppedMeshIsNotWithin) {
   std::size_t beyond = 0;
-  for (const long polls : {1, 30, 200}) {
+  for (const long polls : {1, 30, 200, 400}) {
     Bench bench(bumpy(30, 50), 0.01);
     bench.passes.collapse();
     const DecimationState::Snapshot before = bench.state.snapshot();
