@@ -47,7 +47,7 @@ TEST_P(Steps, OfNewtonReachWhatASlowSearchReaches) {
   options.steps = 30;
   options.gain = 1e-6;
   std::size_t as_low = 0, all = 0;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); v += 2) {
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     ASSERT_TRUE(search.prepare_relocation(v));
     Fit start, fit;
     if (!search.evaluate(mesh.vertices[v], power, start)) continue;
@@ -61,7 +61,7 @@ TEST_P(Steps, OfNewtonReachWhatASlowSearchReaches) {
   }
   EXPECT_GT(all, 60u);
   // The power 64 is almost a maximum, and steps end where two distances are equally great.
-  EXPECT_GT(as_low, power == 64 ? all / 2 : all * 17 / 20);
+  EXPECT_GT(as_low, power == 64 ? all / 2 : all * 9 / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Powers, Steps, testing::Values(2, 4, 16, 64));
