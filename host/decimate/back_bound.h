@@ -73,9 +73,9 @@ class BackBound {
 
  private:
   class Faces;
+  class Segment;
 
   double find_usual_rise() const;
-  class Segment;
   Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near) const;
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                    std::uint32_t triangle) const;

@@ -181,7 +181,6 @@ TEST(BackBound, DoesNotFollowAReferenceThatTurnsBack) {
   EXPECT_FALSE(bound.follow(from, to, up, bound.sight({0.9, 0.11, 1}).triangle, crossings));
 }
 
-// Far from everything, out of sight of the hint.
 // By all pairs of triangles.
 TEST(BackBound, KnowsHowHighNeighboursUsuallyRise) {
   for (const TriangleMesh& mesh : references()) {
@@ -211,6 +210,7 @@ TEST(BackBound, KnowsHowHighNeighboursUsuallyRise) {
   }
 }
 
+// Far from everything, out of sight of the hint.
 TEST(BackBound, RefusesWhatItDoesNotSee) {
   const BackBound bound(bumpy(10, 16), 0.05);
   const std::array<Point, 3> away = {Point(5, 0, 0), Point(6, 0, 0), Point(5, 1, 0)};
