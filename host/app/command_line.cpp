@@ -201,6 +201,11 @@ void add_decimate(CLI::App& app, CommandLine& line) {
       .add_option("--time", decimate.seconds,
                   "stop after this many seconds, with the mesh reached by then")
       ->check(positive("seconds"));
+  command
+      .add_option("--threads", decimate.threads,
+                  "threads to work with, which change no byte of the result (default: one per "
+                  "processor)")
+      ->check(CLI::Range(1u, 256u));
   command.callback([&] {
     decimate.two_sided = line.decimate_bound == "two-sided";
     if (!decimate.two_sided && !decimate.back_error.empty()) {

@@ -48,6 +48,7 @@ struct DecimateOptions {
   std::string json;
   std::string excluded_share = "0";
   std::optional<double> seconds;
+  unsigned threads = 0;  // 0: one per processor
   bool two_sided = true;
   bool repair = false;  // remove intersecting triangles instead of keeping them
   bool closed = false;  // every hole is closed

@@ -20,6 +20,7 @@
 #include "host/geometry/merge_vertices.h"
 #include "host/measure/error_constraint.h"
 #include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
@@ -74,6 +75,7 @@ class DecimateCommand {
     settings_.decimation.two_sided = options.two_sided;
     settings_.decimation.effort = effort_named(options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
+    settings_.decimation.threads = options.threads > 0 ? options.threads : processor_threads();
     if (options.objective == "hoppe") {
       settings_.decimation.objective = DecimationSettings::Objective::kHoppe;
     }

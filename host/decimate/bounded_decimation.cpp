@@ -215,6 +215,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   guards.normal_cosine = settings.normal_cosine;
   guards.flatness = settings.flatness;
   guards.squared_reach = reach * reach;
+  guards.threads = settings.threads;
   const TriangleMesh ordered = spatially_ordered(start);
   DecimationState state(ordered, known.points, settings.two_sided ? known.back.get() : nullptr,
                         limit * limit, guards, settings.interrupted, known.triangles);

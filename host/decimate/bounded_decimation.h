@@ -65,6 +65,8 @@ struct DecimationSettings {
   } objective = Objective::kFewest;
   HoppeWeights hoppe;
 
+  std::size_t threads = 1;  // the result is the same for any number
+
   // Polled from time to time; true ends the work with the mesh reached so far, which is valid and
   // within the bounds.
   std::function<bool()> interrupted = nullptr;

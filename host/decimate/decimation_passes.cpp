@@ -5,19 +5,15 @@
 #include <numeric>
 #include <utility>
 
+#include "sw_model/base/parallel.h"
 #include "sw_model/base/sort_once.h"
+
 namespace emax {
 namespace {
 
-constexpr double kHopeless = 4;    // squared distance / limit^2 from which finer steps do not help
-constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
-constexpr double kSecondChoice = 0.5;  // likewise, for a collapse that keeps an end in place
-constexpr double kNothing = 1e-8;      // an energy too small to be worth a move
-constexpr double kNothingOfHighPowers = 1e-30;
-
-// The least share of its energy that a move or flip gains. Where it is of a high power, the
-// distances gain that share over the power.
-double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
+// Squared distance / limit^2 for a collapse that keeps an end in place.
+constexpr double kSecondChoice = 0.5;
+constexpr std::size_t kBatch = 64;  // proposals between two looks at the clock
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
 constexpr double kLeastSwept = 0.1;  // the least share of the triangles that a sweep must remove
@@ -45,16 +41,38 @@ std::array<std::array<std::uint32_t, 2>, 3> shortest_first(const EditableMesh& m
 
 }  // namespace
 
-DecimationPasses::DecimationPasses(DecimationState& state, Options options, Poll poll)
+DecimationPasses::DecimationPasses(DecimationState& state, Options options, std::size_t threads,
+                                   Poll poll)
     : state_(state),
       options_(std::move(options)),
       poll_(std::move(poll)),
-      search_(state, options_.spring) {}
+      proposers_(threads, EditProposer(state, options_, known_)),
+      search_(proposers_.front().search()),
+      edit_(proposers_.front().edit()),
+      batch_(kBatch),
+      independent_(state.mesh()) {}
+
+void DecimationPasses::use(LocalSearch::Steps steps) {
+  for (EditProposer& proposer : proposers_) proposer.search().use(steps);
+}
 
 void DecimationPasses::restart(const FeatureEdges& features) {
   options_.features = features;
-  search_.use(LocalSearch::Steps::kReweighted);
+  use(LocalSearch::Steps::kReweighted);
+  free();
   spare_ = kNoIndex;
+}
+
+void DecimationPasses::hold_around(const std::vector<Place>& places) {
+  const EditableMesh& mesh = state_.mesh();
+  options_.held.assign(mesh.vertex_slots(), 0);
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+    const bool near =
+        mesh.used(v) && std::ranges::any_of(places, [&](const Place& place) {
+          return (mesh.position(v) - place.at).squaredNorm() <= place.radius * place.radius;
+        });
+    options_.held[v] = near ? 1 : 0;
+  }
 }
 
 bool DecimationPasses::poll(double done) {
@@ -63,6 +81,38 @@ bool DecimationPasses::poll(double done) {
 }
 
 bool DecimationPasses::poll(std::size_t at, std::size_t of) { return poll(share_of(at, of)); }
+
+// Calls propose(proposer, i) for each i of [first, last) on all threads; then, in order, make(edit)
+// where that returned true.
+void DecimationPasses::propose_batch(std::size_t first, std::size_t last, const Propose& propose,
+                                     const Make& make) {
+  known_.keep(search_.fresh(), state_.mesh());
+  in_pieces(proposers_.size(), last - first, 1,
+            [&](std::size_t thread, std::size_t item, std::size_t) {
+              EditProposer& proposer = proposers_[thread];
+              Found& found = batch_[item];
+              found.any = propose(proposer, first + item);
+              std::swap(found.edit, proposer.edit());
+              found.looked_at.clear();
+              std::swap(found.looked_at, proposer.search().fresh());
+            });
+  for (std::size_t item = 0; item < last - first; ++item) {
+    if (make && batch_[item].any) make(batch_[item].edit);
+    known_.keep(batch_[item].looked_at, state_.mesh());
+  }
+}
+
+// In batches, until the passes are stopped.
+void DecimationPasses::propose_each(std::size_t count, const Part& part, const Propose& propose,
+                                    const Make& make) {
+  for (std::size_t first = 0; first < count; first += kBatch) {
+    if (part && poll_ && !stopped_) {
+      stopped_ = poll_(std::lerp((*part)[0], (*part)[1], share_of(first, count)));
+    }
+    if (stopped_) return;
+    propose_batch(first, std::min(first + kBatch, count), propose, make);
+  }
+}
 
 std::vector<DecimationPasses::Edge> DecimationPasses::edges() const {
   const EditableMesh& mesh = state_.mesh();
@@ -82,85 +132,42 @@ std::vector<DecimationPasses::Edge> DecimationPasses::edges() const {
   return result;
 }
 
-bool DecimationPasses::judge(std::uint32_t a, std::uint32_t b, Candidate& candidate) {
-  const FeatureEdges::Collapse feature = options_.features.permitted(a, b);
-  if (feature == FeatureEdges::Collapse::kForbidden) return false;
-  candidate.a = a;
-  candidate.b = b;
-  candidate.stamp = edits_;
-  if (!search_.prepare_collapse(a, b)) return false;
-  const Point pa = state_.mesh().position(a), pb = state_.mesh().position(b);
-  const bool hoppe = options_.representation > 0;
-  LocalSearch::Options options;
-  options.power = hoppe ? 2 : power_;
-  const double before = search_.energy_before(options.power) + options_.representation;
-  Fit fit;
-  if (feature == FeatureEdges::Collapse::kAlong) {
-    // The optimum of the planes' quadrics is where the sides of the feature meet.
-    bool any = false;
-    for (const Point& at : {search_.quadric_optimum(), pa, pb}) {
-      any = any || (keeps_features(a, b, at) && search_.evaluate(at, options.power, fit) &&
-                    fit.worst <= 1);
-    }
-    if (!any) return false;
-  } else if (feature != FeatureEdges::Collapse::kAnywhere) {
-    const Point& kept = feature == FeatureEdges::Collapse::kAtFirst ? pa : pb;
-    if (!search_.evaluate(kept, options.power, fit)) return false;
-    if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
-  } else if (hoppe) {
-    bool any = false;
-    for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
-      Fit other;
-      if (!search_.fit(start, options, other)) continue;
-      if (!any || other.energy < fit.energy) fit = other;
-      any = true;
-    }
-    if (!any || fit.worst > 1) return false;
-  } else if (!place(pa, pb, fit)) {
+// Those of the collapses that can be made, in the order of the edges.
+std::vector<DecimationPasses::Collapse> DecimationPasses::judge_each(const std::vector<Edge>& edges,
+                                                                     const Part& part,
+                                                                     const Judge& judge) {
+  std::vector<Collapse> judged(edges.size());
+  std::vector<char> possible(edges.size(), 0);
+  propose_each(edges.size(), part, [&](EditProposer& proposer, std::size_t i) {
+    possible[i] = judge(proposer, edges[i], judged[i]) ? 1 : 0;
+    judged[i].stamp = edits_;
     return false;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (possible[i] != 0) judged[kept++] = judged[i];
   }
-  if (hoppe && !(fit.energy < before)) return false;
-  if (!keeps_features(a, b, fit.position)) return false;
-  candidate.cost = fit.energy - before;
-  candidate.fit = std::move(fit);
-  return true;
+  judged.resize(kept);
+  return judged;
 }
 
-// Finds the position where the energy of the prepared collapse is least. Returns whether it may be
-// within the limit.
-bool DecimationPasses::place(const Point& pa, const Point& pb, Fit& fit) {
-  LocalSearch::Options options;
-  options.power = power_;
-  if (search_.fine()) options.steps = 0;
-  bool any = search_.fit(search_.quadric_optimum(), options, fit);
-  for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
-    if (any) break;
-    any = search_.fit(start, options, fit);
-  }
-  if (!any || fit.worst > kHopeless) return false;
-  if (fit.worst <= state_.permitted()) return true;
-  if (state_.loosened()) return false;
-  options.power = 8;
-  options.steps = 8;
-  Fit finer;
-  if (search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
-    search_.evaluate(finer.position, 4, fit);
-  }
-  return fit.worst <= 1 || search_.finish(fit, true, edit_);
+std::vector<DecimationPasses::Collapse> DecimationPasses::judge_each(const std::vector<Edge>& edges,
+                                                                     const Part& part, int power) {
+  return judge_each(edges, part, [power](EditProposer& p, const Edge& e, Collapse& collapse) {
+    return p.judge(e[0], e[1], power, collapse);
+  });
 }
 
-void DecimationPasses::push(std::uint32_t a, std::uint32_t b) {
-  if (a > b) std::swap(a, b);
-  Candidate candidate;
-  if (judge(a, b, candidate)) queue_.push(candidate);
+void DecimationPasses::push(const std::vector<Edge>& edges, const Part& part) {
+  for (const Collapse& collapse : judge_each(edges, part, kPower)) queue_.push(collapse);
 }
 
-bool DecimationPasses::apply_collapse(const Candidate& candidate) {
+bool DecimationPasses::apply_collapse(const Collapse& candidate) {
   const std::uint32_t a = candidate.a, b = candidate.b;
   if (!search_.prepare_collapse(a, b)) return false;
   const auto try_at = [&](const Fit& fit) {
-    return keeps_features(a, b, fit.position) && search_.finish(fit, true, edit_) &&
-           state_.permits(edit_);
+    return proposers_.front().keeps_features(a, b, fit.position) &&
+           search_.finish(fit, true, edit_) && state_.permits(edit_);
   };
   bool made = try_at(candidate.fit);
   // At the position of one of the two vertices few triangles are new, so the collapse is less
@@ -179,8 +186,8 @@ bool DecimationPasses::apply_collapse(const Candidate& candidate) {
 std::size_t DecimationPasses::collapse_at(const std::vector<std::uint32_t>& slots) {
   const auto collapse_one = [&](std::uint32_t slot) {
     return std::ranges::any_of(shortest_first(state_.mesh(), slot), [&](const Edge& e) {
-      Candidate candidate;
-      return judge(e[0], e[1], candidate) && apply_collapse(candidate);
+      Collapse candidate;
+      return proposers_.front().judge(e[0], e[1], kPower, candidate) && apply_collapse(candidate);
     });
   };
   std::size_t collapses = 0;
@@ -190,24 +197,13 @@ std::size_t DecimationPasses::collapse_at(const std::vector<std::uint32_t>& slot
   return collapses;
 }
 
-bool DecimationPasses::keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const {
-  return options_.features.stays_near(a, b, at, state_.mesh().positions(), state_.squared_limit());
-}
-
 void DecimationPasses::make_collapse(std::uint32_t a, std::uint32_t b) {
   state_.apply(edit_);
   options_.features.collapsed(a, b, state_.mesh().positions());
 }
 
 bool DecimationPasses::try_plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
-  if (options_.features.permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
-  if (!search_.prepare_collapse(a, b)) return false;
-  LocalSearch::Options options;
-  options.steps = 0;
-  Fit fit;
-  if (!search_.fit(search_.quadric_optimum(), options, fit) || fit.worst > most) return false;
-  if (!keeps_features(a, b, fit.position)) return false;
-  return search_.finish(fit, true, edit_) && state_.permits(edit_);
+  return proposers_.front().plain_collapse(a, b, most) && state_.permits(edit_);
 }
 
 std::size_t DecimationPasses::sweep() {
@@ -242,23 +238,20 @@ std::size_t DecimationPasses::collapse() {
   queue_ = {};
   touched_.assign(mesh.vertex_slots(), 0);
   edits_ = 0;
-  const auto all = edges();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (poll(i, 2 * all.size())) return 0;
-    push(all[i][0], all[i][1]);
-  }
+  push(edges(), {{0, 0.5}});
+  if (stopped_) return 0;
   std::size_t collapses = 0;
   const std::size_t triangles = mesh.triangles();
   while (!queue_.empty()) {
     // The queue shrinks with the triangles. When no more of them can be removed, it empties.
     const double left = static_cast<double>(mesh.triangles()) / static_cast<double>(triangles);
     if (poll(1 - 0.5 * left)) break;
-    const Candidate candidate = queue_.top();
+    const Collapse candidate = queue_.top();
     queue_.pop();
     const std::uint32_t a = candidate.a, b = candidate.b;
     if (!mesh.used(a) || !mesh.used(b)) continue;
     if (candidate.stamp < touched_[a] || candidate.stamp < touched_[b]) {
-      push(a, b);
+      push({{a, b}}, {});
       continue;
     }
     mesh.neighbours(a, of_a_);
@@ -270,52 +263,60 @@ std::size_t DecimationPasses::collapse() {
     for (const std::uint32_t v : around_) touched_[v] = edits_;
     // Pushes the edges that b had. The other edges at a are judged anew when they come up in the
     // queue.
+    std::vector<Edge> of_b;
     for (const std::uint32_t v : around_) {
-      if (!std::binary_search(of_a_.begin(), of_a_.end(), v)) push(a, v);
+      if (!std::ranges::binary_search(of_a_, v)) of_b.push_back({std::min(a, v), std::max(a, v)});
     }
+    push(of_b, {});
   }
   return collapses;
 }
 
-bool DecimationPasses::try_relocation(std::uint32_t vertex, int power, bool limit) {
-  if (options_.features.fixed(vertex)) return false;
-  if (!search_.prepare_relocation(vertex)) return false;
-  const double before = search_.energy_before(power);
-  if (before < (power > 4 ? kNothingOfHighPowers : kNothing)) return false;
-  Fit fit;
-  LocalSearch::Options options;
-  options.power = power;
-  if (!search_.fit(state_.mesh().position(vertex), options, fit)) return false;
-  if (!(fit.energy < before * (1 - least_gain(power)))) return false;
-  if (!search_.finish(fit, limit, edit_)) return false;
-  return state_.permits(edit_, !limit);
-}
-
-bool DecimationPasses::try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit) {
-  if (options_.features.on(a, b) || !search_.prepare_flip(a, b)) return false;
-  const double before = search_.energy_before(power);
-  Fit fit;
-  if (!search_.evaluate(Point::Zero(), power, fit, before * (1 - least_gain(power)))) return false;
-  if (!search_.finish(fit, limit, edit_)) return false;
-  return state_.permits(edit_, !limit);
+// Proposes and makes edits of items in parts that do not touch each other.
+template <class Item, class ProposeItem>
+std::size_t DecimationPasses::edit_each(std::vector<Item> left, const Part& whole,
+                                        const ProposeItem& propose) {
+  const std::size_t all = left.size();
+  std::size_t edits = 0;
+  const auto reached = [&] {
+    return std::lerp((*whole)[0], (*whole)[1], 1 - share_of(left.size(), all));
+  };
+  while (!left.empty() && !stopped_) {
+    const double from = reached();
+    const std::vector<Item> part = independent_.take(left);
+    propose_each(
+        part.size(), {{from, reached()}},
+        [&](EditProposer& proposer, std::size_t i) { return propose(proposer, part[i]); },
+        [&](const MeshEdit& edit) {
+          if (!state_.permits(edit)) return;
+          state_.apply(edit);
+          ++edits;
+        });
+  }
+  return edits;
 }
 
 std::size_t DecimationPasses::relocate(int power) {
   std::vector<std::uint32_t> vertices(state_.mesh().vertex_slots());
   std::iota(vertices.begin(), vertices.end(), 0u);
-  return relocate_each(vertices, power, 0);
+  std::erase_if(vertices, [&](std::uint32_t v) { return !state_.mesh().used(v); });
+  return relocate_each(std::move(vertices), power, {{0, 1}});
 }
 
-std::size_t DecimationPasses::relocate_each(const std::vector<std::uint32_t>& vertices, int power,
-                                            double from) {
-  std::size_t moved = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (poll(std::lerp(from, 1, share_of(i, vertices.size())))) break;
-    if (!state_.mesh().used(vertices[i]) || !try_relocation(vertices[i], power, true)) continue;
-    state_.apply(edit_);
-    ++moved;
-  }
-  return moved;
+std::size_t DecimationPasses::relocate_each(std::vector<std::uint32_t> vertices, int power,
+                                            const Part& part) {
+  return edit_each(std::move(vertices), part,
+                   [power](EditProposer& proposer, std::uint32_t vertex) {
+                     return proposer.relocation(vertex, power, true);
+                   });
+}
+
+std::size_t DecimationPasses::flip(int power) { return flip_each(edges(), power, {{0, 1}}); }
+
+std::size_t DecimationPasses::flip_each(std::vector<Edge> edges, int power, const Part& part) {
+  return edit_each(std::move(edges), part, [power](EditProposer& proposer, const Edge& edge) {
+    return proposer.flip(edge[0], edge[1], power, true);
+  });
 }
 
 std::size_t DecimationPasses::descend() {
@@ -328,20 +329,6 @@ std::size_t DecimationPasses::descend() {
     if (collapses == 0 && 100 * others < state_.mesh().triangles()) break;
   }
   return edits;
-}
-
-std::size_t DecimationPasses::flip(int power) { return flip_each(edges(), power, 0, 1); }
-
-std::size_t DecimationPasses::flip_each(const std::vector<Edge>& edges, int power, double from,
-                                        double to) {
-  std::size_t flips = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (poll(std::lerp(from, to, share_of(i, edges.size())))) break;
-    if (!try_flip(edges[i][0], edges[i][1], power, true)) continue;
-    state_.apply(edit_);
-    ++flips;
-  }
-  return flips;
 }
 
 bool DecimationPasses::all_within(const std::vector<std::uint32_t>& points) const {
@@ -372,6 +359,8 @@ void DecimationPasses::apply(bool keep_undo) {
 
 bool DecimationPasses::mend(std::uint32_t vertex) {
   constexpr int kRounds = 4;
+  EditProposer& proposer = proposers_.front();
+  const auto permitted = [&] { return state_.permits(edit_, true); };
   const EditableMesh& mesh = state_.mesh();
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = undo_.size();
@@ -391,11 +380,11 @@ bool DecimationPasses::mend(std::uint32_t vertex) {
     sort_once(flips);
     ring.insert(ring.begin(), vertex);
     for (const auto& [a, b] : flips) {
-      if (mesh.used(a) && mesh.used(b) && try_flip(a, b, 8, false)) apply(true);
+      if (mesh.used(a) && mesh.used(b) && proposer.flip(a, b, 8, false) && permitted()) apply(true);
     }
     if (settled()) return true;
     for (const std::uint32_t v : ring) {
-      if (try_relocation(v, 8, false)) apply(true);
+      if (proposer.relocation(v, 8, false) && permitted()) apply(true);
     }
     if (settled()) return true;
     if (undo_.size() == before) break;
@@ -405,47 +394,20 @@ bool DecimationPasses::mend(std::uint32_t vertex) {
 
 std::size_t DecimationPasses::collapse_and_mend() {
   const EditableMesh& mesh = state_.mesh();
-  struct Trial {
-    double worst;
-    std::uint32_t a, b;
-    Fit fit;
-  };
-  const auto judge_trial = [&](std::uint32_t a, std::uint32_t b, Trial& trial) {
-    if (options_.features.permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
-    if (!search_.prepare_collapse(a, b)) return false;
-    LocalSearch::Options options;
-    options.power = 8;
-    options.steps = 8;
-    bool any = false;
-    const Point pa = mesh.position(a), pb = mesh.position(b);
-    for (const Point& start : {search_.quadric_optimum(), Point(0.5 * (pa + pb))}) {
-      Fit fit;
-      if (!search_.fit(start, options, fit)) continue;
-      if (!any || fit.worst < trial.fit.worst) trial.fit = fit;
-      any = true;
-    }
-    trial.a = a;
-    trial.b = b;
-    trial.worst = any ? trial.fit.worst : 0;
-    return any && trial.worst <= kMendable;
-  };
-  std::vector<Trial> trials;
-  const auto all = edges();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (poll(i, 4 * all.size())) return 0;
-    Trial trial;
-    if (judge_trial(all[i][0], all[i][1], trial)) trials.push_back(trial);
-  }
-  std::sort(trials.begin(), trials.end(), [](const Trial& s, const Trial& t) {
-    return s.worst != t.worst ? s.worst < t.worst : s.a != t.a ? s.a < t.a : s.b < t.b;
-  });
+  EditProposer& proposer = proposers_.front();
+  std::vector<Collapse> trials =
+      judge_each(edges(), {{0, 0.25}}, [](EditProposer& other, const Edge& e, Collapse& trial) {
+        return other.judge_beyond(e[0], e[1], trial);
+      });
+  if (stopped_) return 0;
+  std::ranges::sort(trials, [](const Collapse& s, const Collapse& t) { return t < s; });
   std::size_t collapses = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    Trial& trial = trials[i];
-    if (poll(0.25 + 0.75 * static_cast<double>(i) / static_cast<double>(trials.size()))) break;
+    Collapse& trial = trials[i];
+    if (poll(0.25 + 0.75 * share_of(i, trials.size()))) break;
     if (!mesh.used(trial.a) || !mesh.used(trial.b)) continue;
-    if (!judge_trial(trial.a, trial.b, trial)) continue;
-    if (!keeps_features(trial.a, trial.b, trial.fit.position)) continue;
+    if (!proposer.judge_beyond(trial.a, trial.b, trial)) continue;
+    if (!proposer.keeps_features(trial.a, trial.b, trial.fit.position)) continue;
     if (!search_.finish(trial.fit, false, edit_) || !state_.permits(edit_, true)) continue;
     undo_.clear();
     unsettled_.clear();

@@ -4,29 +4,28 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <vector>
 
-#include "host/decimate/feature_edges.h"
-#include "host/decimate/local_search.h"
+#include "host/decimate/edit_proposer.h"
+#include "host/decimate/independent_edits.h"
 
 namespace emax {
 
 // The passes of bounded decimation over a state. Each pass keeps every point within the limit that
 // was within it, and is a pure function of the state. Ties go to the lower vertex numbers.
+//
+// Edits are proposed by several threads and made by one. Relocations and flips are proposed in
+// batches that do not touch each other, so that the number of threads changes no byte.
 class DecimationPasses {
  public:
   // Called from time to time with the share of the present pass that is done, from 0 to 1. True
   // ends the pass after the present edit.
   using Poll = std::function<bool(double)>;
-  static constexpr int kPower = 4;  // of the distances in the energy that places vertices
-  struct Options {
-    FeatureEdges features;  // kept by collapses and flips
-    // For Hoppe's objective: the cost of an edge's squared length, and the gain of one vertex less,
-    // in units of epsilon^2. A collapse is then made only where it lowers the energy.
-    double spring = 0, representation = 0;
-  };
-  DecimationPasses(DecimationState& state, Options options, Poll poll);
+  static constexpr int kPower = EditProposer::kPower;
+  using Options = EditProposer::Options;
+  DecimationPasses(DecimationState& state, Options options, std::size_t threads, Poll poll);
 
   // Edge collapses far below the limit, in sweeps over the mesh, until a sweep gains little. The
   // edges of a sweep do not touch. The new vertex is the optimum of the planes' quadrics. Returns
@@ -51,9 +50,9 @@ class DecimationPasses {
 
   // The passes that ErrorEquidistribution uses (equidistribution_passes.cpp).
 
-  // Greatest squared distance / limit^2 that a triangle answers for: of its points, its vertices
+  // Greatest squared distance / limit^2 that each triangle answers for: of its points, its vertices
   // and its edges.
-  double worst_of(std::uint32_t slot);
+  std::vector<double> worst_of(const std::vector<std::uint32_t>& slots);
   // The triangles with a point beyond the limit or that break the back bound as last tested, the
   // worst first.
   std::vector<std::uint32_t> beyond_limit();
@@ -72,34 +71,45 @@ class DecimationPasses {
   // Flips and relocations within so many rings of triangles around these. Returns their number.
   std::size_t relax_around(const std::vector<std::uint32_t>& slots, int rings, int power);
 
-  void use(LocalSearch::Steps steps) { search_.use(steps); }
+  void use(LocalSearch::Steps steps);
   const FeatureEdges& features() const { return options_.features; }
+  // No edit but a split changes a triangle at these, until free() is called or the passes restart.
+  struct Place {
+    Point at;
+    double radius;
+  };
+  void hold_around(const std::vector<Place>& places);
+  void free() { options_.held.clear(); }
   // After a restored state: these are its features, and steps are as at first.
   void restart(const FeatureEdges& features);
 
   bool stopped() const { return stopped_; }
 
  private:
-  struct Candidate {
-    double cost;
-    std::uint32_t a, b;
-    std::uint64_t stamp;
-    Fit fit;
-    // For a queue that gives the least cost first.
-    bool operator<(const Candidate& other) const {
-      if (cost != other.cost) return cost > other.cost;
-      return a != other.a ? a > other.a : b > other.b;
-    }
-  };
+  using Collapse = EditProposer::Collapse;
+  using Edge = std::array<std::uint32_t, 2>;
+
+  // Shares of the present pass, from and to; none for what is too short to be told of.
+  using Part = std::optional<std::array<double, 2>>;
 
   bool poll(double done);
   bool poll(std::size_t at, std::size_t of);
-  using Edge = std::array<std::uint32_t, 2>;
+  // What one of the threads found.
+  struct Found {
+    bool any = false;
+    MeshEdit edit;
+    KnownEdges::Map looked_at;
+  };
+  using Propose = std::function<bool(EditProposer&, std::size_t)>;
+  using Make = std::function<void(const MeshEdit&)>;
+  void propose_batch(std::size_t first, std::size_t last, const Propose& propose, const Make& make);
+  void propose_each(std::size_t count, const Part& part, const Propose& propose,
+                    const Make& make = nullptr);
+  template <class Item, class ProposeItem>
+  std::size_t edit_each(std::vector<Item> items, const Part& part, const ProposeItem& propose);
   // `from` and `to` are shares of the present pass.
-  std::size_t flip_each(const std::vector<Edge>& edges, int power, double from, double to);
-  std::size_t relocate_each(const std::vector<std::uint32_t>& vertices, int power, double from);
-  bool judge(std::uint32_t a, std::uint32_t b, Candidate& candidate);
-  bool place(const Point& a, const Point& b, Fit& fit);
+  std::size_t flip_each(std::vector<Edge> edges, int power, const Part& part);
+  std::size_t relocate_each(std::vector<std::uint32_t> vertices, int power, const Part& part);
   // A place of a triangle and the point of the reference or the cloud that it should be near.
   struct Witness {
     std::array<double, 3> at{};  // barycentric
@@ -107,8 +117,12 @@ class DecimationPasses {
     double share = 0;  // squared distance / limit^2
   };
   Witness worst_place(std::uint32_t slot) const;
-  double energy_of(std::uint32_t slot, int power);
-  std::vector<Edge> cheapest_collapses(std::size_t most);
+  double energy_of(std::uint32_t slot, double worst, int power) const;
+  using Judge = std::function<bool(EditProposer&, const Edge&, Collapse&)>;
+  std::vector<Collapse> judge_each(const std::vector<Edge>& edges, const Part& part,
+                                   const Judge& judge);
+  std::vector<Collapse> judge_each(const std::vector<Edge>& edges, const Part& part, int power);
+  std::vector<Edge> cheapest_collapses(std::size_t most, int power);
   bool untouched(std::uint32_t slot) const;
   void touch_around(std::uint32_t vertex);
   std::uint32_t spare_vertex(const Point& at, std::uint32_t near);
@@ -119,14 +133,11 @@ class DecimationPasses {
   void make_split();
   std::vector<std::uint32_t> vertices_around(const std::vector<std::uint32_t>& slots,
                                              int rings) const;
-  bool keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const;
   void make_collapse(std::uint32_t a, std::uint32_t b);
-  void push(std::uint32_t a, std::uint32_t b);
+  void push(const std::vector<Edge>& edges, const Part& part);
   bool try_plain_collapse(std::uint32_t a, std::uint32_t b, double most);
-  bool apply_collapse(const Candidate& candidate);
+  bool apply_collapse(const Collapse& collapse);
   bool settled();
-  bool try_relocation(std::uint32_t vertex, int power, bool limit);
-  bool try_flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
   void apply(bool keep_undo);
   bool mend(std::uint32_t vertex);
   bool all_within(const std::vector<std::uint32_t>& points) const;
@@ -135,11 +146,14 @@ class DecimationPasses {
   DecimationState& state_;
   Options options_;
   Poll poll_;
-  LocalSearch search_;
-  MeshEdit edit_;
-  int power_ = kPower;              // of the energy by which collapses are judged
+  KnownEdges known_;
+  std::vector<EditProposer> proposers_;  // of each thread
+  LocalSearch& search_;                  // of the thread that makes the edits
+  MeshEdit& edit_;
+  std::vector<Found> batch_;
+  IndependentEdits independent_;
   std::uint32_t spare_ = kNoIndex;  // a vertex that no triangle has
-  std::priority_queue<Candidate> queue_;
+  std::priority_queue<Collapse> queue_;
   std::vector<std::uint64_t> touched_;  // the edit that last changed the triangles of each vertex
   std::uint64_t edits_ = 0;
   std::uint64_t polls_ = 0;

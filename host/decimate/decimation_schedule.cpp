@@ -20,6 +20,7 @@ constexpr int kHighPower = 16;
 // With this share of the triangles left, nothing else is tried.
 constexpr double kMuch = 0.85;
 constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth reference
+constexpr int kTries = 3;        // of spreading the error
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
@@ -31,7 +32,8 @@ class Schedule {
         settings_(settings),
         lowers_energy_(settings.objective == DecimationSettings::Objective::kHoppe),
         weight_(lowers_energy_ || settings.effort == Effort::kSweep ? 1 : kSweeps),
-        passes_(state, std::move(options), [this](double done) { return advance(done); }) {}
+        passes_(state, std::move(options), settings.threads,
+                [this](double done) { return advance(done); }) {}
 
   ScheduledMesh run() {
     if (lowers_energy_) {
@@ -120,11 +122,17 @@ class Schedule {
     const FeatureEdges features = passes_.features();
     const double triangles = static_cast<double>(state_.mesh().triangles());
     const bool deep = settings_.effort == Effort::kDeep;
-    bool within = deep && even_out(ErrorEquidistribution::kLong);
-    if (!within) {
-      if (deep) go_back(before, features);
-      within = even_out(ErrorEquidistribution::kShort);
+    std::vector<DecimationPasses::Place> stuck;
+    bool within = deep && even_out(ErrorEquidistribution::kLong, stuck);
+    // What could not be restored is left as it was, in another try.
+    for (int i = 0; i < kTries && !within && !passes_.stopped(); ++i) {
+      const std::size_t known = stuck.size();
+      if (deep || i > 0) go_back(before, features);
+      passes_.hold_around(stuck);
+      within = even_out(ErrorEquidistribution::kShort, stuck);
+      if (stuck.size() == known) break;
     }
+    passes_.free();
     if (within) collapse_further(deep);
     if (within && static_cast<double>(state_.mesh().triangles()) < kMuch * triangles) return true;
     if (within) kept_ = state_.mesh().compact();
@@ -132,12 +140,13 @@ class Schedule {
     return false;
   }
 
-  bool even_out(const ErrorEquidistribution::Extent& extent) {
+  bool even_out(const ErrorEquidistribution::Extent& extent,
+                std::vector<DecimationPasses::Place>& stuck) {
     pass_share_ = kPassOfMany;
-    const bool within =
-        ErrorEquidistribution(state_, passes_, extent, [this](const char* pass, std::size_t edits) {
-          tell(pass, edits);
-        }).run();
+    ErrorEquidistribution even(state_, passes_, extent,
+                               [this](const char* pass, std::size_t edits) { tell(pass, edits); });
+    const bool within = even.run();
+    stuck.insert(stuck.end(), even.stuck().begin(), even.stuck().end());
     pass_share_ = kOtherPass;
     return within;
   }

@@ -7,12 +7,13 @@
 
 #include "host/geometry/triangle_pair.h"
 #include "sw_model/base/deliberate_fault.h"
+#include "sw_model/base/parallel.h"
 #include "sw_model/base/sort_once.h"
 
 namespace emax {
 namespace {
 
-constexpr std::uint32_t kPollEvery = 4096;
+constexpr std::size_t kPollEvery = 16384;
 
 // A normal, which consists of cross products, times a difference: each rounds by a few units of
 // 2^-53.
@@ -54,22 +55,39 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
 }
 
 bool DecimationState::reassign(const Interrupted& interrupted) {
-  std::uint32_t last = kNoIndex;
-  for (std::uint32_t p = 0; p < points_.size(); ++p) {
-    if (p % kPollEvery == 0 && interrupted && interrupted()) return false;
-    const std::uint32_t owner = assigned_.owner(p);
-    // Slightly more than the known distance, so that the point's triangle is found again.
-    const double known = owner == kNoIndex ? std::max(squared_limit_, guards_.squared_reach)
-                                           : assigned_.squared_distance(p);
-    const SlotTree::Nearest nearest =
-        tree_.nearest(mesh_, points_[p], known * (1 + 1e-9) + std::numeric_limits<double>::min(),
-                      owner == kNoIndex ? last : owner);
-    if (nearest.slot == kNoIndex) continue;
-    last = nearest.slot;
-    if (owner != kNoIndex && nearest.squared_distance >= assigned_.squared_distance(p)) continue;
-    assigned_.assign(p, nearest.slot, nearest.squared_distance);
+  constexpr std::size_t kPiece = 512;
+  std::vector<SlotTree::Nearest> nearest(std::min<std::size_t>(points_.size(), kPollEvery));
+  for (std::size_t begin = 0; begin < points_.size(); begin += kPollEvery) {
+    if (interrupted && interrupted()) return false;
+    const std::size_t count = std::min<std::size_t>(kPollEvery, points_.size() - begin);
+    in_pieces(guards_.threads, count, kPiece,
+              [&](std::size_t, std::size_t first, std::size_t last) {
+                std::uint32_t hint = kNoIndex;
+                for (std::size_t i = first; i < last; ++i) {
+                  nearest[i] = nearest_of(static_cast<std::uint32_t>(begin + i), hint);
+                  if (nearest[i].slot != kNoIndex) hint = nearest[i].slot;
+                }
+              });
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto p = static_cast<std::uint32_t>(begin + i);
+      const bool known = assigned_.owner(p) != kNoIndex;
+      if (nearest[i].slot == kNoIndex) continue;
+      if (known && nearest[i].squared_distance >= assigned_.squared_distance(p)) continue;
+      assigned_.assign(p, nearest[i].slot, nearest[i].squared_distance);
+    }
   }
   return true;
+}
+
+// Within slightly more than the known distance, so that the point's triangle is found again. The
+// hint is for points that have none.
+SlotTree::Nearest DecimationState::nearest_of(std::uint32_t point, std::uint32_t hint) const {
+  const std::uint32_t owner = assigned_.owner(point);
+  const double known = owner == kNoIndex ? std::max(squared_limit_, guards_.squared_reach)
+                                         : assigned_.squared_distance(point);
+  return tree_.nearest(mesh_, points_[point],
+                       known * (1 + 1e-9) + std::numeric_limits<double>::min(),
+                       owner == kNoIndex ? hint : owner);
 }
 
 std::uint32_t DecimationState::add_vertex(const Point& at) {

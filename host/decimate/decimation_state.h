@@ -38,6 +38,7 @@ class DecimationState {
     double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
     double flatness = 1e-3;      // least height of a triangle over its longest side
     double squared_reach = 0;    // if over the limit: points up to this far have a triangle
+    std::size_t threads = 1;     // that find the nearest triangles; change no byte
   };
 
   // `mesh` is manifold and consistently oriented, without degenerate triangles. Where triangles
@@ -157,6 +158,7 @@ class DecimationState {
     Point corner, normal;
     double roundings;  // bound of the rounding of normal times distance, divided by the distance
   };
+  SlotTree::Nearest nearest_of(std::uint32_t point, std::uint32_t hint) const;
   bool keeps_back_bound(const MeshEdit& edit);
   void cover_reference();
   bool meets_another(const MeshEdit& edit);

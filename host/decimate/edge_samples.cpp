@@ -23,6 +23,23 @@ void collect(const Triangle& t, std::vector<std::array<std::uint32_t, 2>>& edges
 
 }  // namespace
 
+const KnownEdges::Known* KnownEdges::find(const Map& map, std::uint64_t key, const Point& low,
+                                          const Point& high) {
+  const auto found = map.find(key);
+  const bool there = found != map.end() && found->second.low == low && found->second.high == high;
+  return there ? &found->second : nullptr;
+}
+
+void KnownEdges::keep(Map& fresh, const EditableMesh& mesh) {
+  if (known_.size() > kMostKnown * mesh.triangles()) known_.clear();
+  for (auto& [key, known] : fresh) {
+    const auto low = static_cast<std::uint32_t>(key >> 32), high = static_cast<std::uint32_t>(key);
+    const bool there = mesh.position(low) == known.low && mesh.position(high) == known.high;
+    if (there) known_[key] = std::move(known);
+  }
+  fresh.clear();
+}
+
 void EdgeSamples::take(std::span<const std::uint32_t> removed, std::span<const Triangle> added,
                        std::uint32_t vertex, std::uint32_t other) {
   before_.clear();
@@ -75,19 +92,19 @@ const std::vector<EdgePlace>& EdgeSamples::places(const Edge& edge) {
 // Of the edge that the first vertex has where it is, or is about to be.
 const std::vector<EdgePlace>& EdgeSamples::places_between(std::uint32_t from, const EdgeEnd& at,
                                                           std::uint32_t to) {
-  if (known_.size() > kMostKnown * state_.mesh().triangles()) known_.clear();
   EdgeEnd low = at, high = {state_.mesh().position(to), state_.sight(to)};
   if (from > to) {
     std::swap(from, to);
     std::swap(low, high);
   }
-  Known& known = known_[std::uint64_t{from} << 32 | to];
-  if (known.places.empty() || known.low != low.at || known.high != high.at) {
-    known.low = low.at;
-    known.high = high.at;
-    known.places = farthest_places(*state_.back(), low, high);
+  const std::uint64_t key = KnownEdges::key(from, to);
+  const KnownEdges::Known* known = KnownEdges::find(fresh_, key, low.at, high.at);
+  if (known == nullptr && known_ != nullptr) {
+    known = KnownEdges::find(known_->all(), key, low.at, high.at);
   }
-  return known.places;
+  if (known != nullptr) return known->places;
+  if (fresh_.size() > kMostKnown * state_.mesh().triangles()) fresh_.clear();
+  return (fresh_[key] = {low.at, high.at, farthest_places(*state_.back(), low, high)}).places;
 }
 
 bool EdgeSamples::permits(const Point& position, std::uint32_t vertex, double permitted) {

@@ -11,12 +11,35 @@
 
 namespace emax {
 
+// The farthest places of edges that were looked at, as long as the edges' ends stay.
+class KnownEdges {
+ public:
+  struct Known {
+    Point low, high;  // the ends, of the lower vertex first
+    std::vector<EdgePlace> places;
+  };
+  using Map = std::unordered_map<std::uint64_t, Known>;  // by key()
+
+  static std::uint64_t key(std::uint32_t low, std::uint32_t high) {
+    return std::uint64_t{low} << 32 | high;
+  }
+  static const Known* find(const Map& map, std::uint64_t key, const Point& low, const Point& high);
+  const Map& all() const { return known_; }
+  // Takes over those whose ends are where the mesh has them, and empties `fresh`.
+  void keep(Map& fresh, const EditableMesh& mesh);
+
+ private:
+  Map known_;
+};
+
 // Places on the edges that an edit changes, with their distances to the reference surface. Between
 // two pieces of surface the greatest distance may lie where edges cross, which neither points of
 // the cloud nor vertices show.
 class EdgeSamples {
  public:
-  explicit EdgeSamples(const DecimationState& state) : state_(state) {}
+  // `known` is read only; what is looked at anew is fresh() until it is taken.
+  explicit EdgeSamples(const DecimationState& state, const KnownEdges* known = nullptr)
+      : state_(state), known_(known) {}
 
   // Off at first: take() then takes none.
   void enable(bool on) { enabled_ = on; }
@@ -48,6 +71,8 @@ class EdgeSamples {
   void add_to(Eigen::Matrix3d& matrix, Point& right, const Point& position, double worst,
               int power) const;
 
+  KnownEdges::Map& fresh() { return fresh_; }
+
  private:
   struct Sample {
     std::uint32_t from;  // kNoIndex: the moving vertex
@@ -55,11 +80,6 @@ class EdgeSamples {
     EdgePlace at;
   };
   using Edge = std::array<std::uint32_t, 2>;
-  // The places of an edge, from its lower vertex, as long as its ends are there.
-  struct Known {
-    Point low, high;
-    std::vector<EdgePlace> places;
-  };
 
   const std::vector<EdgePlace>& places(const Edge& edge);
   const std::vector<EdgePlace>& places_between(std::uint32_t from, const EdgeEnd& at,
@@ -71,7 +91,8 @@ class EdgeSamples {
 
   const DecimationState& state_;
   bool enabled_ = false;
-  std::unordered_map<std::uint64_t, Known> known_;
+  const KnownEdges* known_;
+  KnownEdges::Map fresh_;
   std::vector<Sample> before_, after_;
   std::vector<Edge> edges_before_, edges_after_;  // of the triangles taken, each once
   std::uint32_t vertex_ = kNoIndex, other_ = kNoIndex;

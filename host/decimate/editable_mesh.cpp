@@ -9,8 +9,7 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh)
     : positions_(mesh.vertices),
       triangles_(mesh.triangles.size(), Triangle{kNoIndex, kNoIndex, kNoIndex}),
       first_(mesh.vertices.size(), kNoIndex),
-      next_(3 * mesh.triangles.size(), kNoIndex),
-      seen_(mesh.vertices.size(), 0) {
+      next_(3 * mesh.triangles.size(), kNoIndex) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) set(t, mesh.triangles[t]);
   closed_ = true;
   for (std::uint32_t v = 0; v < mesh.vertices.size() && closed_; ++v) {
@@ -21,7 +20,6 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh)
 std::uint32_t EditableMesh::add_vertex(const Point& at) {
   positions_.push_back(at);
   first_.push_back(kNoIndex);
-  seen_.push_back(0);
   return static_cast<std::uint32_t>(positions_.size() - 1);
 }
 
@@ -125,20 +123,20 @@ bool EditableMesh::collapsible(std::uint32_t a, std::uint32_t b) const {
     if (joined[0] && joined[1]) return false;
   }
   // Common neighbours other than the apexes.
-  const std::uint32_t seen = ++search_;
-  for_each_slot_at(b, [&](std::uint32_t slot) {
-    for (const std::uint32_t v : triangles_[slot]) seen_[v] = seen;
+  std::vector<std::uint32_t> of_a, of_b;
+  neighbours(a, of_a);
+  neighbours(b, of_b);
+  return std::ranges::none_of(of_a, [&](std::uint32_t v) {
+    return v != b && v != apex[0] && v != apex[1] && std::ranges::binary_search(of_b, v);
   });
-  for (const std::uint32_t v : {a, b, apex[0], apex[1]}) {
-    if (v != kNoIndex) seen_[v] = 0;
+}
+
+std::vector<std::uint32_t> EditableMesh::alive_slots() const {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t slot = 0; slot < triangles_.size(); ++slot) {
+    if (alive(slot)) slots.push_back(slot);
   }
-  bool shares_only_apexes = true;
-  for_each_slot_at(a, [&](std::uint32_t slot) {
-    for (const std::uint32_t v : triangles_[slot]) {
-      if (seen_[v] == seen) shares_only_apexes = false;
-    }
-  });
-  return shares_only_apexes;
+  return slots;
 }
 
 TriangleMesh EditableMesh::compact() const {

@@ -13,8 +13,8 @@ inline constexpr std::uint32_t kNoIndex = ~0u;
 
 // A manifold triangle mesh that is edited in place. Triangles are stored in slots; those of a
 // vertex form a list through their corners. Slots and vertices keep their numbers; compact() skips
-// free ones. Every operation costs O(triangles around the vertices it names). Not for concurrent
-// use.
+// free ones. Every operation costs O(triangles around the vertices it names). Several threads
+// may read at once.
 class EditableMesh {
  public:
   explicit EditableMesh(const TriangleMesh& mesh);
@@ -28,6 +28,7 @@ class EditableMesh {
 
   bool alive(std::uint32_t slot) const { return triangles_[slot][0] != kNoIndex; }
   bool used(std::uint32_t vertex) const { return first_[vertex] != kNoIndex; }
+  std::vector<std::uint32_t> alive_slots() const;
   const Triangle& triangle(std::uint32_t slot) const { return triangles_[slot]; }
   const Point& position(std::uint32_t vertex) const { return positions_[vertex]; }
   std::span<const Point> positions() const { return positions_; }
@@ -70,10 +71,8 @@ class EditableMesh {
 
   std::vector<Point> positions_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> first_;         // of each vertex, 3 * slot + place
-  std::vector<std::uint32_t> next_;          // of each corner
-  mutable std::vector<std::uint32_t> seen_;  // the last search that reached each vertex
-  mutable std::uint32_t search_ = 0;
+  std::vector<std::uint32_t> first_;  // of each vertex, 3 * slot + place
+  std::vector<std::uint32_t> next_;   // of each corner
   std::size_t alive_ = 0;
   bool closed_ = false;
 };

@@ -23,22 +23,17 @@ std::vector<std::uint32_t> worst_first(std::vector<std::pair<double, std::uint32
 
 }  // namespace
 
-double DecimationPasses::worst_of(std::uint32_t slot) {
-  double worst = 0;
-  state_.assigned().for_each(slot, [&](std::uint32_t p) {
-    worst = std::max(worst, state_.assigned().squared_distance(p) / state_.squared_limit());
+std::vector<double> DecimationPasses::worst_of(const std::vector<std::uint32_t>& slots) {
+  std::vector<double> worst(slots.size(), 0);
+  propose_each(slots.size(), {}, [&](EditProposer& proposer, std::size_t i) {
+    worst[i] = proposer.search().worst_of(slots[i]);
+    return false;
   });
-  if (state_.back() == nullptr) return worst;
-  const Triangle& t = state_.mesh().triangle(slot);
-  for (std::size_t i = 0; i < 3; ++i) {
-    worst =
-        std::max({worst, state_.sight(t[i]).share, search_.worst_on_edge(t[i], t[(i + 1) % 3])});
-  }
   return worst;
 }
 
-double DecimationPasses::energy_of(std::uint32_t slot, int power) {
-  double energy = power_of(worst_of(slot), power);
+double DecimationPasses::energy_of(std::uint32_t slot, double worst, int power) const {
+  double energy = power_of(worst, power);
   state_.assigned().for_each(slot, [&](std::uint32_t p) {
     energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   });
@@ -46,16 +41,17 @@ double DecimationPasses::energy_of(std::uint32_t slot, int power) {
 }
 
 std::vector<std::uint32_t> DecimationPasses::beyond_limit() {
-  const EditableMesh& mesh = state_.mesh();
-  std::vector<std::pair<double, std::uint32_t>> found;
-  for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
-    if (!mesh.alive(slot)) continue;
+  std::vector<std::uint32_t> slots = state_.mesh().alive_slots();
+  std::erase_if(slots, [&](std::uint32_t slot) {
     bool beyond = state_.breaks_back_bound(slot);
     state_.assigned().for_each(slot, [&](std::uint32_t p) {
       beyond = beyond || state_.assigned().squared_distance(p) > state_.squared_limit();
     });
-    if (beyond) found.emplace_back(worst_of(slot), slot);
-  }
+    return !beyond;
+  });
+  const std::vector<double> worst = worst_of(slots);
+  std::vector<std::pair<double, std::uint32_t>> found;
+  for (std::size_t i = 0; i < slots.size(); ++i) found.emplace_back(worst[i], slots[i]);
   return worst_first(std::move(found));
 }
 
@@ -74,38 +70,30 @@ void DecimationPasses::touch_around(std::uint32_t vertex) {
 }
 
 // At most so many edges, whose collapses into the optimum of the planes' quadrics add least energy.
-std::vector<DecimationPasses::Edge> DecimationPasses::cheapest_collapses(std::size_t most) {
-  std::vector<std::pair<double, Edge>> rated;
-  const std::vector<Edge> all = edges();
-  for (std::size_t i = 0; i < all.size() && !poll(i, all.size()); ++i) {
-    Fit fit;
-    if (!search_.prepare_collapse(all[i][0], all[i][1])) continue;
-    if (!search_.evaluate(search_.quadric_optimum(), power_, fit)) continue;
-    rated.emplace_back(fit.energy - search_.energy_before(power_), all[i]);
-  }
-  std::ranges::sort(rated);
+std::vector<DecimationPasses::Edge> DecimationPasses::cheapest_collapses(std::size_t most,
+                                                                         int power) {
+  std::vector<Collapse> rated = judge_each(
+      edges(), {{0, 0.5}}, [power](EditProposer& proposer, const Edge& e, Collapse& collapse) {
+        return proposer.rate(e[0], e[1], power, collapse);
+      });
+  std::ranges::sort(rated, [](const Collapse& c, const Collapse& d) { return d < c; });
   if (rated.size() > most) rated.resize(most);
   std::vector<Edge> cheapest;
-  for (const auto& [cost, edge] : rated) cheapest.push_back(edge);
+  for (const Collapse& c : rated) cheapest.push_back({c.a, c.b});
   return cheapest;
 }
 
 std::size_t DecimationPasses::collapse_to(std::size_t target, int power) {
   const EditableMesh& mesh = state_.mesh();
-  power_ = power;
   std::size_t collapses = 0;
   for (bool any = true; any && mesh.triangles() > target && !stopped_;) {
     const std::size_t wanted = (mesh.triangles() - target + 1) / 2;
-    const std::vector<Edge> cheapest = cheapest_collapses(kJudged * (wanted + 1));
-    std::vector<Candidate> candidates;
-    for (std::size_t i = 0; i < cheapest.size() && !poll(i, cheapest.size()); ++i) {
-      Candidate candidate;
-      if (judge(cheapest[i][0], cheapest[i][1], candidate)) candidates.push_back(candidate);
-    }
-    std::ranges::sort(candidates, [](const Candidate& c, const Candidate& d) { return d < c; });
+    const std::vector<Edge> cheapest = cheapest_collapses(kJudged * (wanted + 1), power);
+    std::vector<Collapse> candidates = judge_each(cheapest, {{0.5, 1}}, power);
+    std::ranges::sort(candidates, [](const Collapse& c, const Collapse& d) { return d < c; });
     touched_.assign(mesh.vertex_slots(), 0);
     any = false;
-    for (const Candidate& candidate : candidates) {
+    for (const Collapse& candidate : candidates) {
       if (mesh.triangles() <= target || stopped_) break;
       if (touched_[candidate.a] != 0 || touched_[candidate.b] != 0) continue;
       if (!apply_collapse(candidate)) continue;
@@ -114,7 +102,6 @@ std::size_t DecimationPasses::collapse_to(std::size_t target, int power) {
       any = true;
     }
   }
-  power_ = kPower;
   return collapses;
 }
 
@@ -176,9 +163,11 @@ std::size_t DecimationPasses::split_to(std::size_t target, int power) {
   const EditableMesh& mesh = state_.mesh();
   std::size_t splits = 0;
   while (mesh.triangles() < target && !stopped_) {
+    const std::vector<std::uint32_t> slots = mesh.alive_slots();
+    const std::vector<double> worst = worst_of(slots);
     std::vector<std::pair<double, std::uint32_t>> energies;
-    for (std::uint32_t slot = 0; slot < mesh.slots(); ++slot) {
-      if (mesh.alive(slot)) energies.emplace_back(energy_of(slot, power), slot);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      energies.emplace_back(energy_of(slots[i], worst[i], power), slots[i]);
     }
     const std::size_t made =
         split(worst_first(std::move(energies)), power, (target - mesh.triangles() + 1) / 2);
@@ -218,20 +207,26 @@ DecimationPasses::Witness DecimationPasses::worst_place(std::uint32_t slot) cons
   return worst;
 }
 
-// At an edge where the place is close to it or the triangle cannot be split inside.
+// At an edge where the place is close to it, else inside; where that cannot be, the other way.
 bool DecimationPasses::try_split_at(std::uint32_t slot, const Witness& witness, int power) {
-  constexpr double kInside = 0.15;
+  constexpr double kInside = 0.15, kLeastInside = 0.02;
   const std::array<Point, 3> c = state_.mesh().corners(slot);
   const Triangle t = state_.mesh().triangle(slot);
   const auto least =
       static_cast<std::size_t>(std::ranges::min_element(witness.at) - witness.at.begin());
   const std::uint32_t a = t[(least + 1) % 3], b = t[(least + 2) % 3];
-  const Point place = witness.at[0] * c[0] + witness.at[1] * c[1] + witness.at[2] * c[2];
+  const auto at = [&](const std::array<double, 3>& weights) {
+    return Point((weights[0] * c[0] + weights[1] * c[1] + weights[2] * c[2]) /
+                 (weights[0] + weights[1] + weights[2]));
+  };
+  std::array<double, 3> on_edge = witness.at;
+  on_edge[least] = 0;
   LocalSearch::Options options;
   options.power = power;
-  for (const bool inside : {true, false}) {
-    if (inside && witness.at[least] < kInside) continue;
-    if (!inside && options_.features.on(a, b)) continue;
+  const bool far_inside = witness.at[least] >= kInside;
+  for (const bool inside : {far_inside, !far_inside}) {
+    if (inside ? witness.at[least] < kLeastInside : options_.features.on(a, b)) continue;
+    const Point place = at(inside ? witness.at : on_edge);
     const std::uint32_t vertex = spare_vertex(place, a);
     if (!(inside ? search_.prepare_split(slot, vertex) : search_.prepare_split(a, b, vertex))) {
       continue;
@@ -281,15 +276,15 @@ std::vector<std::uint32_t> DecimationPasses::vertices_around(
 
 std::size_t DecimationPasses::relax_around(const std::vector<std::uint32_t>& slots, int rings,
                                            int power) {
-  const std::vector<std::uint32_t> vertices = vertices_around(slots, rings);
+  std::vector<std::uint32_t> vertices = vertices_around(slots, rings);
   std::vector<Edge> edges;
   for (const std::uint32_t v : vertices) {
     state_.mesh().neighbours(v, around_);
     for (const std::uint32_t w : around_) edges.push_back({std::min(v, w), std::max(v, w)});
   }
   sort_once(edges);
-  const std::size_t flips = flip_each(edges, power, 0, 0.5);
-  return flips + relocate_each(vertices, power, 0.5);
+  const std::size_t flips = flip_each(std::move(edges), power, {{0, 0.5}});
+  return flips + relocate_each(std::move(vertices), power, {{0.5, 1}});
 }
 
 }  // namespace emax

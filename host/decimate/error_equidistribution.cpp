@@ -13,15 +13,19 @@ constexpr int kSureLastExchanges = 2;
 // within the limit, if the error falls with the area. High powers that come later allow fewer.
 constexpr double kQuantile = 0.9, kFewerLater = 0.93, kLastQuantile = 0.95;
 constexpr double kCollapsed = 0.93, kLastCollapsed = 0.97;  // of these, before splits fill up
-constexpr double kMostAdded = 1.1;  // times the triangles before an exchange
+// The quantile may be that of triangles over gaps and folds, which no number brings within the
+// limit. So it counts as at most so many times the median, and an exchange leaves at most so many
+// times the triangles before.
+constexpr double kMostOfMedian = 1.17, kMostAdded = 1.1;
 constexpr double kEnough = 0.99;  // an exchange that would leave more than this share gains little
 constexpr int kRings = 3;
 constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be restored
-constexpr double kFewBeyond = 0.005;  // share of the triangles that is left to exact restoration
+constexpr double kFewBeyond = 0.02;   // share of the triangles that is left to exact restoration
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
-constexpr int kVainRepairs = 10;                  // in a row
-constexpr int kTries = 3;                         // of the exact limits
+constexpr int kVainRepairs = 6;                   // in a row
+constexpr int kTries = 2;                         // of the exact limits
 constexpr int kFirstRestorations = 2;             // rounds without splits
+constexpr double kStuckRadius = 1.5;              // times the longest edge of what is stuck
 // What restoration leaves even has room for fewer: of a mesh within its limits, and at most so many
 // times its triangles while the limits are restored again.
 constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhileThinning = 1.05;
@@ -80,9 +84,7 @@ void ErrorEquidistribution::relax_around(const std::vector<std::uint32_t>& slots
   tell_("relaxations", passes_.relax_around(slots, kRings, power));
 }
 
-// Takes triangles where they cost least energy and adds some where there is most. The quantile may
-// be that of triangles over gaps and folds, which no number brings within the limit; so not many
-// more are left than there were.
+// Takes triangles where they cost least energy and adds some where there is most.
 void ErrorEquidistribution::exchange(double quantile, double share, double collapsed, int power) {
   const auto fit = static_cast<std::size_t>(share * static_cast<double>(fitting(quantile)));
   const auto most = kMostAdded * static_cast<double>(state_.mesh().triangles());
@@ -109,15 +111,16 @@ void ErrorEquidistribution::exchange_at_last() {
 }
 
 // The number of triangles with which a share of them would be within the limit.
-std::size_t ErrorEquidistribution::fitting(double quantile) const {
-  std::vector<double> worst;
-  for (std::uint32_t slot = 0; slot < state_.mesh().slots(); ++slot) {
-    if (state_.mesh().alive(slot)) worst.push_back(passes_.worst_of(slot));
-  }
-  const auto last = static_cast<double>(worst.size() - 1);
-  const auto at = worst.begin() + static_cast<std::ptrdiff_t>(quantile * last);
-  std::ranges::nth_element(worst, at);
-  return static_cast<std::size_t>(std::sqrt(*at) * static_cast<double>(worst.size()));
+std::size_t ErrorEquidistribution::fitting(double quantile) {
+  std::vector<double> worst = passes_.worst_of(state_.mesh().alive_slots());
+  const auto distance = [&](double share) {
+    const auto last = static_cast<double>(worst.size() - 1);
+    const auto at = worst.begin() + static_cast<std::ptrdiff_t>(share * last);
+    std::ranges::nth_element(worst, at);
+    return std::sqrt(*at);
+  };
+  const double aimed = std::min(distance(quantile), kMostOfMedian * distance(0.5));
+  return static_cast<std::size_t>(aimed * static_cast<double>(worst.size()));
 }
 
 // Of the limits as they are in the end, worst first.
@@ -178,7 +181,22 @@ bool ErrorEquidistribution::restore_exactly() {
     if (i % 4 == 2 && i > 2) tell_("collapses", passes_.collapse_at(beyond));
     for (const int power : {32, 32, 16}) relax_around(beyond, power);
   }
-  return !passes_.stopped() && state_.keep_limits();
+  if (passes_.stopped()) return false;
+  if (state_.keep_limits()) return true;
+  std::vector<std::uint32_t> stuck = passes_.beyond_limit();
+  const std::vector<std::uint32_t> around = state_.around_unproven();
+  stuck.insert(stuck.end(), around.begin(), around.end());
+  note_stuck(stuck);
+  return false;
+}
+
+void ErrorEquidistribution::note_stuck(const std::vector<std::uint32_t>& slots) {
+  stuck_.clear();
+  for (const std::uint32_t slot : slots) {
+    const auto [a, b, c] = state_.mesh().corners(slot);
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    stuck_.push_back({(a + b + c) / 3, kStuckRadius * longest});
+  }
 }
 
 }  // namespace emax

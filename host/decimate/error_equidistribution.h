@@ -34,23 +34,27 @@ class ErrorEquidistribution {
   // Returns whether every limit holds in the end. If not, not all could be restored, or the passes
   // were stopped.
   bool run();
+  // Where the limits could not be restored.
+  const std::vector<DecimationPasses::Place>& stuck() const { return stuck_; }
 
  private:
   void relax(int power, int rounds);
   void relax_around(const std::vector<std::uint32_t>& slots, int power);
   void exchange(double quantile, double share, double collapsed, int power);
   void exchange_at_last();
-  std::size_t fitting(double quantile) const;
+  std::size_t fitting(double quantile);
   std::vector<std::uint32_t> beyond_limit();
   bool restore(double most);
   bool restore_loosely(double most, double few);
   bool restore_exactly();
   bool thin();
+  void note_stuck(const std::vector<std::uint32_t>& slots);
 
   DecimationState& state_;
   DecimationPasses& passes_;
   const Extent extent_;
   Tell tell_;
+  std::vector<DecimationPasses::Place> stuck_;
 };
 
 }  // namespace emax

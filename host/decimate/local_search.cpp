@@ -393,6 +393,19 @@ bool LocalSearch::serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer)
   return state_.permits_point(point, answer.squared_distance);
 }
 
+double LocalSearch::worst_of(std::uint32_t slot) {
+  double worst = 0;
+  state_.assigned().for_each(slot, [&](std::uint32_t p) {
+    worst = std::max(worst, state_.assigned().squared_distance(p) / state_.squared_limit());
+  });
+  if (state_.back() == nullptr) return worst;
+  const Triangle& t = state_.mesh().triangle(slot);
+  for (std::size_t i = 0; i < 3; ++i) {
+    worst = std::max({worst, state_.sight(t[i]).share, samples_.worst_on(t[i], t[(i + 1) % 3])});
+  }
+  return worst;
+}
+
 double LocalSearch::share_of_middle(const std::array<Point, 3>& corners, std::uint32_t near) const {
   return state_.back()->sight((corners[0] + corners[1] + corners[2]) / 3, near).share;
 }

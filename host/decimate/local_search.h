@@ -20,7 +20,7 @@ struct Fit {
 
 // Finds the best form of one local edit of a state: prepare an edit, fit it, take its MeshEdit.
 // Distances are those to the edit's own triangles. Only for points beyond the limit the triangles
-// around the edit are also tried.
+// around the edit are also tried. Several threads may search in one state, each for itself.
 class LocalSearch {
  public:
   struct Options {
@@ -30,8 +30,9 @@ class LocalSearch {
   };
 
   // The energy includes `spring` times the edges' squared lengths, in units of epsilon^2.
-  explicit LocalSearch(const DecimationState& state, double spring = 0)
-      : state_(state), spring_(spring), samples_(state) {}
+  explicit LocalSearch(const DecimationState& state, double spring = 0,
+                       const KnownEdges* known = nullptr)
+      : state_(state), spring_(spring), samples_(state, known) {}
 
   // How a vertex approaches its optimum. kReweighted: least squares, weighted so that they
   // approximate the sum of powers, with a fixed damping. kNewton: Newton's steps on the sum of
@@ -66,8 +67,12 @@ class LocalSearch {
   // permitted or, with `limit`, if a point is beyond the limit.
   bool finish(const Fit& fit, bool limit, MeshEdit& edit);
 
-  // The greatest squared distance / epsilon^2 of an edge of the mesh to the reference.
-  double worst_on_edge(std::uint32_t a, std::uint32_t b) { return samples_.worst_on(a, b); }
+  // Greatest squared distance / epsilon^2 that a triangle answers for: of its points, its vertices
+  // and its edges.
+  double worst_of(std::uint32_t slot);
+
+  // The edges that were looked at and that `known` did not know.
+  KnownEdges::Map& fresh() { return samples_.fresh(); }
 
   // Whether the mesh is still about as fine as the cloud here. Errors are then far from the limit,
   // and one good position is enough.

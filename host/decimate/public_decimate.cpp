@@ -24,6 +24,7 @@ Decimation decimate(OwnedSurface given, const std::vector<Point>& cloud,
   require_no_flush_of_caller();
   if (!(options.max_error > 0)) throw Error("max_error: a positive number");
   if (!(options.max_back_error >= 0)) throw Error("max_back_error: a number of at least 0");
+  if (options.threads == 0) throw Error("threads: a number of at least 1");
   if (!(options.feature_angle >= 0)) throw Error("feature_angle: a number of at least 0");
   CertifiedDecimationSettings settings;
   settings.decimation.epsilon = options.max_error;
@@ -31,6 +32,7 @@ Decimation decimate(OwnedSurface given, const std::vector<Point>& cloud,
   settings.decimation.two_sided = options.two_sided;
   settings.decimation.effort = effort_of(options.effort);
   settings.decimation.feature_angle = options.feature_angle;
+  settings.decimation.threads = options.threads;
   settings.decimation.interrupted = options.interrupted;
   settings.decimation.advanced = options.progress;
 

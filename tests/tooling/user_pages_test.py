@@ -47,7 +47,7 @@ def main():
         os.symlink(ROOT / "data", Path(folder) / "data")
         for page in PAGES:
             text = (ROOT / f"docs/user/{page}.md").read_text()
-            for command, shown in examples(text.replace("940", "941") if fault else text):
+            for command, shown in examples(text.replace("928", "929") if fault else text):
                 printed = subprocess.run([emax, *command.split()], cwd=folder, stdout=subprocess.PIPE, text=True).stdout
                 different = first_difference(shown, [re.sub(VARYING, "", line) for line in printed.splitlines()])
                 if different is not None:

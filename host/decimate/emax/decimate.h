@@ -36,6 +36,8 @@ struct DecimateOptions {
   // Edges over which the normals turn by more than this stay within epsilon, and their corners in
   // place. In degrees; 0: none.
   double feature_angle = 0;
+  // Threads to work with. The result is the same for any number.
+  std::size_t threads = 1;
   // Called from time to time; true ends the work with the mesh reached so far, which keeps every
   // bound.
   std::function<bool()> interrupted = nullptr;

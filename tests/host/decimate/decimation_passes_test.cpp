@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <set>
+
 #include "host/geometry/mesh_validity.h"
 #include "tests/host/support/surfaces.h"
 
@@ -13,7 +16,7 @@ struct Bench {
   Bench(const TriangleMesh& mesh, double limit, std::vector<Point> points = {})
       : cloud(points.empty() ? mesh.vertices : std::move(points)),
         state(mesh, cloud, nullptr, limit * limit, {}),
-        passes(state, {}, [this](double done) {
+        passes(state, {}, 1, [this](double done) {
           told.push_back(done);
           return stop;
         }) {}
@@ -122,6 +125,40 @@ TEST(DecimationPasses, MendingCollapsesWhatCollapsesAloneCannot) {
   EXPECT_GT(mended, 0u);
   EXPECT_EQ(bench.state.mesh().triangles(), before - 2 * mended);
   bench.expect_all_within();
+}
+
+// What is held keeps its triangles.
+TEST(DecimationPasses, NothingMovesWhereVerticesAreHeld) {
+  Bench bench(bumpy(30, 50), 0.02);
+  const TriangleMesh before = bench.state.mesh().compact();
+  const auto held = [&](const Point& p) { return (p - before.vertices[700]).norm() <= 0.5; };
+  const auto triangles_held = [&](const TriangleMesh& mesh) {
+    std::set<std::array<std::array<double, 3>, 3>> all;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const std::array<Point, 3> c = mesh.view().corners(t);
+      if (!std::ranges::all_of(c, held)) continue;
+      std::array<std::array<double, 3>, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = {c[i][0], c[i][1], c[i][2]};
+      std::ranges::sort(corners);
+      all.insert(corners);
+    }
+    return all;
+  };
+  const auto run = [&] {
+    bench.passes.sweep();
+    bench.passes.collapse();
+    bench.passes.flip(4);
+    bench.passes.relocate(4);
+    bench.passes.collapse_and_mend();
+    return bench.state.mesh().compact();
+  };
+  bench.passes.hold_around({{before.vertices[700], 0.5}});
+  const TriangleMesh around = run();
+  EXPECT_GT(triangles_held(before).size(), 50u);
+  EXPECT_TRUE(std::ranges::includes(triangles_held(around), triangles_held(before)));
+  EXPECT_LT(around.triangles.size(), before.triangles.size() / 2);
+  bench.passes.free();
+  EXPECT_LT(triangles_held(run()).size(), triangles_held(before).size() / 2);
 }
 
 TEST(DecimationPasses, TellHowFarTheyAreAndEndWhenToldTo) {

@@ -37,7 +37,7 @@ struct Bench {
         back(reference, limit),
         cloud(with_samples(reference)),
         state(reference, cloud, &back, limit * limit, {}, nullptr, reference.triangles),
-        passes(state, {}, [this](double) { return polls == 0 || --polls == 0; }) {}
+        passes(state, {}, 2, [this](double) { return polls == 0 || --polls == 0; }) {}
 
   bool run(const ErrorEquidistribution::Extent& extent = ErrorEquidistribution::kLong) {
     return ErrorEquidistribution(state, passes, extent,
@@ -112,9 +112,33 @@ TEST(ErrorEquidistribution, RestoresTheLimitsOverARoughReference) {
   bench.expect_within();
 }
 
+// The point is farther from the reference than the mesh may go towards it.
+TEST(ErrorEquidistribution, SaysWhereTheLimitsCannotBeRestored) {
+  const TriangleMesh reference = sheet(24, 0.3);
+  const double limit = 0.02;
+  const Point far = reference.vertices[300] + Point(0, 0, 2.6 * limit);
+  const BackBound back(reference, limit);
+  std::vector<Point> cloud = with_samples(reference);
+  cloud.push_back(far);
+  DecimationState::Guards guards;
+  guards.squared_reach = 9 * limit * limit;
+  DecimationState state(reference, cloud, &back, limit * limit, guards, nullptr,
+                        reference.triangles);
+  DecimationPasses passes(state, {}, 1, nullptr);
+  passes.sweep();
+  passes.collapse();
+  ErrorEquidistribution even(state, passes, ErrorEquidistribution::kShort,
+                             [](const char*, std::size_t) {});
+  EXPECT_FALSE(even.run());
+  ASSERT_FALSE(even.stuck().empty());
+  for (const DecimationPasses::Place& place : even.stuck()) {
+    EXPECT_LT((place.at - far).norm(), place.radius + 3 * limit);
+  }
+}
+
 // Stopped while it thins, it leaves the last mesh within its limits.
 TEST(ErrorEquidistribution, ThinsWhatIsWithinTheLimits) {
-  const TriangleMesh surface = sheet(40, 0.3);
+  const TriangleMesh surface = sheet(30, 0.3);
   ErrorEquidistribution::Extent extent = ErrorEquidistribution::kLong;
   extent.thinnings = 0;
   Bench plain(surface, 0.01), thinned(surface, 0.01), stopped(surface, 0.01);

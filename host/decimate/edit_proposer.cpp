@@ -1,0 +1,171 @@
+#include "host/decimate/edit_proposer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace emax {
+namespace {
+
+constexpr double kHopeless = 4;    // squared distance / limit^2 from which finer steps do not help
+constexpr double kMendable = 2.5;  // squared distance / limit^2 up to which mending is tried
+constexpr double kNothing = 1e-8;  // an energy too small to be worth a move
+constexpr double kNothingOfHighPowers = 1e-30;
+
+// The least share of its energy that a move or flip gains. Where it is of a high power, the
+// distances gain that share over the power.
+double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
+
+}  // namespace
+
+bool EditProposer::keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const {
+  return options_.features.stays_near(a, b, at, state_.mesh().positions(), state_.squared_limit());
+}
+
+bool EditProposer::judge(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse) {
+  if (options_.holds(a) || options_.holds(b)) return false;
+  const FeatureEdges::Collapse feature = options_.features.permitted(a, b);
+  if (feature == FeatureEdges::Collapse::kForbidden) return false;
+  if (!search_.prepare_collapse(a, b)) return false;
+  const Point pa = state_.mesh().position(a), pb = state_.mesh().position(b);
+  const bool hoppe = options_.representation > 0;
+  if (hoppe) power = 2;
+  const double before = search_.energy_before(power) + options_.representation;
+  Fit fit;
+  if (feature == FeatureEdges::Collapse::kAlong) {
+    if (!judge_along_feature(a, b, power, fit)) return false;
+  } else if (feature != FeatureEdges::Collapse::kAnywhere) {
+    const Point& kept = feature == FeatureEdges::Collapse::kAtFirst ? pa : pb;
+    if (!search_.evaluate(kept, power, fit)) return false;
+    if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
+  } else if (hoppe) {
+    if (!judge_for_hoppe(pa, pb, fit)) return false;
+  } else if (!judge_free(pa, pb, power, fit)) {
+    return false;
+  }
+  if (hoppe && !(fit.energy < before)) return false;
+  if (!keeps_features(a, b, fit.position)) return false;
+  collapse.a = a;
+  collapse.b = b;
+  collapse.cost = fit.energy - before;
+  collapse.fit = std::move(fit);
+  return true;
+}
+
+// The optimum of the planes' quadrics is where the sides of the feature meet.
+bool EditProposer::judge_along_feature(std::uint32_t a, std::uint32_t b, int power, Fit& fit) {
+  for (const Point& at :
+       {search_.quadric_optimum(), state_.mesh().position(a), state_.mesh().position(b)}) {
+    if (keeps_features(a, b, at) && search_.evaluate(at, power, fit) && fit.worst <= 1) return true;
+  }
+  return false;
+}
+
+bool EditProposer::judge_for_hoppe(const Point& pa, const Point& pb, Fit& fit) {
+  LocalSearch::Options options;
+  options.power = 2;
+  bool any = false;
+  for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
+    Fit other;
+    if (!search_.fit(start, options, other)) continue;
+    if (!any || other.energy < fit.energy) fit = other;
+    any = true;
+  }
+  return any && fit.worst <= 1;
+}
+
+// Finds the position where the energy of the prepared collapse is least. Returns whether it may be
+// within the limit.
+bool EditProposer::judge_free(const Point& pa, const Point& pb, int power, Fit& fit) {
+  LocalSearch::Options options;
+  options.power = power;
+  if (search_.fine()) options.steps = 0;
+  bool any = search_.fit(search_.quadric_optimum(), options, fit);
+  for (const Point& start : {Point(0.5 * (pa + pb)), pa, pb}) {
+    if (any) break;
+    any = search_.fit(start, options, fit);
+  }
+  if (!any || fit.worst > kHopeless) return false;
+  if (fit.worst <= state_.permitted()) return true;
+  if (state_.loosened()) return false;
+  options.power = 8;
+  options.steps = 8;
+  Fit finer;
+  if (search_.fit(fit.position, options, finer) && finer.worst < fit.worst) {
+    search_.evaluate(finer.position, 4, fit);
+  }
+  return fit.worst <= 1 || search_.finish(fit, true, edit_);
+}
+
+bool EditProposer::may_collapse(std::uint32_t a, std::uint32_t b) const {
+  return !options_.holds(a) && !options_.holds(b) &&
+         options_.features.permitted(a, b) == FeatureEdges::Collapse::kAnywhere;
+}
+
+bool EditProposer::judge_beyond(std::uint32_t a, std::uint32_t b, Collapse& collapse) {
+  if (!may_collapse(a, b) || !search_.prepare_collapse(a, b)) return false;
+  LocalSearch::Options options;
+  options.power = 8;
+  options.steps = 8;
+  bool any = false;
+  const Point middle = 0.5 * (state_.mesh().position(a) + state_.mesh().position(b));
+  for (const Point& start : {search_.quadric_optimum(), middle}) {
+    Fit fit;
+    if (!search_.fit(start, options, fit)) continue;
+    if (!any || fit.worst < collapse.fit.worst) collapse.fit = fit;
+    any = true;
+  }
+  collapse.a = a;
+  collapse.b = b;
+  collapse.cost = collapse.fit.worst;
+  return any && collapse.cost <= kMendable;
+}
+
+bool EditProposer::rate(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse) {
+  Fit fit;
+  if (options_.holds(a) || options_.holds(b) || !search_.prepare_collapse(a, b)) return false;
+  if (!search_.evaluate(search_.quadric_optimum(), power, fit)) return false;
+  collapse.a = a;
+  collapse.b = b;
+  collapse.cost = fit.energy - search_.energy_before(power);
+  return true;
+}
+
+bool EditProposer::plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
+  if (!may_collapse(a, b) || !search_.prepare_collapse(a, b)) return false;
+  LocalSearch::Options options;
+  options.steps = 0;
+  Fit fit;
+  if (!search_.fit(search_.quadric_optimum(), options, fit) || fit.worst > most) return false;
+  return keeps_features(a, b, fit.position) && search_.finish(fit, true, edit_);
+}
+
+bool EditProposer::relocation(std::uint32_t vertex, int power, bool limit) {
+  if (options_.features.fixed(vertex) || options_.holds(vertex)) return false;
+  if (!search_.prepare_relocation(vertex)) return false;
+  const double before = search_.energy_before(power);
+  if (before < (power > 4 ? kNothingOfHighPowers : kNothing)) return false;
+  Fit fit;
+  LocalSearch::Options options;
+  options.power = power;
+  if (!search_.fit(state_.mesh().position(vertex), options, fit)) return false;
+  return fit.energy < before * (1 - least_gain(power)) && search_.finish(fit, limit, edit_);
+}
+
+// Whether a corner of one of the two triangles is held.
+bool EditProposer::holds_flip(std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::any_of(state_.mesh().slots_at_edge(a, b), [&](std::uint32_t slot) {
+    return slot != kNoIndex &&
+           std::ranges::any_of(state_.mesh().triangle(slot),
+                               [&](std::uint32_t v) { return options_.holds(v); });
+  });
+}
+
+bool EditProposer::flip(std::uint32_t a, std::uint32_t b, int power, bool limit) {
+  if (options_.features.on(a, b) || holds_flip(a, b) || !search_.prepare_flip(a, b)) return false;
+  const double before = search_.energy_before(power);
+  Fit fit;
+  return search_.evaluate(Point::Zero(), power, fit, before * (1 - least_gain(power))) &&
+         search_.finish(fit, limit, edit_);
+}
+
+}  // namespace emax
