@@ -82,35 +82,35 @@ bool DecimationPasses::poll(double done) {
 
 bool DecimationPasses::poll(std::size_t at, std::size_t of) { return poll(share_of(at, of)); }
 
-// Calls propose(proposer, i) for each i of [first, last) on all threads; then, in order, make(edit)
-// where that returned true.
-void DecimationPasses::propose_batch(std::size_t first, std::size_t last, const Propose& propose,
-                                     const Make& make) {
+// Calls propose(proposer, i) for each i of [first, last); then, in order, make(edit) where that
+// returned true.
+void DecimationPasses::propose_batch(std::size_t first, std::size_t last, std::size_t threads,
+                                     const Propose& propose, const Make& make) {
   known_.keep(search_.fresh(), state_.mesh());
-  in_pieces(proposers_.size(), last - first, 1,
-            [&](std::size_t thread, std::size_t item, std::size_t) {
-              EditProposer& proposer = proposers_[thread];
-              Found& found = batch_[item];
-              found.any = propose(proposer, first + item);
-              std::swap(found.edit, proposer.edit());
-              found.looked_at.clear();
-              std::swap(found.looked_at, proposer.search().fresh());
-            });
+  in_pieces(threads, last - first, 1, [&](std::size_t thread, std::size_t item, std::size_t) {
+    EditProposer& proposer = proposers_[thread];
+    Found& found = batch_[item];
+    found.any = propose(proposer, first + item);
+    std::swap(found.edit, proposer.edit());
+    found.looked_at.clear();
+    std::swap(found.looked_at, proposer.search().fresh());
+  });
   for (std::size_t item = 0; item < last - first; ++item) {
     if (make && batch_[item].any) make(batch_[item].edit);
     known_.keep(batch_[item].looked_at, state_.mesh());
   }
 }
 
-// In batches, until the passes are stopped.
+// In batches, until the passes are stopped. A few proposals are made before a thread has begun.
 void DecimationPasses::propose_each(std::size_t count, const Part& part, const Propose& propose,
                                     const Make& make) {
+  const std::size_t threads = part || count > kBatch ? proposers_.size() : 1;
   for (std::size_t first = 0; first < count; first += kBatch) {
     if (part && poll_ && !stopped_) {
       stopped_ = poll_(std::lerp((*part)[0], (*part)[1], share_of(first, count)));
     }
     if (stopped_) return;
-    propose_batch(first, std::min(first + kBatch, count), propose, make);
+    propose_batch(first, std::min(first + kBatch, count), threads, propose, make);
   }
 }
 

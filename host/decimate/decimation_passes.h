@@ -102,7 +102,8 @@ class DecimationPasses {
   };
   using Propose = std::function<bool(EditProposer&, std::size_t)>;
   using Make = std::function<void(const MeshEdit&)>;
-  void propose_batch(std::size_t first, std::size_t last, const Propose& propose, const Make& make);
+  void propose_batch(std::size_t first, std::size_t last, std::size_t threads,
+                     const Propose& propose, const Make& make);
   void propose_each(std::size_t count, const Part& part, const Propose& propose,
                     const Make& make = nullptr);
   template <class Item, class ProposeItem>

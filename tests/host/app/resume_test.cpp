@@ -45,7 +45,7 @@ class Resume : public testing::Test {
   // Waits until so many bytes are in a log.
   void await(const std::string& log, std::uintmax_t bytes) {
     std::error_code absent;
-    for (int i = 0; i < 60'000; ++i) {
+    for (int i = 0; i < 300'000; ++i) {
       const std::uintmax_t size = std::filesystem::file_size(folder_ / log, absent);
       if (!absent && size >= bytes) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
