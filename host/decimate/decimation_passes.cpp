@@ -75,10 +75,12 @@ void DecimationPasses::hold_around(const std::vector<Place>& places) {
   }
 }
 
-bool DecimationPasses::poll(double done) {
-  if (!stopped_ && poll_ && ++polls_ % 64 == 0) stopped_ = poll_(done);
+bool DecimationPasses::poll_now(double done) {
+  if (!stopped_ && poll_) stopped_ = poll_(done);
   return stopped_;
 }
+
+bool DecimationPasses::poll(double done) { return ++polls_ % 64 == 0 ? poll_now(done) : stopped_; }
 
 bool DecimationPasses::poll(std::size_t at, std::size_t of) { return poll(share_of(at, of)); }
 
@@ -92,7 +94,6 @@ void DecimationPasses::propose_batch(std::size_t first, std::size_t last, std::s
     Found& found = batch_[item];
     found.any = propose(proposer, first + item);
     std::swap(found.edit, proposer.edit());
-    found.looked_at.clear();
     std::swap(found.looked_at, proposer.search().fresh());
   });
   for (std::size_t item = 0; item < last - first; ++item) {
@@ -106,9 +107,7 @@ void DecimationPasses::propose_each(std::size_t count, const Part& part, const P
                                     const Make& make) {
   const std::size_t threads = part || count > kBatch ? proposers_.size() : 1;
   for (std::size_t first = 0; first < count; first += kBatch) {
-    if (part && poll_ && !stopped_) {
-      stopped_ = poll_(std::lerp((*part)[0], (*part)[1], share_of(first, count)));
-    }
+    if (part) poll_now(std::lerp((*part)[0], (*part)[1], share_of(first, count)));
     if (stopped_) return;
     propose_batch(first, std::min(first + kBatch, count), threads, propose, make);
   }
@@ -274,18 +273,18 @@ std::size_t DecimationPasses::collapse() {
 
 // Proposes and makes edits of items in parts that do not touch each other.
 template <class Item, class ProposeItem>
-std::size_t DecimationPasses::edit_each(std::vector<Item> left, const Part& whole,
+std::size_t DecimationPasses::edit_each(std::vector<Item> left, const Share& whole,
                                         const ProposeItem& propose) {
   const std::size_t all = left.size();
   std::size_t edits = 0;
   const auto reached = [&] {
-    return std::lerp((*whole)[0], (*whole)[1], 1 - share_of(left.size(), all));
+    return std::lerp(whole[0], whole[1], 1 - share_of(left.size(), all));
   };
   while (!left.empty() && !stopped_) {
     const double from = reached();
     const std::vector<Item> part = independent_.take(left);
     propose_each(
-        part.size(), {{from, reached()}},
+        part.size(), Share{from, reached()},
         [&](EditProposer& proposer, std::size_t i) { return propose(proposer, part[i]); },
         [&](const MeshEdit& edit) {
           if (!state_.permits(edit)) return;
@@ -304,8 +303,8 @@ std::size_t DecimationPasses::relocate(int power) {
 }
 
 std::size_t DecimationPasses::relocate_each(std::vector<std::uint32_t> vertices, int power,
-                                            const Part& part) {
-  return edit_each(std::move(vertices), part,
+                                            const Share& share) {
+  return edit_each(std::move(vertices), share,
                    [power](EditProposer& proposer, std::uint32_t vertex) {
                      return proposer.relocation(vertex, power, true);
                    });
@@ -313,8 +312,8 @@ std::size_t DecimationPasses::relocate_each(std::vector<std::uint32_t> vertices,
 
 std::size_t DecimationPasses::flip(int power) { return flip_each(edges(), power, {{0, 1}}); }
 
-std::size_t DecimationPasses::flip_each(std::vector<Edge> edges, int power, const Part& part) {
-  return edit_each(std::move(edges), part, [power](EditProposer& proposer, const Edge& edge) {
+std::size_t DecimationPasses::flip_each(std::vector<Edge> edges, int power, const Share& share) {
+  return edit_each(std::move(edges), share, [power](EditProposer& proposer, const Edge& edge) {
     return proposer.flip(edge[0], edge[1], power, true);
   });
 }
@@ -400,7 +399,7 @@ std::size_t DecimationPasses::collapse_and_mend() {
         return other.judge_beyond(e[0], e[1], trial);
       });
   if (stopped_) return 0;
-  std::ranges::sort(trials, [](const Collapse& s, const Collapse& t) { return t < s; });
+  std::ranges::sort(trials, Collapse::costs_less);
   std::size_t collapses = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     Collapse& trial = trials[i];

@@ -89,9 +89,10 @@ class DecimationPasses {
   using Collapse = EditProposer::Collapse;
   using Edge = std::array<std::uint32_t, 2>;
 
-  // Shares of the present pass, from and to; none for what is too short to be told of.
-  using Part = std::optional<std::array<double, 2>>;
+  using Share = std::array<double, 2>;  // of the present pass, from and to
+  using Part = std::optional<Share>;    // none for what is too short to be told of
 
+  bool poll_now(double done);
   bool poll(double done);
   bool poll(std::size_t at, std::size_t of);
   // What one of the threads found.
@@ -107,10 +108,9 @@ class DecimationPasses {
   void propose_each(std::size_t count, const Part& part, const Propose& propose,
                     const Make& make = nullptr);
   template <class Item, class ProposeItem>
-  std::size_t edit_each(std::vector<Item> items, const Part& part, const ProposeItem& propose);
-  // `from` and `to` are shares of the present pass.
-  std::size_t flip_each(std::vector<Edge> edges, int power, const Part& part);
-  std::size_t relocate_each(std::vector<std::uint32_t> vertices, int power, const Part& part);
+  std::size_t edit_each(std::vector<Item> items, const Share& share, const ProposeItem& propose);
+  std::size_t flip_each(std::vector<Edge> edges, int power, const Share& share);
+  std::size_t relocate_each(std::vector<std::uint32_t> vertices, int power, const Share& share);
   // A place of a triangle and the point of the reference or the cloud that it should be near.
   struct Witness {
     std::array<double, 3> at{};  // barycentric

@@ -22,8 +22,7 @@ bool EditProposer::keeps_features(std::uint32_t a, std::uint32_t b, const Point&
 }
 
 bool EditProposer::judge(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse) {
-  if (options_.holds(a) || options_.holds(b)) return false;
-  const FeatureEdges::Collapse feature = options_.features.permitted(a, b);
+  const FeatureEdges::Collapse feature = permitted(a, b);
   if (feature == FeatureEdges::Collapse::kForbidden) return false;
   if (!search_.prepare_collapse(a, b)) return false;
   const Point pa = state_.mesh().position(a), pb = state_.mesh().position(b);
@@ -96,13 +95,15 @@ bool EditProposer::judge_free(const Point& pa, const Point& pb, int power, Fit& 
   return fit.worst <= 1 || search_.finish(fit, true, edit_);
 }
 
-bool EditProposer::may_collapse(std::uint32_t a, std::uint32_t b) const {
-  return !options_.holds(a) && !options_.holds(b) &&
-         options_.features.permitted(a, b) == FeatureEdges::Collapse::kAnywhere;
+// By the features and by what is held.
+FeatureEdges::Collapse EditProposer::permitted(std::uint32_t a, std::uint32_t b) const {
+  const bool held = options_.holds(a) || options_.holds(b);
+  return held ? FeatureEdges::Collapse::kForbidden : options_.features.permitted(a, b);
 }
 
 bool EditProposer::judge_beyond(std::uint32_t a, std::uint32_t b, Collapse& collapse) {
-  if (!may_collapse(a, b) || !search_.prepare_collapse(a, b)) return false;
+  if (permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
+  if (!search_.prepare_collapse(a, b)) return false;
   LocalSearch::Options options;
   options.power = 8;
   options.steps = 8;
@@ -122,7 +123,8 @@ bool EditProposer::judge_beyond(std::uint32_t a, std::uint32_t b, Collapse& coll
 
 bool EditProposer::rate(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse) {
   Fit fit;
-  if (options_.holds(a) || options_.holds(b) || !search_.prepare_collapse(a, b)) return false;
+  if (permitted(a, b) == FeatureEdges::Collapse::kForbidden) return false;
+  if (!search_.prepare_collapse(a, b)) return false;
   if (!search_.evaluate(search_.quadric_optimum(), power, fit)) return false;
   collapse.a = a;
   collapse.b = b;
@@ -131,7 +133,8 @@ bool EditProposer::rate(std::uint32_t a, std::uint32_t b, int power, Collapse& c
 }
 
 bool EditProposer::plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
-  if (!may_collapse(a, b) || !search_.prepare_collapse(a, b)) return false;
+  if (permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
+  if (!search_.prepare_collapse(a, b)) return false;
   LocalSearch::Options options;
   options.steps = 0;
   Fit fit;

@@ -41,6 +41,7 @@ class EditProposer {
       if (cost != other.cost) return cost > other.cost;
       return a != other.a ? a > other.a : b > other.b;
     }
+    static bool costs_less(const Collapse& c, const Collapse& d) { return d < c; }
   };
 
   // Each returns whether there is something to propose; it is then in edit(), except after
@@ -63,7 +64,7 @@ class EditProposer {
   MeshEdit& edit() { return edit_; }
 
  private:
-  bool may_collapse(std::uint32_t a, std::uint32_t b) const;
+  FeatureEdges::Collapse permitted(std::uint32_t a, std::uint32_t b) const;
   bool holds_flip(std::uint32_t a, std::uint32_t b) const;
   bool judge_free(const Point& pa, const Point& pb, int power, Fit& fit);
   bool judge_for_hoppe(const Point& pa, const Point& pb, Fit& fit);

@@ -76,7 +76,7 @@ std::vector<DecimationPasses::Edge> DecimationPasses::cheapest_collapses(std::si
       edges(), {{0, 0.5}}, [power](EditProposer& proposer, const Edge& e, Collapse& collapse) {
         return proposer.rate(e[0], e[1], power, collapse);
       });
-  std::ranges::sort(rated, [](const Collapse& c, const Collapse& d) { return d < c; });
+  std::ranges::sort(rated, Collapse::costs_less);
   if (rated.size() > most) rated.resize(most);
   std::vector<Edge> cheapest;
   for (const Collapse& c : rated) cheapest.push_back({c.a, c.b});
@@ -90,7 +90,7 @@ std::size_t DecimationPasses::collapse_to(std::size_t target, int power) {
     const std::size_t wanted = (mesh.triangles() - target + 1) / 2;
     const std::vector<Edge> cheapest = cheapest_collapses(kJudged * (wanted + 1), power);
     std::vector<Collapse> candidates = judge_each(cheapest, {{0.5, 1}}, power);
-    std::ranges::sort(candidates, [](const Collapse& c, const Collapse& d) { return d < c; });
+    std::ranges::sort(candidates, Collapse::costs_less);
     touched_.assign(mesh.vertex_slots(), 0);
     any = false;
     for (const Collapse& candidate : candidates) {

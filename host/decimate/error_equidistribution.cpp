@@ -169,9 +169,7 @@ bool ErrorEquidistribution::restore_exactly() {
   for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
     state_.prove_all();
     state_.add_witnesses();
-    std::vector<std::uint32_t> beyond = passes_.beyond_limit();
-    const std::vector<std::uint32_t> around = state_.around_unproven();
-    beyond.insert(beyond.end(), around.begin(), around.end());
+    const std::vector<std::uint32_t> beyond = still_beyond();
     vain = beyond.size() < fewest ? 0 : vain + 1;
     fewest = std::min(fewest, beyond.size());
     if (beyond.empty() || vain == kVainRepairs) break;
@@ -183,11 +181,16 @@ bool ErrorEquidistribution::restore_exactly() {
   }
   if (passes_.stopped()) return false;
   if (state_.keep_limits()) return true;
-  std::vector<std::uint32_t> stuck = passes_.beyond_limit();
-  const std::vector<std::uint32_t> around = state_.around_unproven();
-  stuck.insert(stuck.end(), around.begin(), around.end());
-  note_stuck(stuck);
+  note_stuck(still_beyond());
   return false;
+}
+
+// The triangles beyond the exact limits, and those around what is not proven of the reference.
+std::vector<std::uint32_t> ErrorEquidistribution::still_beyond() {
+  std::vector<std::uint32_t> beyond = passes_.beyond_limit();
+  const std::vector<std::uint32_t> around = state_.around_unproven();
+  beyond.insert(beyond.end(), around.begin(), around.end());
+  return beyond;
 }
 
 void ErrorEquidistribution::note_stuck(const std::vector<std::uint32_t>& slots) {

@@ -48,6 +48,7 @@ class ErrorEquidistribution {
   bool restore_loosely(double most, double few);
   bool restore_exactly();
   bool thin();
+  std::vector<std::uint32_t> still_beyond();
   void note_stuck(const std::vector<std::uint32_t>& slots);
 
   DecimationState& state_;
