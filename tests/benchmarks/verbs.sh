@@ -4,7 +4,9 @@
 verb_bench() {
   case " $* " in *" -h "* | *" --help "*) exec "$python" -B tests/benchmarks/bench.py --help ;; esac
   need data
-  verb_build bench
+  # Not the tests, which are in that preset too.
+  verb_build bench emax emax_benchmark emax_decimation_benchmark emax_search_benchmark \
+    emax_search_problems
   verb_data
   exec "$python" -B tests/benchmarks/bench.py "$@"
 }
