@@ -73,10 +73,15 @@ void print_infeasible(const SearchOutcome& o) {
 }
 
 void print_evaluations(const OptimizeState& state, double seconds) {
+  const std::string outpaced =
+      state.outpaced > 0
+          ? fmt::format(", {} of them not to the end, as they would not have been the best",
+                        state.outpaced)
+          : "";
   const std::string stopped =
       state.stopped > 0 ? fmt::format(", {} more stopped early, with a mesh", state.stopped) : "";
-  fmt::print("evaluations    {} in {:.0f} s{}{}{}\n", state.evaluations, seconds, stopped,
-             describe_failures(state),
+  fmt::print("evaluations    {} in {:.0f} s{}{}{}{}\n", state.evaluations, seconds, outpaced,
+             stopped, describe_failures(state),
              state.interrupted      ? "; interrupted"
              : state.out_of_time    ? "; out of time"
              : state.target_reached ? "; target reached"

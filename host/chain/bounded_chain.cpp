@@ -67,7 +67,7 @@ bool BoundedStage::keeps_bounds(const SurfaceVerdict& verdict) const {
 }
 
 DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& values,
-                           const BoundedStage& stage, const std::function<bool()>& stopped) {
+                           const BoundedStage& stage, const EarlyEnd& early) {
   using Effort = DecimationSettings::Effort;
   static_assert(static_cast<Effort>(kDeepEffort) == Effort::kDeep);
   const DecimationBound& bound = stage.bound();
@@ -78,7 +78,8 @@ DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& val
   settings.effort = static_cast<Effort>(values.at(kEffort));
   settings.normal_cosine = values.at(kNormalCosine);
   settings.flatness = values.at(kFlatness);
-  settings.interrupted = stopped;
+  settings.interrupted = early.stopped;
+  settings.rival = early.rival;
   const TriangleMesh& reference = stage.two_sided() ? bound.reference : start;
   DecimatedMesh made = BoundedDecimator(reference, stage.kept()).run(start, settings);
   if (stage.two_sided()) return made;

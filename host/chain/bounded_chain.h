@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +20,12 @@ struct SurfaceVerdict {
   // Certified: at most the bound where it is kept, and a lower end of the distance otherwise.
   double back_distance = 0;       // of the surface from the reference
   double reference_distance = 0;  // of the reference, the inside of its triangles too, from it
+};
+
+// What ends the work of the bounded decimator with the mesh at hand.
+struct EarlyEnd {
+  std::function<bool()> stopped = nullptr;  // polled now and then; true ends it
+  std::uint64_t rival = 0;                  // DecimationSettings::rival
 };
 
 // The bounded decimator as the end of the chain, for the surfaces of one cloud.

@@ -107,7 +107,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
   });
 }
 
-ChainResult Chain::run(const ChainSettings& settings, const std::function<bool()>& stopped) {
+ChainResult Chain::run(const ChainSettings& settings, const EarlyEnd& early) {
   require_values(settings);
   ChainResult result;
   const Surface& start = surface(settings, result.seconds);
@@ -124,9 +124,10 @@ ChainResult Chain::run(const ChainSettings& settings, const std::function<bool()
   if (hopeful) {
     const auto decimator =
         std::ranges::find(decimator_runs(), settings.decimator, &DecimatorRun::name);
-    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, stopped);
+    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, early);
     result.mesh = std::move(decimated.mesh);
     result.stopped = decimated.interrupted;
+    result.expected_triangles = decimated.expected;
   } else {
     result.mesh = start.mesh;
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,21 +9,20 @@
 
 namespace emax {
 
-// What runs a decimator. `stopped` is polled by one that is bounded; true ends the work with the
-// mesh at hand.
+// What runs a decimator.
 struct DecimatorRun {
   std::string_view name;
   DecimatedMesh (*run)(const TriangleMesh& start, const ParameterValues& values,
-                       const BoundedStage& stage, const std::function<bool()>& stopped);
+                       const BoundedStage& stage, const EarlyEnd& early);
 };
 
 template <typename Decimator>
 DecimatedMesh run_decimator(const TriangleMesh& start, const ParameterValues& values,
-                            const BoundedStage& stage, const std::function<bool()>& stopped) {
+                            const BoundedStage& stage, const EarlyEnd& early) {
   if constexpr (Decimator::kBounded) {
-    return Decimator::run(start, values, stage, stopped);
+    return Decimator::run(start, values, stage, early);
   } else {
-    return {Decimator::run(start, values), {}, false};
+    return {Decimator::run(start, values), {}, false, 0};
   }
 }
 

@@ -219,7 +219,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   const TriangleMesh ordered = spatially_ordered(start);
   DecimationState state(ordered, known.points, settings.two_sided ? known.back.get() : nullptr,
                         limit * limit, guards, settings.interrupted, known.triangles);
-  if (!state.complete()) return {start, {}, true};
+  if (!state.complete()) return {start, {}, true, 0};
 
   DecimatedMesh result;
   for (std::uint32_t p = 0; p < known.points.size(); ++p) {
@@ -236,6 +236,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   }
   ScheduledMesh scheduled = run_passes(state, std::move(options), settings);
   result.interrupted = !scheduled.complete;
+  result.expected = scheduled.expected;
   result.mesh = std::move(scheduled.mesh);
   return result;
 }

@@ -70,6 +70,9 @@ struct DecimationSettings {
   // Polled from time to time; true ends the work with the mesh reached so far, which is valid and
   // within the bounds.
   std::function<bool()> interrupted = nullptr;
+  // Triangles of a mesh that the result is to beat; 0: none. Where the passes that are left will
+  // hardly leave fewer (Race), the work ends with the mesh reached so far.
+  std::size_t rival = 0;
   // Called after each pass with its name, the number of edits and the triangles left.
   std::function<void(const char*, std::size_t, std::size_t)> progress = nullptr;
   // Called from time to time with an estimate of the share of the work that is done, from 0 to 1,
@@ -81,6 +84,9 @@ struct DecimatedMesh {
   TriangleMesh mesh;
   std::vector<std::uint32_t> left_out;  // points farther than epsilon from the start
   bool interrupted = false;
+  // Where the work ended early because of the rival: the triangles that all of it would have left,
+  // estimated. Otherwise 0.
+  std::size_t expected = 0;
 };
 
 // Decimation under a certified bound: as few triangles as can be found such that every point of the

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/decimate/error_equidistribution.h"
+#include "host/decimate/race.h"
 
 namespace emax {
 namespace {
@@ -31,6 +32,7 @@ class Schedule {
       : state_(state),
         settings_(settings),
         lowers_energy_(settings.objective == DecimationSettings::Objective::kHoppe),
+        race_(settings.rival),
         weight_(lowers_energy_ || settings.effort == Effort::kSweep ? 1 : kSweeps),
         passes_(state, std::move(options), settings.threads,
                 [this](double done) { return advance(done); }) {}
@@ -38,21 +40,24 @@ class Schedule {
   ScheduledMesh run() {
     if (lowers_energy_) {
       tell("descent", passes_.descend());
-      return {state_.mesh().compact(), !passes_.stopped()};
+      return {state_.mesh().compact(), !passes_.stopped(), 0};
     }
     sweep();
     if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
     const bool goes_on =
         settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
-    if (goes_on && !passes_.stopped()) {
-      if (!may_even_out() || !equidistribute()) improve();
+    if (goes_on && !passes_.stopped() && !lost(Race::At::kCollapsed)) {
+      const bool done = may_even_out() ? equidistribute() : lost(Race::At::kUneven);
+      if (!done) improve();
     }
     TriangleMesh mesh = state_.mesh().compact();
     if (kept_ && kept_->triangles.size() < mesh.triangles.size()) mesh = std::move(*kept_);
-    return {std::move(mesh), !passes_.stopped()};
+    return {std::move(mesh), !passes_.stopped(), race_.expected()};
   }
 
  private:
+  bool lost(Race::At at) { return race_.lost(at, state_.mesh().triangles()); }
+
   // Returning true ends the passes.
   bool advance(double done) {
     if (settings_.advanced) settings_.advanced(begun_ + weight_ * done, state_.mesh().triangles());
@@ -116,7 +121,7 @@ class Schedule {
 
   // Spreads the error evenly; with the deep effort as far as can be restored. Returns whether that
   // gained so much that nothing else needs to be tried; if not, the mesh is as before, and what was
-  // gained is kept.
+  // gained is kept. Where the race is lost nothing else needs to be tried.
   bool equidistribute() {
     const DecimationState::Snapshot before = state_.snapshot();
     const FeatureEdges features = passes_.features();
@@ -125,7 +130,7 @@ class Schedule {
     std::vector<DecimationPasses::Place> stuck;
     bool within = deep && even_out(ErrorEquidistribution::kLong, stuck);
     // What could not be restored is left as it was, in another try.
-    for (int i = 0; i < kTries && !within && !passes_.stopped(); ++i) {
+    for (int i = 0; i < kTries && !within && !passes_.stopped() && !race_.lost(); ++i) {
       const std::size_t known = stuck.size();
       if (deep || i > 0) go_back(before, features);
       passes_.hold_around(stuck);
@@ -133,17 +138,18 @@ class Schedule {
       if (stuck.size() == known) break;
     }
     passes_.free();
+    if (within && race_.lost()) return true;
     if (within) collapse_further(deep);
     if (within && static_cast<double>(state_.mesh().triangles()) < kMuch * triangles) return true;
     if (within) kept_ = state_.mesh().compact();
     go_back(before, features);
-    return false;
+    return kept_ ? race_.lost() : lost(Race::At::kUneven);
   }
 
   bool even_out(const ErrorEquidistribution::Extent& extent,
                 std::vector<DecimationPasses::Place>& stuck) {
     pass_share_ = kPassOfMany;
-    ErrorEquidistribution even(state_, passes_, extent,
+    ErrorEquidistribution even(state_, passes_, extent, race_,
                                [this](const char* pass, std::size_t edits) { tell(pass, edits); });
     const bool within = even.run();
     stuck.insert(stuck.end(), even.stuck().begin(), even.stuck().end());
@@ -190,6 +196,7 @@ class Schedule {
   DecimationState& state_;
   const DecimationSettings& settings_;
   bool lowers_energy_;
+  Race race_;
   double begun_ = 0, weight_;  // shares of the work: done, and of the present pass
   double pass_share_ = kOtherPass;
   DecimationPasses passes_;

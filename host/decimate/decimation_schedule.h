@@ -6,8 +6,9 @@
 namespace emax {
 
 struct ScheduledMesh {
-  TriangleMesh mesh;      // keeps every limit
-  bool complete = false;  // the settings' `interrupted` did not end the passes
+  TriangleMesh mesh;         // keeps every limit
+  bool complete = false;     // the settings' `interrupted` did not end the passes
+  std::size_t expected = 0;  // DecimatedMesh::expected
 };
 
 // Runs the passes over the mesh in the order that the settings' objective and effort ask for, and

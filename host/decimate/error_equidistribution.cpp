@@ -48,8 +48,8 @@ bool ErrorEquidistribution::run() {
   exchange_at_last();
   state_.loosen(kLessLoosened, kLoosened);
   relax(64, extent_.last_rounds);
-  if (!restore(kTooManyLeft * first)) return false;
-  for (int i = 0; i < extent_.thinnings && thin(); ++i) {
+  if (lost(Race::At::kExchanged) || !restore(kTooManyLeft * first)) return false;
+  for (int i = 0; i < extent_.thinnings && !lost(Race::At::kRestored) && thin(); ++i) {
   }
   return true;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/decimate/decimation_passes.h"
+#include "host/decimate/race.h"
 
 namespace emax {
 
@@ -28,16 +29,17 @@ class ErrorEquidistribution {
   };
   static constexpr Extent kShort = {2, 2, 2, 2, 2}, kLong = {6, 4, 4, 3, 20};
   ErrorEquidistribution(DecimationState& state, DecimationPasses& passes, const Extent& extent,
-                        Tell tell)
-      : state_(state), passes_(passes), extent_(extent), tell_(std::move(tell)) {}
+                        Race& race, Tell tell)
+      : state_(state), passes_(passes), extent_(extent), race_(race), tell_(std::move(tell)) {}
 
-  // Returns whether every limit holds in the end. If not, not all could be restored, or the passes
-  // were stopped.
+  // Returns whether every limit holds in the end. If not, not all could be restored, the passes
+  // were stopped, or the race was lost before. A race that is lost later ends the thinnings.
   bool run();
   // Where the limits could not be restored.
   const std::vector<DecimationPasses::Place>& stuck() const { return stuck_; }
 
  private:
+  bool lost(Race::At at) { return race_.lost(at, state_.mesh().triangles()); }
   void relax(int power, int rounds);
   void relax_around(const std::vector<std::uint32_t>& slots, int power);
   void exchange(double quantile, double share, double collapsed, int power);
@@ -54,6 +56,7 @@ class ErrorEquidistribution {
   DecimationState& state_;
   DecimationPasses& passes_;
   const Extent extent_;
+  Race& race_;
   Tell tell_;
   std::vector<DecimationPasses::Place> stuck_;
 };

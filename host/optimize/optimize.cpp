@@ -19,6 +19,9 @@ constexpr int kPolishTimes = 10;  // as long as an evaluation may the deep decim
 constexpr double kPolishDecimations = 3;
 // So many of the best are decimated deep: what that gains differs from one to the next.
 constexpr std::size_t kPolished = 4;
+// One evaluation in so many has no rival, so that the search also knows how candidates rank that
+// will not be the best.
+constexpr std::uint64_t kWithoutRival = 4;
 
 bool same_bits(const Genes& a, const Genes& b) {
   return std::ranges::equal(
@@ -29,7 +32,8 @@ bool same_bits(const Genes& a, const Genes& b) {
 // What the search is told.
 Evaluation evaluation_of(const Problem& problem, const LoggedEvaluation& e) {
   if (!e.failure.empty()) return {};
-  return make_evaluation(problem.nonlinear, static_cast<double>(e.triangles), e.constraints);
+  const std::uint64_t triangles = e.expected_triangles.value_or(e.triangles);
+  return make_evaluation(problem.nonlinear, static_cast<double>(triangles), e.constraints);
 }
 
 using Result = SearchResult;
@@ -153,14 +157,22 @@ class Run {
       } else {
         CandidateInWork& work = in_work_[index];
         work.genes = std::move(candidate->genes);
+        work.rival = rival_of(index);
         if (walked_ &&
             chain(work.genes).parameters.by_name().contains(problem_.genes[*walked_].name)) {
           const Parameter& gene = settings_.config.genes[*walked_];
           work.walk.emplace(gene.lower, gene.upper);
         }
-        pool_->submit(index, trial(work));
+        pool_->submit(index, trial(work), work.rival);
       }
     }
+  }
+
+  // The fewest triangles of the results that the search had been told of when it made the
+  // candidate; they do not depend on the number of workers.
+  std::uint64_t rival_of(std::uint64_t index) const {
+    const std::uint64_t look_ahead = settings_.config.search.look_ahead;
+    return index < look_ahead || index % kWithoutRival == 0 ? 0 : fewest_.at(index - look_ahead);
   }
 
   const LoggedEvaluation* logged(const Candidate& candidate) const {
@@ -208,7 +220,7 @@ class Run {
       return std::nullopt;
     }
     if (work.walk && !work.walk_on(result)) {
-      if (!stopping_) pool_->submit(index, trial(work));
+      if (!stopping_) pool_->submit(index, trial(work), work.rival);
       return std::nullopt;
     }
     pool_->go_on();
@@ -317,6 +329,7 @@ class Run {
     const ChainResult& made = std::get<ChainResult>(outcome);
     state_.stages += made.seconds;
     e.stopped = made.stopped;
+    if (made.expected_triangles > 0) e.expected_triangles = made.expected_triangles;
     if (made.stopped) {
       if (!state_.polishing) ++state_.stopped;
     } else {
@@ -370,6 +383,7 @@ class Run {
       if (auto result = results_.extract(next_)) enter(std::move(result.mapped()));
       ++next_;
       const std::optional<BestMesh>& best = state_.best;
+      fewest_.push_back(best ? best->triangles : 0);
       state_.target_reached =
           best && settings_.target_triangles && best->triangles <= *settings_.target_triangles;
       state_.stagnated = settings_.stagnation && next_ - improved_ >= *settings_.stagnation;
@@ -407,6 +421,7 @@ class Run {
 
   void enter(Result result) {
     const LoggedEvaluation& e = result.evaluation;
+    if (e.expected_triangles) ++state_.outpaced;
     if (result.failed()) {
       ++state_.failures[e.failure];
       state_.last_failure = e.message;
@@ -513,6 +528,7 @@ class Run {
   std::map<std::uint64_t, CandidateInWork> in_work_;
   std::map<std::uint64_t, Result> results_;  // not entered yet
   std::uint64_t next_ = 0;                   // to enter
+  std::vector<std::uint64_t> fewest_;        // triangles up to each that entered; 0: none feasible
   std::optional<std::uint64_t> looked_for_;  // the last best whose mesh was asked of the folder
   std::uint64_t improved_ = 0;               // behind the evaluation that was the last better one
   bool entering_the_rest_ = false;

@@ -80,6 +80,8 @@ struct OptimizeState {
   std::uint64_t evaluations = 0;  // completed, failed and repeated ones included
   std::uint64_t from_log = 0;     // of these, known before
   std::uint64_t stopped = 0;      // evaluations that were cut short, and gave the mesh at hand
+  // Whose decimation ended early, because it would hardly have become the best.
+  std::uint64_t outpaced = 0;
   std::uint64_t budget = 0;
   std::map<std::string, std::uint64_t> failures;  // by reason
   std::string last_failure;

@@ -23,6 +23,7 @@ struct SearchResult {
 // A candidate that a worker has.
 struct CandidateInWork {
   Genes genes;
+  std::uint64_t rival = 0;            // triangles to beat, for its decimation; 0: none
   std::optional<ReductionWalk> walk;  // where the evaluation looks for a gene's best value
   std::optional<SearchResult> best;   // of its trials
 

@@ -52,6 +52,9 @@ struct ChainResult {
   // bound is broken.
   double reference_distance = 0;
   bool stopped = false;  // the decimation was, before its end: the mesh is the one at hand
+  // Where it ended early, because it would hardly have come below its rival: what all of it would
+  // have left, estimated. Otherwise 0.
+  std::size_t expected_triangles = 0;
   StageSeconds seconds = {};
 };
 

@@ -16,6 +16,7 @@ namespace emax {
 
 class BoundedStage;
 class LocalCloud;
+struct EarlyEnd;
 struct DecimatedMesh;
 struct Reconstruction;
 
@@ -214,10 +215,9 @@ struct Bounded {
 
   static Parameters parameters() { return parameters_of(kEffort, kNormalCosine, kFlatness); }
   // Keeps every bound that `start` keeps, and its topology; under a one-sided bound without the
-  // components that no point needs any more. `stopped` is polled now and then; true ends the work
-  // with the mesh at hand, of which the same holds.
+  // components that no point needs any more. The same holds of a mesh after an early end.
   static DecimatedMesh run(const TriangleMesh& start, const ParameterValues& values,
-                           const BoundedStage& stage, const std::function<bool()>& stopped);
+                           const BoundedStage& stage, const EarlyEnd& early);
 };
 
 // Through VTK.

@@ -94,6 +94,7 @@ std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
     json["reconstruction_triangles"] = e.reconstruction_triangles;
     json["unmeshed_points"] = e.unmeshed_points;
     if (e.walked) json["walked"] = *e.walked;
+    if (e.expected_triangles) json["expected_triangles"] = *e.expected_triangles;
     if (e.stopped) json["stopped"] = true;
     if (e.mesh_crc) json["mesh_crc32"] = *e.mesh_crc;
   }
@@ -118,6 +119,9 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
     json.at("reconstruction_triangles").get_to(e.reconstruction_triangles);
     json.at("unmeshed_points").get_to(e.unmeshed_points);
     if (json.contains("walked")) e.walked = json.at("walked").get<double>();
+    if (json.contains("expected_triangles")) {
+      e.expected_triangles = json.at("expected_triangles").get<std::uint64_t>();
+    }
     e.stopped = json.value("stopped", false);
     if (json.contains("mesh_crc32")) e.mesh_crc = json.at("mesh_crc32").get<std::uint32_t>();
     return e;

@@ -32,6 +32,9 @@ struct LoggedEvaluation {
   std::vector<double> constraints;  // values of Problem::nonlinear, each at most 0 when it holds
   std::uint32_t squared_bits = 0;   // the kernel's e_max^2 over the points that are not excluded
   std::uint64_t reconstruction_triangles = 0, unmeshed_points = 0;
+  // Where its decimation ended early, because it would hardly have become the best: what all of it
+  // would have left, estimated.
+  std::optional<std::uint64_t> expected_triangles;
   bool stopped = false;  // before its end: gives a mesh, but no result of the candidate
   std::optional<std::uint32_t> mesh_crc;  // CRC-32 of the mesh's file, if it was kept
 

@@ -113,7 +113,7 @@ RunMessage next_run() {
 Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
   try {
     if (before) before(run.settings);
-    return encode(MeshMessage{run.ticket, chain.run(run.settings, asked_to_stop)});
+    return encode(MeshMessage{run.ticket, chain.run(run.settings, {asked_to_stop, run.rival})});
   } catch (const std::bad_alloc&) {
     return encode(FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}});
   } catch (const std::exception& e) {

@@ -59,7 +59,8 @@ json to_json(const RunMessage& m) {
           {"ticket", m.ticket},
           {"method", m.settings.method},
           {"decimator", m.settings.decimator},
-          {"parameters", m.settings.parameters.by_name()}};
+          {"parameters", m.settings.parameters.by_name()},
+          {"rival", m.rival}};
 }
 
 json to_json(const StopMessage&) { return {{"kind", "stop"}}; }
@@ -78,6 +79,7 @@ json to_json(const MeshMessage& m) {
           {"back_distance", m.result.back_distance},
           {"reference_distance", m.result.reference_distance},
           {"stopped", m.result.stopped},
+          {"expected_triangles", m.result.expected_triangles},
           {"seconds", {t.reconstruct, t.prepare, t.decimate, t.check}}};
 }
 
@@ -131,6 +133,7 @@ Message mesh_from_json(const json& j) {
   m.result.back_distance = distance_from(j.at("back_distance"));
   m.result.reference_distance = distance_from(j.at("reference_distance"));
   j.at("stopped").get_to(m.result.stopped);
+  m.result.expected_triangles = count_from(j.at("expected_triangles"));
   const json& seconds = j.at("seconds");
   m.result.seconds = {seconds.at(0), seconds.at(1), seconds.at(2), seconds.at(3)};
   return m;
@@ -172,7 +175,8 @@ Message from_json(const json& j) {
   if (kind == "run") {
     return RunMessage{count_from(j.at("ticket")),
                       {j.at("method"), j.at("decimator"),
-                       ParameterValues(j.at("parameters").get<ParameterValues::ByName>())}};
+                       ParameterValues(j.at("parameters").get<ParameterValues::ByName>())},
+                      count_from(j.at("rival"))};
   }
   if (kind == "stop") return StopMessage{};
   if (kind == "ready") return ReadyMessage{};

@@ -16,14 +16,15 @@
 //   {"kind": "points", "points": P, "epsilon": number, "epsilon_back": number,
 //    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
 //    once
-//   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number}}
+//   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number},
+//    "rival": n}
 //   {"kind": "stop"}                                                 to a worker: end the
 //   decimation
 //   {"kind": "ready"}                                                from a worker, first and once
 //   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
 //    "reconstruction_triangles": n, "unmeshed_points": n,
 //    "topology_difference": n, "back_distance": number, "reference_distance": number,
-//    "stopped": boolean, "seconds": [number, 4 of them]}              the answer to "run", or:
+//    "stopped": boolean, "expected_triangles": n, "seconds": [number, 4 of them]}              the answer to "run", or:
 //   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
 //   {"kind": "unusable", "message": s}                               no evaluation can be made here
 // P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
@@ -50,6 +51,7 @@ struct PointsMessage {
 struct RunMessage {
   std::uint64_t ticket;
   ChainSettings settings;
+  std::uint64_t rival = 0;  // triangles that the bounded decimator is to beat; 0: none
 };
 struct StopMessage {};
 struct ReadyMessage {};

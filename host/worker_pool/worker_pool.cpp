@@ -67,8 +67,8 @@ class WorkerPool::Implementation {
     for (Worker& worker : workers_) replace(worker);
   }
 
-  void submit(std::uint64_t ticket, const ChainSettings& settings) {
-    queue_.push_back({ticket, settings});
+  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) {
+    queue_.push_back({ticket, settings, rival});
     hand_out();
   }
 
@@ -295,8 +295,8 @@ WorkerPool::WorkerPool(std::span<const Point> points, const DecimationBound& bou
 
 WorkerPool::~WorkerPool() = default;
 
-void WorkerPool::submit(std::uint64_t ticket, const ChainSettings& settings) {
-  implementation_->submit(ticket, settings);
+void WorkerPool::submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) {
+  implementation_->submit(ticket, settings, rival);
 }
 
 Completed WorkerPool::wait() {

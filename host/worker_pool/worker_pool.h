@@ -42,8 +42,8 @@ class WorkerPool {
   ~WorkerPool();  // kills running workers
 
   // Queues an evaluation. A free worker starts it now, else a later wait() starts it. The caller
-  // chooses the tickets.
-  void submit(std::uint64_t ticket, const ChainSettings& settings);
+  // chooses the tickets. `rival`: DecimationSettings::rival.
+  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival = 0);
 
   // Waits for the next evaluation to complete. At least one must be outstanding. Throws Error if
   // workers cannot work at all: they ended before they were ready, or failed the arithmetic

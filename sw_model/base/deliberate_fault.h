@@ -17,6 +17,7 @@ enum class Fault {
   kSkipsBackBound,      // the mesh may leave the reference
   kSkipsReference,      // the reference may leave the mesh
   kSkipsIntersections,  // triangles may meet
+  kGivesUpEarly,        // a race counts as lost that can still be won
   // In the readers of files, messages and frames.
   kTrustsCounts,   // a count or length is not compared with the bytes that are there
   kTrustsIndices,  // an index is not compared with the number of vertices

@@ -35,7 +35,7 @@ std::vector<std::string> seeds() {
       RunMessage{7, {"gp3", "schroeder", ParameterValues({{"normals.k", 20}, {"gp3.mu", 2.7}})}},
       StopMessage{},
       ReadyMessage{},
-      MeshMessage{7, {mesh, 3, 1, 0, 0.1, 0.2, false, {1, 2, 3, 4}}},
+      MeshMessage{7, {mesh, 3, 1, 0, 0.1, 0.2, false, 0, {1, 2, 3, 4}}},
       FailureMessage{7, {FailureReason::kOutOfMemory, "no memory"}},
       UnusableMessage{"no library"}};
   std::vector<std::string> bodies;

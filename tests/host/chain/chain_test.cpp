@@ -184,7 +184,7 @@ TEST(BoundedStage, DropsPiecesThatNoPointNeeds) {
   const TriangleMesh start = stage.without_needless(surface);
   EXPECT_EQ(components(start), 3u);
   const ParameterValues standards(Bounded::parameters());
-  const TriangleMesh mesh = Bounded::run(start, standards, stage, nullptr).mesh;
+  const TriangleMesh mesh = Bounded::run(start, standards, stage, {}).mesh;
   EXPECT_EQ(components(mesh), 2u);
   EXPECT_LE(certify(surface.vertices, mesh.view()).e_max_upper, bound.epsilon);
 }

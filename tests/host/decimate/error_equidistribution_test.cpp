@@ -40,7 +40,7 @@ struct Bench {
         passes(state, {}, 2, [this](double) { return polls == 0 || --polls == 0; }) {}
 
   bool run(const ErrorEquidistribution::Extent& extent = ErrorEquidistribution::kLong) {
-    return ErrorEquidistribution(state, passes, extent,
+    return ErrorEquidistribution(state, passes, extent, race,
                                  [this](const char*, std::size_t) {
                                    most = std::max(most, state.mesh().triangles());
                                  })
@@ -75,6 +75,7 @@ struct Bench {
   const double limit;
   long polls = 1'000'000'000;
   std::size_t most = 0;
+  Race race{0};
   BackBound back;
   std::vector<Point> cloud;
   DecimationState state;
@@ -127,7 +128,8 @@ TEST(ErrorEquidistribution, SaysWhereTheLimitsCannotBeRestored) {
   DecimationPasses passes(state, {}, 1, nullptr);
   passes.sweep();
   passes.collapse();
-  ErrorEquidistribution even(state, passes, ErrorEquidistribution::kShort,
+  Race race(0);
+  ErrorEquidistribution even(state, passes, ErrorEquidistribution::kShort, race,
                              [](const char*, std::size_t) {});
   EXPECT_FALSE(even.run());
   ASSERT_FALSE(even.stuck().empty());

@@ -409,6 +409,42 @@ TEST_F(DeepOptimizeTest, TheDecimatorMayBeAGene) {
   EXPECT_FALSE(paper.polished);
 }
 
+// A candidate whose decimation will not end below the best known ends early, and is told as what it
+// would have come to. The twin decimates each of these to the end.
+TEST_F(DeepOptimizeTest, CandidatesThatCannotBeTheBestEndEarly) {
+  settings_.decimator = "bounded";
+  settings_.config = default_config(chain_parameters("gp3", "bounded"));
+  settings_.config.search.budget = 16;
+  settings_.config.search.look_ahead = 2;
+  settings_.polish = false;
+  RunLog log(path_, kSettings);
+  const OptimizeState state = run(&log);
+  EXPECT_GT(state.outpaced, 0u);
+  std::uint64_t outpaced = 0;
+  for (const auto& [index, e] : log.evaluations()) {
+    if (!e.expected_triangles) continue;
+    ++outpaced;
+    EXPECT_NE(index % 4, 0u);
+    EXPECT_GT(e.triangles, state.best->triangles);
+    const ChainSettings candidate = chain_of(settings_, search_problem(settings_), e.genes);
+    const ChainResult whole = Chain(cloud_, settings_.bound, 1 << 20).run(candidate);
+    EXPECT_GE(whole.mesh.triangles.size(), state.best->triangles) << index;
+  }
+  EXPECT_EQ(outpaced, state.outpaced);
+
+  settings_.jobs = 1;
+  const OptimizeState alone = run();
+  expect_same(alone, state);
+  EXPECT_EQ(alone.outpaced, state.outpaced);
+  settings_.interrupted = [this] { return measured_ >= 8; };
+  RunLog cut(folder_ / "cut", kSettings);
+  EXPECT_TRUE(run(&cut).interrupted);
+  settings_.interrupted = [] { return false; };
+  const OptimizeState rest = run(&cut);
+  expect_same(rest, state);
+  EXPECT_EQ(rest.outpaced, state.outpaced);
+}
+
 // The twin is a worker's chain, run here with the parameters of all three.
 TEST_F(DeepOptimizeTest, TheBestAreDecimatedDeepInTheEnd) {
   settings_.decimator = "bounded";

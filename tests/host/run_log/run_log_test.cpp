@@ -77,6 +77,7 @@ TEST(LoggedEvaluation, KeepsEveryBit) {
   }
   LoggedEvaluation e = measured(1);
   e.stopped = true;
+  e.expected_triangles = 1234;
   EXPECT_EQ(decode_evaluation(encode(e)), e);
   e.mesh_crc = 0xffffffff;
   for (const double violation : {-0.0, 5e-324, 1e300, std::numeric_limits<double>::infinity()}) {

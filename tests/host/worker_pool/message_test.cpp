@@ -56,12 +56,14 @@ TEST(Message, CarriesTheBoundOfTheDecimator) {
 TEST(Message, CarriesSettings) {
   const RunMessage sent{
       ~std::uint64_t{0},
-      {"gp3", "schroeder", ParameterValues({{"a", 0.1}, {"b", 3}, {"c", 1e-300}, {"d", -0.0}})}};
+      {"gp3", "schroeder", ParameterValues({{"a", 0.1}, {"b", 3}, {"c", 1e-300}, {"d", -0.0}})},
+      ~std::uint64_t{1}};
   const RunMessage got = round_trip(sent);
   EXPECT_EQ(got.ticket, sent.ticket);
   EXPECT_EQ(got.settings.method, "gp3");
   EXPECT_EQ(got.settings.decimator, "schroeder");
   EXPECT_EQ(got.settings.parameters, sent.settings.parameters);
+  EXPECT_EQ(got.rival, sent.rival);
 }
 
 TEST(Message, CarriesAMesh) {
@@ -70,12 +72,14 @@ TEST(Message, CarriesAMesh) {
   sent.result.back_distance = 0.1;
   sent.result.reference_distance = 0.2;
   sent.result.stopped = true;
+  sent.result.expected_triangles = 5;
   sent.result.seconds = {1, 2, 3, 4.5};
   const MeshMessage got = round_trip(sent);
   EXPECT_EQ(got.result.topology_difference, 7u);
   EXPECT_EQ(got.result.back_distance, 0.1);
   EXPECT_EQ(got.result.reference_distance, 0.2);
   EXPECT_TRUE(got.result.stopped);
+  EXPECT_EQ(got.result.expected_triangles, 5u);
   EXPECT_FALSE(round_trip(tetrahedron()).result.stopped);
   EXPECT_EQ(got.result.seconds.prepare, 2);
   EXPECT_EQ(got.result.seconds.sum(), 10.5);
