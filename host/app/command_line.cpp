@@ -19,6 +19,20 @@ void add_json(CLI::App& command, std::string& json) {
                      "then goes to standard error");
 }
 
+void add_quiet(CLI::App& command, CommandLine& line) {
+  command.add_flag("-q,--quiet", line.quiet,
+                   "print nothing but errors; the exit code and the files say the result");
+}
+
+void add_progress(CLI::App& command, CommandLine& line) {
+  add_quiet(command, line);
+  command
+      .add_option("--progress", line.progress,
+                  "how standard error tells of the progress; json: a line of JSON for each change "
+                  "(default: text, or none with --quiet)")
+      ->check(CLI::IsMember({"text", "json", "none"}));
+}
+
 void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& skip_invalid,
                          std::string& json) {
   add_json(command, json);
@@ -76,11 +90,10 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                           "make a mesh of a scan, searching for the reconstruction and the "
                           "decimation that give the fewest triangles");
   add_common(command, optimize.common);
-  command
-      .add_option("--max-error", optimize.max_error,
-                  "tolerance: N in the cloud's unit, or N% of its width")
-      ->required();
-  command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off")->required();
+  command.add_option("--max-error", optimize.max_error,
+                     "tolerance: N in the cloud's unit, or N% of its width; without it the command "
+                     "only says which one suits the scan");
+  command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off (required)");
   add_chain(command, optimize.method, optimize.decimator);
   std::vector<std::string> one_sided = names_of_decimators(false);
   one_sided.emplace_back(kAutoDecimator);
@@ -142,7 +155,11 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       ->transform(not_negative());  // CLI11 runs this one first
   command.add_option("--config", optimize.config,
                      "settings and domains; `emax config` prints the defaults");
+  add_progress(command, line);
   command.callback([&] {
+    if (optimize.output.empty() && !optimize.max_error.empty()) {
+      throw CLI::RequiredError("--output");
+    }
     if (polish.count() == 0) optimize.polish = optimize.effort != "quick";
     line.chosen = [&optimize] { return run_optimize(optimize); };
   });
@@ -206,6 +223,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "threads to work with, which change no byte of the result (default: one per "
                   "processor)")
       ->check(CLI::Range(1u, 256u));
+  add_progress(command, line);
   command.callback([&] {
     decimate.two_sided = line.decimate_bound == "two-sided";
     if (!decimate.two_sided && !decimate.back_error.empty()) {
@@ -246,6 +264,7 @@ void add_error(CLI::App& app, CommandLine& line) {
       .add_option("--color-mesh", error.color_mesh,
                   "write the mesh coloured by its vertices' distances to the reference: .ply")
       ->needs("--two-sided");
+  add_quiet(command, line);
   command.callback([&] { line.chosen = [&error] { return run_error(error); }; });
 }
 
@@ -264,6 +283,7 @@ void add_verify(CLI::App& app, CommandLine& line) {
                      "the reference of a two-sided bound, if it lies neither beside the "
                      "certificate nor in the current folder");
   add_json(command, verify.json);
+  add_quiet(command, line);
   command.callback([&] { line.chosen = [&verify] { return run_verify(verify); }; });
 }
 
@@ -281,7 +301,21 @@ void add_config(CLI::App& app, CommandLine& line) {
   });
 }
 
-constexpr std::array kCommands = {add_optimize, add_decimate, add_error, add_verify, add_config};
+void add_info(CLI::App& app, CommandLine& line) {
+  auto& info = line.info;
+  CLI::App& command = *app.add_subcommand(
+      "info", "say what a file of a cloud or a mesh holds, and which tolerance suits it");
+  command
+      .add_option("FILE", info.file, "cloud or mesh: .ply .pcd .xyz .asc .txt .pts .obj .off .stl")
+      ->required();
+  command.add_flag("--skip-invalid", info.skip_invalid,
+                   "leave out points with NaN or infinite coordinates");
+  add_json(command, info.json);
+  command.callback([&] { line.chosen = [&info] { return run_info(info); }; });
+}
+
+constexpr std::array kCommands = {add_optimize, add_decimate, add_error,
+                                  add_verify,   add_info,     add_config};
 
 }  // namespace
 
@@ -294,9 +328,9 @@ void add_commands(CLI::App& app, CommandLine& line) {
   }
 }
 
-std::array<std::string*, 4> json_options(CommandLine& line) {
+std::array<std::string*, 5> json_options(CommandLine& line) {
   return {&line.optimize.common.json, &line.decimate.json, &line.error.common.json,
-          &line.verify.json};
+          &line.verify.json, &line.info.json};
 }
 
 }  // namespace emax

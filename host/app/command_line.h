@@ -16,7 +16,10 @@ struct CommandLine {
   std::string decimate_bound = "two-sided";
   ErrorOptions error;
   VerifyOptions verify;
+  InfoOptions info;
   std::string config_method = kFitMethod, config_decimator{Bounded::kName};
+  bool quiet = false;
+  std::string progress;         // a ProgressStyle; empty: text, or none with `quiet`
   std::function<int()> chosen;  // the exit code
 };
 
@@ -24,6 +27,6 @@ struct CommandLine {
 void add_commands(CLI::App& app, CommandLine& line);
 
 // The --json options of the subcommands.
-std::array<std::string*, 4> json_options(CommandLine& line);
+std::array<std::string*, 5> json_options(CommandLine& line);
 
 }  // namespace emax

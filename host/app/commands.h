@@ -16,7 +16,7 @@ namespace emax {
 
 struct OptimizeOptions {
   CommonOptions common;
-  std::string max_error;
+  std::string max_error;  // empty: the error says what suits the scan
   std::string output;
   std::string method = kFitMethod;
   std::string decimator{Bounded::kName};
@@ -67,6 +67,13 @@ struct ErrorOptions {
   std::string color, color_mesh;  // PLY files; empty: none
 };
 int run_error(const ErrorOptions& options);
+
+struct InfoOptions {
+  std::string file;
+  bool skip_invalid = false;
+  std::string json;
+};
+int run_info(const InfoOptions& options);
 
 struct VerifyOptions {
   std::string certificate;

@@ -16,6 +16,7 @@
 #include "host/app/command_words.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/progress_style.h"
 #include "host/app/standard_streams.h"
 #include "sw_model/base/error.h"
 #include "sw_model/model/self_test.h"
@@ -50,6 +51,9 @@ int run(int argc, char** argv) {
     return app.exit(parse_error) == 0 ? kExitOk : kExitError;
   }
   for (std::string* json : json_options(line)) direct_json(*json);
+  if (line.quiet) silence_standard_output();
+  const std::string style = line.quiet ? "none" : "text";
+  set_progress_style(progress_style_named(line.progress.empty() ? style : line.progress));
   verify_arithmetic();
   if (!app.got_subcommand("verify")) note_interrupts();  // verify leaves nothing unfinished
   return line.chosen();

@@ -18,6 +18,7 @@
 #include "host/files/atomic_file.h"
 #include "host/files/sha256.h"
 #include "host/files/tolerance.h"
+#include "host/geometry/scan_estimate.h"
 #include "host/optimize/optimize.h"
 #include "host/optimize/run_bound.h"
 #include "sw_model/base/error.h"
@@ -45,6 +46,7 @@ class OptimizeCommand {
         settings_(search_settings(options)),
         address_(DeviceAddress::parse(options.common.device)),
         device_(make_evaluator(address_)) {
+    if (options.max_error.empty()) suggest_tolerance();
     const double share = parse_share(options.common.excluded_share);
     const Tolerance tolerance = parse_tolerance(options.max_error);
     const bool two_sided = is_two_sided(options);
@@ -93,6 +95,19 @@ class OptimizeCommand {
   }
 
  private:
+  [[noreturn]] void suggest_tolerance() {
+    phase_.begin("reading the cloud", reading_seconds(options_.common.cloud));
+    const Scan scan = read_scan(options_.common.cloud, options_.common.skip_invalid);
+    const ScanEstimate estimate = estimate_scan(scan.cloud.points);
+    const std::optional<double> suggested = suggested_tolerance(estimate);
+    if (!suggested)
+      throw Error("--max-error is missing; give it in the unit of the file, or as N%");
+    throw Error(fmt::format(
+        "--max-error is missing; the points of {} are {:.3g} apart with a noise "
+        "of {:.2g}, so --max-error {:.2g} suits it: {}",
+        scan.path.string(), estimate.spacing, estimate.noise, *suggested, kWhySuggested));
+  }
+
   void print_task(const Tolerance& tolerance) const {
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "host/app/progress_style.h"
 #include "host/app/standard_streams.h"
 
 namespace emax {
@@ -15,6 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kSilence{1500};  // at the beginning of a phase
 constexpr std::chrono::milliseconds kOnTerminal{200};
 constexpr std::chrono::seconds kElsewhere{10};
+constexpr std::chrono::seconds kAsJson{1};
 
 }  // namespace
 
@@ -68,6 +71,7 @@ void PhaseProgress::begin(std::string_view what, double seconds) {
     known_share_.reset();
     start_ = Clock::now();
     next_ = start_ + kSilence;
+    if (progress_style() == ProgressStyle::kJson) tell();
   }
   changed_.notify_all();
 }
@@ -89,16 +93,39 @@ void PhaseProgress::clear_line() {
   open_line_ = false;
 }
 
+double PhaseProgress::elapsed() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+double PhaseProgress::seconds_left() const {
+  constexpr double kTooEarly = 0.005;
+  return share_ > kTooEarly ? elapsed() * (1 - share_) / share_ : -1;
+}
+
 std::string PhaseProgress::line() const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  std::string text = fmt::format("{}: {}", phase_, minutes(elapsed));
-  if (share_ > 0.005) {
-    text += fmt::format(", {:.0f}%, about {} left", std::floor(100 * share_),
-                        minutes(elapsed * (1 - share_) / share_));
+  std::string text = fmt::format("{}: {}", phase_, minutes(elapsed()));
+  if (const double left = seconds_left(); left >= 0) {
+    text += fmt::format(", {:.0f}%, about {} left", std::floor(100 * share_), minutes(left));
   } else {
     text += ", estimating the time left";
   }
   return detail_.empty() ? text : text + ", " + detail_;
+}
+
+void PhaseProgress::tell() {
+  if (progress_style() == ProgressStyle::kJson) {
+    const double left = seconds_left();
+    tell_progress({{"phase", phase_},
+                   {"seconds", elapsed()},
+                   {"share", share_},
+                   {"seconds_left", left >= 0 ? nlohmann::ordered_json(left) : nullptr},
+                   {"detail", detail_}});
+    next_ = Clock::now() + kAsJson;
+    return;
+  }
+  to_standard_error(terminal_ ? "\r\033[K" + fit_terminal(line()) : line() + "\n");
+  open_line_ = terminal_;
+  next_ = Clock::now() + (terminal_ ? Clock::duration(kOnTerminal) : Clock::duration(kElsewhere));
 }
 
 void PhaseProgress::speak() {
@@ -107,7 +134,7 @@ void PhaseProgress::speak() {
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
   std::unique_lock lock(mutex_);
   while (!leaving_) {
-    if (phase_.empty()) {
+    if (phase_.empty() || progress_style() == ProgressStyle::kNone) {
       changed_.wait(lock);
       continue;
     }
@@ -115,11 +142,8 @@ void PhaseProgress::speak() {
       changed_.wait_until(lock, next_);
       continue;  // the phase may have changed
     }
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-    share_ = std::max(share_, known_share_.value_or(expected_share(elapsed, expected_)));
-    to_standard_error(terminal_ ? "\r\033[K" + fit_terminal(line()) : line() + "\n");
-    open_line_ = terminal_;
-    next_ = Clock::now() + (terminal_ ? Clock::duration(kOnTerminal) : Clock::duration(kElsewhere));
+    share_ = std::max(share_, known_share_.value_or(expected_share(elapsed(), expected_)));
+    tell();
   }
 }
 

@@ -28,8 +28,8 @@ double certifying_seconds(std::size_t points);  // a mesh of about twice as many
 
 // Shows on standard error what a command is doing, for how long, and about how long it will take,
 // from the second second of a phase on. On a terminal it rewrites one line; elsewhere it writes a
-// line every ten seconds. It runs in its own thread, so the working code need not call it. Shares
-// never fall within a phase.
+// line every ten seconds, and as JSON (ProgressStyle) one at the beginning and one every second. It
+// runs in its own thread, so the working code need not call it. Shares never fall within a phase.
 class PhaseProgress {
  public:
   PhaseProgress();
@@ -48,7 +48,10 @@ class PhaseProgress {
   using Clock = std::chrono::steady_clock;
 
   void speak();
+  void tell();
   void clear_line();
+  double elapsed() const;
+  double seconds_left() const;  // negative where nothing is known of it
   std::string line() const;
 
   std::mutex mutex_;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "host/app/phase_progress.h"
+#include "host/app/progress_style.h"
 #include "host/app/scan.h"
 #include "host/app/standard_streams.h"
 
@@ -23,7 +25,7 @@ Progress::Progress(const ErrorConstraint& constraint, std::function<double()> se
       seconds_left_(std::move(seconds_left)),
       terminal_(standard_error_is_terminal()) {}
 
-std::string Progress::time_left(const OptimizeState& state) const {
+double Progress::seconds_left(const OptimizeState& state) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
   double left = -1;
   if (state.evaluations > state.from_log) {
@@ -34,8 +36,12 @@ std::string Progress::time_left(const OptimizeState& state) const {
   if (const double until = std::max(0.0, seconds_left_()); std::isfinite(until)) {
     left = left < 0 ? until : std::min(left, until);
   }
-  if (left < 0) return "estimating the time left";
-  return minutes(left) + " left";
+  return left;
+}
+
+std::string Progress::time_left(const OptimizeState& state) const {
+  const double left = seconds_left(state);
+  return left < 0 ? "estimating the time left" : minutes(left) + " left";
 }
 
 std::string Progress::line(const OptimizeState& state) const {
@@ -52,12 +58,34 @@ std::string Progress::line(const OptimizeState& state) const {
       polishing_ ? "decimating the best deep" + polishing_time(state) : time_left(state));
 }
 
-std::string Progress::polishing_time(const OptimizeState& state) const {
+double Progress::polishing_seconds_left(const OptimizeState& state) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - *polishing_).count();
   const double share = expected_share(elapsed, state.polish_seconds);
-  double left = share > 0 ? elapsed * (1 - share) / share : state.polish_seconds;
-  left = std::min(left, std::max(0.0, seconds_left_()));
-  return fmt::format(" for {}, about {} left", minutes(elapsed), minutes(left));
+  const double left = share > 0 ? elapsed * (1 - share) / share : state.polish_seconds;
+  return std::min(left, std::max(0.0, seconds_left_()));
+}
+
+std::string Progress::polishing_time(const OptimizeState& state) const {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - *polishing_).count();
+  return fmt::format(" for {}, about {} left", minutes(elapsed),
+                     minutes(polishing_seconds_left(state)));
+}
+
+void Progress::tell(const OptimizeState& state) const {
+  using Json = nlohmann::ordered_json;
+  const double left = polishing_ ? polishing_seconds_left(state) : seconds_left(state);
+  Json triangles, error;
+  if (const auto& shown = state.best ? state.best : state.least_error) {
+    error = constraint_.in_file_units(shown->squared_bits);
+  }
+  if (state.best) triangles = state.best->triangles;
+  tell_progress({{"phase", polishing_ ? "decimating the best deep" : "search"},
+                 {"seconds", std::chrono::duration<double>(Clock::now() - start_).count()},
+                 {"seconds_left", left >= 0 ? Json(left) : Json()},
+                 {"evaluations", evaluations_},
+                 {"budget", state.budget},
+                 {"triangles", triangles},
+                 {"e_max", error}});
 }
 
 void Progress::show(const OptimizeState& state) {
@@ -67,19 +95,23 @@ void Progress::show(const OptimizeState& state) {
   if (begins_polishing) polishing_ = now;
   const std::optional<std::size_t> triangles =
       state.best ? std::optional(state.best->triangles) : std::nullopt;
-  if (terminal_) {
+  const bool as_json = progress_style() == ProgressStyle::kJson;
+  if (progress_style() == ProgressStyle::kNone) return;
+  if (terminal_ && !as_json) {
     if (now - shown_ < kOnTerminal) return;
     to_standard_error("\r\033[K" + fit_terminal(line(state)));
     open_line_ = true;
     shown_ = now;
     return;
   }
-  const std::uint64_t tenth = 10 * state.evaluations / std::max<std::uint64_t>(state.budget, 1);
-  const bool news = triangles != best_triangles_ || tenth != tenth_ || begins_polishing;
+  const std::uint64_t steps = as_json ? state.budget : 10;
+  const std::uint64_t step = steps * evaluations_ / std::max<std::uint64_t>(state.budget, 1);
+  const bool news = triangles != best_triangles_ || step != step_ || begins_polishing;
   if (!news && now - shown_ < kInPipe) return;
   best_triangles_ = triangles;
-  tenth_ = tenth;
+  step_ = step;
   shown_ = now;
+  if (as_json) return tell(state);
   to_standard_error(line(state) + "\n");
 }
 

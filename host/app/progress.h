@@ -12,7 +12,7 @@ namespace emax {
 
 // Shows an optimization on standard error: on a terminal one line that is rewritten, in a pipe
 // plain lines (for every improvement, every tenth of the budget and every half minute). The number
-// of evaluations that is shown never falls.
+// of evaluations that is shown never falls. As JSON (ProgressStyle), a line for every news.
 class Progress {
  public:
   // `seconds_left`: of a limited time; infinite without a limit.
@@ -26,8 +26,11 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   std::string line(const OptimizeState& state) const;
+  double seconds_left(const OptimizeState& state) const;  // negative while nothing is known of it
   std::string time_left(const OptimizeState& state) const;
+  double polishing_seconds_left(const OptimizeState& state) const;
   std::string polishing_time(const OptimizeState& state) const;
+  void tell(const OptimizeState& state) const;
 
   const ErrorConstraint& constraint_;
   std::function<double()> seconds_left_;
@@ -36,7 +39,7 @@ class Progress {
   bool terminal_;
   bool open_line_ = false;
   std::optional<std::size_t> best_triangles_;
-  std::uint64_t tenth_ = 0;
+  std::uint64_t step_ = 0;                      // a tenth of the budget, or as JSON an evaluation
   std::uint64_t evaluations_ = 0;               // that was shown
   std::optional<Clock::time_point> polishing_;  // start of the last decimation
 };

@@ -1,11 +1,16 @@
 #include "host/app/standard_streams.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+
+#include "sw_model/base/error.h"
 
 namespace emax {
 
@@ -15,6 +20,14 @@ void open_standard_streams() {
     lowest = open("/dev/null", O_RDWR);
   } while (lowest >= 0 && lowest <= STDERR_FILENO);
   if (lowest >= 0) close(lowest);
+}
+
+void silence_standard_output() {
+  std::fflush(stdout);
+  const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nothing < 0) throw Error(fmt::format("/dev/null cannot be opened: {}", std::strerror(errno)));
+  dup2(nothing, STDOUT_FILENO);
+  close(nothing);
 }
 
 void to_standard_error(std::string_view text) noexcept {

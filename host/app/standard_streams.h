@@ -9,6 +9,9 @@ namespace emax {
 // later takes their place.
 void open_standard_streams();
 
+// Drops what is printed on standard output from now on.
+void silence_standard_output();
+
 // Writes to standard error. Text that cannot be written is dropped: neither a closed terminal nor a
 // full disk ends the work.
 void to_standard_error(std::string_view text) noexcept;

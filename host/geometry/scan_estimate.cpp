@@ -72,4 +72,12 @@ ScanEstimate estimate_scan(std::span<const Point> cloud) {
   return {median(spacings), std::sqrt(std::clamp(variance, 0.0, all))};
 }
 
+std::optional<double> suggested_tolerance(const ScanEstimate& scan) {
+  constexpr double kOfSpacing = 0.5, kOfNoise = 6;
+  const double wanted = std::max(kOfSpacing * scan.spacing, kOfNoise * scan.noise);
+  if (!(scan.spacing > 0) || !std::isfinite(wanted)) return std::nullopt;
+  const double unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+  return std::ceil(wanted / unit) * unit;
+}
+
 }  // namespace emax

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "sw_model/base/mesh_view.h"
 
@@ -22,5 +24,12 @@ struct ScanEstimate {
 // Estimates from at most 20,000 points, evenly spread over the indices, and their neighbours. Zeros
 // for fewer than three points. O(n log n).
 ScanEstimate estimate_scan(std::span<const Point> cloud);
+
+// The tolerance that suits a scan, to two digits and rounded up: half the distance of its points,
+// or 6 times its noise where that is more. Nothing without a distance.
+std::optional<double> suggested_tolerance(const ScanEstimate& scan);
+inline constexpr std::string_view kWhySuggested =
+    "half the distance of the points, between which the scan shows no surface, or 6 times the "
+    "noise, whichever is more";
 
 }  // namespace emax

@@ -53,6 +53,15 @@ TEST(ScanEstimate, TellsSpacingAndNoise) {
   }
 }
 
+// By hand: the greater of half the spacing and six times the noise, to two digits and rounded up.
+TEST(ScanEstimate, SuggestsATolerance) {
+  EXPECT_DOUBLE_EQ(*suggested_tolerance({.spacing = 0.00693, .noise = 5.6e-5}), 0.0035);
+  EXPECT_DOUBLE_EQ(*suggested_tolerance({.spacing = 0.174, .noise = 0.0344}), 0.21);
+  EXPECT_DOUBLE_EQ(*suggested_tolerance({.spacing = 198.2, .noise = 0}), 100);
+  EXPECT_DOUBLE_EQ(*suggested_tolerance({.spacing = 20, .noise = 0}), 10);
+  EXPECT_FALSE(suggested_tolerance({.spacing = 0, .noise = 0}));
+}
+
 TEST(ScanEstimate, ScalesWithTheScan) {
   std::vector<Point> points = scan_of_shape({.shape = "box", .noise = 0.1}).points;
   const ScanEstimate before = estimate_scan(points);
