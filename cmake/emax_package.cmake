@@ -71,6 +71,21 @@ if(EMAX_MAN)
   install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
 
+# Where each shell looks for completions by itself.
+set(completions ${PROJECT_BINARY_DIR}/completions)
+file(MAKE_DIRECTORY ${completions})
+add_custom_command(OUTPUT ${completions}/emax.bash ${completions}/emax.zsh ${completions}/emax.fish
+  COMMAND emax completion bash > ${completions}/emax.bash
+  COMMAND emax completion zsh > ${completions}/emax.zsh
+  COMMAND emax completion fish > ${completions}/emax.fish
+  DEPENDS emax COMMENT "Completions for shells")
+add_custom_target(emax_completions ALL DEPENDS ${completions}/emax.bash)
+install(FILES ${completions}/emax.bash RENAME emax
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${completions}/emax.zsh RENAME _emax
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${completions}/emax.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/emax)
 configure_package_config_file(cmake/emaxConfig.cmake.in
   ${PROJECT_BINARY_DIR}/package/emaxConfig.cmake INSTALL_DESTINATION ${package}

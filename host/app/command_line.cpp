@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "host/app/completion.h"
 #include "host/app/interrupt.h"
 #include "host/app/option_checks.h"
 #include "host/config/config.h"
@@ -314,8 +315,22 @@ void add_info(CLI::App& app, CommandLine& line) {
   command.callback([&] { line.chosen = [&info] { return run_info(info); }; });
 }
 
-constexpr std::array kCommands = {add_optimize, add_decimate, add_error,
-                                  add_verify,   add_info,     add_config};
+void add_completion(CLI::App& app, CommandLine& line) {
+  CLI::App& command =
+      *app.add_subcommand("completion", "print the script that completes commands and options in a shell");
+  command.add_option("SHELL", line.shell, "the shell")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command.callback([&] {
+    line.chosen = [&] {
+      fmt::print("{}", completion_script(app, line.shell));
+      return kExitOk;
+    };
+  });
+}
+
+constexpr std::array kCommands = {add_optimize, add_decimate, add_error,     add_verify,
+                                  add_info,     add_config,   add_completion};
 
 }  // namespace
 

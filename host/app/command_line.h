@@ -17,6 +17,7 @@ struct CommandLine {
   ErrorOptions error;
   VerifyOptions verify;
   InfoOptions info;
+  std::string shell;
   std::string config_method = kFitMethod, config_decimator{Bounded::kName};
   bool quiet = false;
   std::string progress;         // a ProgressStyle; empty: text, or none with `quiet`

@@ -14,10 +14,10 @@ ProgressStyle style_of_process = ProgressStyle::kText;
 }  // namespace
 
 ProgressStyle progress_style_named(std::string_view name) {
-  static const std::map<std::string_view, ProgressStyle> kStyles = {{"text", ProgressStyle::kText},
-                                                                    {"json", ProgressStyle::kJson},
-                                                                    {"none", ProgressStyle::kNone}};
-  return kStyles.at(name);
+  static const std::map<std::string_view, ProgressStyle> styles = {{"text", ProgressStyle::kText},
+                                                                   {"json", ProgressStyle::kJson},
+                                                                   {"none", ProgressStyle::kNone}};
+  return styles.at(name);
 }
 
 void set_progress_style(ProgressStyle style) { style_of_process = style; }
