@@ -16,8 +16,13 @@ plain() { sed 's/[][\\`*_<>|]/\\&/g'; }
 # line where its name is long.
 entries() {
   help_text | plain | awk '
-    /^[A-Z][a-z]+:$/ { print "\n# " toupper(substr($0, 1, length($0) - 1)); next }
+    /^[A-Z][a-z]+:$/ { section = $0; print "\n# " toupper(substr($0, 1, length($0) - 1)); next }
     !/^  / { next }
+    section == "Examples:" {
+      split(substr($0, 3), part, "  ")
+      print "\n**" part[1] "**\n\n:   " part[2]
+      next
+    }
     { text = substr($0, 31); sub(/^ +/, "", text) }
     substr($0, 1, 30) !~ /[^ ]/ { print "\n:   " text; next }
     {

@@ -20,6 +20,11 @@ void add_json(CLI::App& command, std::string& json) {
                      "then goes to standard error");
 }
 
+// At the end of the help: a command a line, and behind two blanks what it does.
+void add_examples(CLI::App& command, const std::string& lines) {
+  command.footer("Examples:\n" + lines);
+}
+
 void add_quiet(CLI::App& command, CommandLine& line) {
   command.add_flag("-q,--quiet", line.quiet,
                    "print nothing but errors; the exit code and the files say the result");
@@ -157,6 +162,12 @@ void add_optimize(CLI::App& app, CommandLine& line) {
   command.add_option("--config", optimize.config,
                      "settings and domains; `emax config` prints the defaults");
   add_progress(command, line);
+  add_examples(
+      command,
+      "  emax optimize scan.ply  which tolerance suits the scan\n"
+      "  emax optimize scan.ply --max-error 0.5 -o part.ply  a mesh within 0.5 of the scan\n"
+      "  emax optimize scan.ply --max-error 0.2% -o part.ply --effort quick  a first look\n"
+      "  emax optimize scan.ply --max-error 0.5 -o part.ply --time 600  in ten minutes");
   command.callback([&] {
     if (optimize.output.empty() && !optimize.max_error.empty()) {
       throw CLI::RequiredError("--output");
@@ -225,6 +236,11 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "processor)")
       ->check(CLI::Range(1u, 256u));
   add_progress(command, line);
+  add_examples(
+      command,
+      "  emax decimate mesh.stl --max-error 0.2% -o small.ply  fewer triangles\n"
+      "  emax decimate mesh.stl --max-error 0.1,0.2,0.5 -o small.ply  a mesh for each\n"
+      "  emax decimate part.obj --max-error 0.1 --feature-angle 40 -o small.obj  sharp edges");
   command.callback([&] {
     decimate.two_sided = line.decimate_bound == "two-sided";
     if (!decimate.two_sided && !decimate.back_error.empty()) {
@@ -266,6 +282,10 @@ void add_error(CLI::App& app, CommandLine& line) {
                   "write the mesh coloured by its vertices' distances to the reference: .ply")
       ->needs("--two-sided");
   add_quiet(command, line);
+  add_examples(command,
+               "  emax error scan.ply part.ply  the greatest distance, quantiles, histogram\n"
+               "  emax error scan.ply part.ply --max-error 0.5  which points are farther than 0.5\n"
+               "  emax error scan.ply part.ply --color errors.ply  the scan coloured by distance");
   command.callback([&] { line.chosen = [&error] { return run_error(error); }; });
 }
 
@@ -285,6 +305,10 @@ void add_verify(CLI::App& app, CommandLine& line) {
                      "certificate nor in the current folder");
   add_json(command, verify.json);
   add_quiet(command, line);
+  add_examples(
+      command,
+      "  emax verify part.ply.certificate.json  whether the certificate holds\n"
+      "  emax verify part.ply.certificate.json --cloud scans/scan.ply  with the scan elsewhere");
   command.callback([&] { line.chosen = [&verify] { return run_verify(verify); }; });
 }
 
@@ -312,12 +336,14 @@ void add_info(CLI::App& app, CommandLine& line) {
   command.add_flag("--skip-invalid", info.skip_invalid,
                    "leave out points with NaN or infinite coordinates");
   add_json(command, info.json);
+  add_examples(command,
+               "  emax info scan.ply  points, extent, spacing, noise, a tolerance that suits");
   command.callback([&] { line.chosen = [&info] { return run_info(info); }; });
 }
 
 void add_completion(CLI::App& app, CommandLine& line) {
-  CLI::App& command =
-      *app.add_subcommand("completion", "print the script that completes commands and options in a shell");
+  CLI::App& command = *app.add_subcommand(
+      "completion", "print the script that completes commands and options in a shell");
   command.add_option("SHELL", line.shell, "the shell")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));

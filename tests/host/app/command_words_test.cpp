@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
+#include "host/app/command_line.h"
 #include "sw_model/base/error.h"
 #include "tests/support/stimuli.h"
 
@@ -132,6 +134,31 @@ TEST(EditDistance, IsOneExactlyForTheWordsOneStepAway) {
   }
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
   EXPECT_EQ(edit_distance("ca", "abc"), 3u) << "no step changes what another has exchanged";
+}
+
+// Each is parsed as a person would give it; nothing runs.
+TEST(Examples, OfEveryHelpAreCommands) {
+  std::size_t examples = 0;
+  CLI::App all;
+  CommandLine all_lines;
+  add_commands(all, all_lines);
+  for (const CLI::App* command : all.get_subcommands({})) {
+    std::istringstream footer(command->get_footer());
+    for (std::string text; std::getline(footer, text);) {
+      if (!text.starts_with("  emax ")) continue;
+      const std::string example = text.substr(7, text.find("  ", 7) - 7);
+      SCOPED_TRACE(example);
+      EXPECT_TRUE(example.starts_with(command->get_name()));
+      EXPECT_LE(text.size(), 100u);
+      CLI::App app;
+      CommandLine line;
+      add_commands(app, line);
+      EXPECT_NO_THROW(app.parse(example));
+      EXPECT_TRUE(line.chosen);
+      ++examples;
+    }
+  }
+  EXPECT_GE(examples, 12u);
 }
 
 }  // namespace
