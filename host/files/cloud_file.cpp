@@ -14,22 +14,60 @@ namespace emax {
 namespace {
 
 using Reader = FileContent (*)(const InputFile&);
+using StreamReader = FileContent (*)(const InputStream&, const CloudReadOptions&);
 
-constexpr std::array<std::string_view, 8> kEndings{".ply", ".pcd", ".xyz", ".asc",
-                                                   ".txt", ".pts", ".obj", ".off"};
-constexpr std::array<Reader, 8> kReaders{read_ply, read_pcd, read_xyz, read_xyz,
-                                         read_xyz, read_pts, read_obj, read_off};
+constexpr std::array<std::string_view, 12> kEndings{".ply", ".pcd", ".xyz", ".asc", ".txt", ".pts",
+                                                    ".obj", ".off", ".las", ".laz", ".e57", ".ptx"};
+// Those of the other endings.
+constexpr std::array<std::pair<std::string_view, StreamReader>, 3> kStreamReaders{
+    {{".las", read_las}, {".laz", read_las}, {".e57", read_e57}}};
+constexpr std::array<std::pair<std::string_view, Reader>, 9> kReaders{{{".ply", read_ply},
+                                                                       {".pcd", read_pcd},
+                                                                       {".xyz", read_xyz},
+                                                                       {".asc", read_xyz},
+                                                                       {".txt", read_xyz},
+                                                                       {".pts", read_pts},
+                                                                       {".obj", read_obj},
+                                                                       {".off", read_off},
+                                                                       {".ptx", read_ptx}}};
+
+constexpr auto kEndingOf = [](const auto& reader) { return reader.first; };
+
+FileContent read_content(const std::filesystem::path& path, const CloudReadOptions& options) {
+  const std::string ending = lower_case_ending(path);
+  const auto of_stream = std::ranges::find(kStreamReaders, ending, kEndingOf);
+  if (of_stream != kStreamReaders.end()) {
+    const InputStream input(path);
+    if (input.size() == 0) input.fail("the file is empty", "export it again");
+    check_ending_fits(input, input.head(), ending);
+    return of_stream->second(input, options);
+  }
+  const InputFile input = read_input(path);
+  const auto known = std::ranges::find(kReaders, ending, kEndingOf);
+  if (known == kReaders.end()) {
+    input.fail(fmt::format("unknown ending \"{}\"", printable(ending)),
+               fmt::format("clouds are read from {}", fmt::join(kEndings, ", ")));
+  }
+  check_ending_fits(input, input.bytes, ending);
+  return known->second(input);
+}
 
 void drop_invalid(PointCloud& cloud) {
   std::size_t kept = 0;
+  std::vector<std::uint32_t> file_index;
+  auto scan = cloud.scans.begin();
   const bool has_normals = !cloud.normals.empty();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    for (; scan != cloud.scans.end() && scan->begin == i; ++scan) scan->begin = kept;
     if (!cloud.points[i].allFinite()) continue;
-    cloud.file_index.push_back(static_cast<std::uint32_t>(i));
+    file_index.push_back(cloud.index_in_file(i));
     cloud.points[kept] = cloud.points[i];
     if (has_normals) cloud.normals[kept] = cloud.normals[i];
     ++kept;
   }
+  for (; scan != cloud.scans.end(); ++scan) scan->begin = kept;
+  cloud.left_out.push_back({"not finite", cloud.points.size() - kept});
+  cloud.file_index = std::move(file_index);
   cloud.points.resize(kept);
   if (has_normals) cloud.normals.resize(kept);
 }
@@ -48,19 +86,30 @@ std::pair<Point, double> farthest(const std::vector<Point>& points, const Measur
 
 std::span<const std::string_view> cloud_endings() { return kEndings; }
 
-PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options) {
-  const InputFile input = read_input(path);
-  const std::string ending = lower_case_ending(path);
-  const auto known = std::ranges::find(kEndings, ending);
-  if (known == kEndings.end()) {
-    input.fail(fmt::format("unknown ending \"{}\"", printable(ending)),
-               fmt::format("clouds are read from {}", fmt::join(kEndings, ", ")));
+std::string describe(const std::vector<LeftOut>& left_out) {
+  std::string text;
+  for (const LeftOut& part : left_out) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part.points, part.reason);
   }
-  check_ending_fits(input, ending);
-  FileContent content = kReaders[static_cast<std::size_t>(known - kEndings.begin())](input);
-  if (content.vertices.empty()) input.fail("holds no points", "export it again");
+  return text;
+}
 
-  PointCloud cloud{std::move(content.vertices), std::move(content.normals), {}};
+PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options) {
+  const NamedInput input{path.string()};
+  FileContent content = read_content(path, options);
+  if (!options.left_out_classes.empty() && !content.has_classes) {
+    input.fail("--class: only LAS and LAZ files have classes", "leave the option out");
+  }
+  if (content.vertices.empty()) {
+    if (content.left_out.empty()) input.fail("holds no points", "export it again");
+    input.fail(fmt::format("every point is left out: {}", describe(content.left_out)),
+               "check the options and the export");
+  }
+
+  PointCloud cloud{
+      std::move(content.vertices), std::move(content.normals),  std::move(content.file_index),
+      std::move(content.scans),    std::move(content.left_out), std::move(content.unit),
+      content.resolution};
   if (!content.first_invalid.empty()) {
     if (!options.skip_invalid) {
       input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),

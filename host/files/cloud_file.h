@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/geometry/point_cloud.h"
 
@@ -12,9 +15,14 @@ struct CloudReadOptions {
   // Leaves out points with a NaN or infinite coordinate instead of refusing the file.
   // PointCloud::file_index then holds the indices in the file of the points that are left.
   bool skip_invalid = false;
+  // Leaves out the points of these classes. Only LAS and LAZ have classes; for a file of another
+  // format they are an Error.
+  std::vector<std::uint8_t> left_out_classes = {};
+
+  bool operator==(const CloudReadOptions&) const = default;
 };
 
-// The endings that read_cloud knows: .ply .pcd .xyz .asc .txt .pts .obj .off.
+// The endings that read_cloud knows: .ply .pcd .xyz .asc .txt .pts .obj .off .las .laz .e57 .ptx.
 std::span<const std::string_view> cloud_endings();
 
 // Reads a cloud by the ending of `path`. Coordinates are those of the file to the last bit: text is
@@ -22,8 +30,12 @@ std::span<const std::string_view> cloud_endings();
 // has them for every point and all are finite and not zero; otherwise the cloud has none, and they
 // are estimated. Throws Error where the file does not keep exactly to its format. Nothing is
 // guessed, nothing missing is filled in, and nothing is allocated for a count that the file cannot
-// hold.
+// hold. Points that a file marks as invalid or empty are left out and counted. The poses of scans
+// are applied. LAS, LAZ and E57 files are read in pieces.
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options = {});
+
+// "120 empty cells, 3 not finite"
+std::string describe(const std::vector<LeftOut>& left_out);
 
 // Throws Error naming `file` if no surface can be reconstructed from the cloud: it has fewer than 4
 // points, or all points are equal or on one line. A plane is a surface. Points are on a line if

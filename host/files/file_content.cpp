@@ -6,7 +6,7 @@
 
 namespace emax {
 
-void check_count(const InputFile& input, std::uint64_t count, std::string_view items,
+void check_count(const NamedInput& input, std::uint64_t count, std::string_view items,
                  std::uint64_t least_bytes, std::uint64_t bytes_left) {
   if (count > bytes_left / least_bytes) {
     input.fail(fmt::format("the header promises {} {}, but the rest of the file has room for {}",

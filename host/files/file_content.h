@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "host/files/cloud_file.h"
 #include "host/files/input_file.h"
+#include "host/geometry/point_cloud.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
@@ -32,13 +35,43 @@ struct FileContent {
   // Other attributes of the mesh in the file, each once: kColours and the like, or a name from the
   // file.
   std::vector<std::string> attributes;
+  // As in PointCloud.
+  std::vector<std::uint32_t> file_index;
+  std::vector<ScanPart> scans;
+  std::vector<LeftOut> left_out;
+  std::string unit;
+  double resolution = 0;
+  bool has_classes = false;  // the format gives each point a class
 
   void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
     if (first_invalid.empty() && !point.allFinite()) {
       first_invalid = std::string(place) + ' ' + std::to_string(number);
     }
+    if (left_out_points > 0) file_index.push_back(index_of_next());
     vertices.push_back(point);
   }
+
+  // The next point of the file is left out.
+  void leave_out(std::string_view reason) {
+    if (left_out_points == 0) {
+      file_index.resize(vertices.size());
+      std::iota(file_index.begin(), file_index.end(), 0u);
+    }
+    ++left_out_points;
+    const auto known = std::ranges::find(left_out, reason, &LeftOut::reason);
+    if (known != left_out.end()) {
+      ++known->points;
+    } else {
+      left_out.push_back({std::string(reason), 1});
+    }
+  }
+
+  // The index in the file of the point that is added or left out next.
+  std::uint32_t index_of_next() const {
+    return static_cast<std::uint32_t>(vertices.size() + left_out_points);
+  }
+
+  std::uint64_t left_out_points = 0;
 
   void note_attribute(std::string_view name) {
     if (std::ranges::find(attributes, name) == attributes.end()) attributes.emplace_back(name);
@@ -93,7 +126,7 @@ void add_strips(FileContent& content, std::span<const std::int64_t> corners,
 
 // Throws Error unless `count` items of at least `least_bytes` each fit into `bytes_left` and 32-bit
 // indices can number them. Call this before memory is allocated for a count that a file claims.
-void check_count(const InputFile& input, std::uint64_t count, std::string_view items,
+void check_count(const NamedInput& input, std::uint64_t count, std::string_view items,
                  std::uint64_t least_bytes, std::uint64_t bytes_left);
 
 // One reader for each format. The readers are strict: everything that the header promises must be
@@ -111,5 +144,12 @@ FileContent read_xyz(const InputFile& input);
 // As read_xyz, but the four columns after x y z (intensity and colour) are never part of a normal,
 // and the first line may hold the count.
 FileContent read_pts(const InputFile& input);
+// Several scans, each with a grid of cells and a pose. Empty cells (0 0 0) are left out.
+FileContent read_ptx(const InputFile& input);
+
+// LAS 1.0 to 1.4 and LAZ, every point format. The classes of `options` are left out.
+FileContent read_las(const InputStream& input, const CloudReadOptions& options);
+// Several scans, each with a pose. Points that are marked as invalid are left out.
+FileContent read_e57(const InputStream& input, const CloudReadOptions& options);
 
 }  // namespace emax

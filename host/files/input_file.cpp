@@ -16,12 +16,7 @@
 namespace emax {
 namespace {
 
-struct Descriptor {
-  int fd;
-  ~Descriptor() {
-    if (fd >= 0) close(fd);
-  }
-};
+constexpr std::size_t kHeadBytes = 4096;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -33,6 +28,11 @@ std::string_view trimmed(std::string_view text) {
 
 // The ending of the format that the first bytes indicate; empty if they indicate none.
 std::string_view ending_by_content(std::string_view bytes) {
+  if (bytes.starts_with("ASTM-E57")) return ".e57";
+  constexpr std::size_t kPointFormat = 104;  // its highest bit marks compressed points
+  if (bytes.starts_with("LASF") && bytes.size() > kPointFormat) {
+    return (static_cast<unsigned char>(bytes[kPointFormat]) & 0x80) != 0 ? ".laz" : ".las";
+  }
   const std::string_view first_line = trimmed(bytes.substr(0, bytes.find('\n')));
   if (first_line == "ply") return ".ply";
   if (first_line.starts_with("# .PCD") || first_line.starts_with("VERSION ")) return ".pcd";
@@ -42,36 +42,70 @@ std::string_view ending_by_content(std::string_view bytes) {
   return {};
 }
 
+constexpr std::string_view kCheckDisk = "check its permissions and the disk";
+
+std::string unreadable(int error) {
+  return fmt::format("cannot be read ({})", std::strerror(error));
+}
+
+[[noreturn]] void fail_to_read(const NamedInput& input, int error) {
+  input.fail(unreadable(error), kCheckDisk);
+}
+
 }  // namespace
 
-void InputFile::fail(std::string_view what, std::string_view remedy) const {
+void NamedInput::fail(std::string_view what, std::string_view remedy) const {
   throw Error(fmt::format("{}: {}; {}", name, what, remedy));
 }
 
-InputFile read_input(const std::filesystem::path& path) {
-  InputFile input{path.string(), {}};
-  const auto cannot_be_read = [&](int error) {
-    input.fail(fmt::format("cannot be read ({})", std::strerror(error)),
-               "check its permissions and the disk");
-  };
-  const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (file.fd < 0) {
-    if (errno == ENOENT || errno == ENOTDIR) input.fail("no such file", "check the path");
-    cannot_be_read(errno);
+InputStream::InputStream(const std::filesystem::path& path) : NamedInput{path.string()} {
+  descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) {
+    if (errno == ENOENT || errno == ENOTDIR) fail("no such file", "check the path");
+    fail_to_read(*this, errno);
   }
   struct stat status {};
-  if (fstat(file.fd, &status) != 0) cannot_be_read(errno);
-  if (S_ISDIR(status.st_mode)) input.fail("is a folder", "name a file in it");
-  if (!S_ISREG(status.st_mode)) input.fail("is not a regular file", "copy the data into a file");
+  const int failure = fstat(descriptor_, &status) != 0 ? errno : 0;
+  const auto refuse = [&](std::string_view what, std::string_view remedy) {
+    close(descriptor_);
+    fail(what, remedy);
+  };
+  if (failure != 0) refuse(unreadable(failure), kCheckDisk);
+  if (S_ISDIR(status.st_mode)) refuse("is a folder", "name a file in it");
+  if (!S_ISREG(status.st_mode)) refuse("is not a regular file", "copy the data into a file");
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
 
+InputStream::~InputStream() { close(descriptor_); }
+
+void InputStream::read(std::uint64_t offset, std::span<std::uint8_t> to) const {
+  while (!to.empty()) {
+    const ssize_t n = pread(descriptor_, to.data(), to.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_to_read(*this, errno);
+    if (n == 0) fail("the file ends before its data", kExportAgain);
+    to = to.subspan(static_cast<std::size_t>(n));
+    offset += static_cast<std::uint64_t>(n);
+  }
+}
+
+std::string InputStream::head() const {
+  std::string bytes(std::min<std::uint64_t>(size_, kHeadBytes), '\0');
+  read(0, {reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size()});
+  return bytes;
+}
+
+InputFile read_input(const std::filesystem::path& path) {
+  const InputStream file(path);
+  InputFile input{{file.name}, {}};
   // One byte more than the size, so that the end of the file is found without growing the buffer.
   std::size_t used = 0;
-  input.bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
+  input.bytes.resize(static_cast<std::size_t>(file.size()) + 1);
   while (true) {
     if (used == input.bytes.size()) input.bytes.resize(2 * used);
-    const ssize_t n = read(file.fd, input.bytes.data() + used, input.bytes.size() - used);
+    const ssize_t n = read(file.descriptor(), input.bytes.data() + used, input.bytes.size() - used);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) cannot_be_read(errno);
+    if (n < 0) fail_to_read(input, errno);
     if (n == 0) break;
     used += static_cast<std::size_t>(n);
   }
@@ -88,8 +122,8 @@ std::string lower_case_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-void check_ending_fits(const InputFile& input, std::string_view ending) {
-  const std::string_view content = ending_by_content(input.bytes);
+void check_ending_fits(const NamedInput& input, std::string_view head, std::string_view ending) {
+  const std::string_view content = ending_by_content(head);
   if (!content.empty() && content != ending) {
     input.fail(
         fmt::format("the ending is {} but the content is that of a {} file", ending, content),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,12 +11,36 @@
 
 namespace emax {
 
-// A file read whole. Every error message about it has the form "<name>: <what>; <remedy>".
-struct InputFile {
+// Every error message about a file has the form "<name>: <what>; <remedy>".
+struct NamedInput {
   std::string name;  // as the user wrote it
-  std::string bytes;
 
   [[noreturn]] void fail(std::string_view what, std::string_view remedy) const;
+};
+
+// A file read whole.
+struct InputFile : NamedInput {
+  std::string bytes;
+};
+
+// An open file that is read in pieces, for formats whose points fill gigabytes.
+class InputStream : public NamedInput {
+ public:
+  // Throws Error when `path` is missing, empty, not a regular file or cannot be opened.
+  explicit InputStream(const std::filesystem::path& path);
+  ~InputStream();
+  InputStream(const InputStream&) = delete;
+  InputStream& operator=(const InputStream&) = delete;
+
+  std::uint64_t size() const { return size_; }  // when it was opened
+  int descriptor() const { return descriptor_; }
+  // Throws Error when the file ends before.
+  void read(std::uint64_t offset, std::span<std::uint8_t> to) const;
+  std::string head() const;  // the first bytes, those that tell the format
+
+ private:
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
 };
 
 // The remedy where the content is damaged.
@@ -28,8 +53,9 @@ InputFile read_input(const std::filesystem::path& path);
 // The ending in lower case, with its dot; empty when there is none.
 std::string lower_case_ending(const std::filesystem::path& path);
 
-// Throws Error if the content begins like that of another format than the one of `ending`.
-void check_ending_fits(const InputFile& input, std::string_view ending);
+// Throws Error if the content, which begins with `head`, is that of another format than the one of
+// `ending`.
+void check_ending_fits(const NamedInput& input, std::string_view head, std::string_view ending);
 
 // The lines of a text file that are not empty, split into fields. A field is a run of characters
 // other than blanks. With a separator set, fields are the texts between separators, without the

@@ -95,7 +95,7 @@ std::string stl_bytes(const TriangleMesh& mesh) {
 
 FileContent read_content(const InputFile& input, const std::filesystem::path& path) {
   const std::size_t format = static_cast<std::size_t>(mesh_format(path));
-  check_ending_fits(input, kEndings[format]);
+  check_ending_fits(input, input.bytes, kEndings[format]);
   return kReaders[format](input);
 }
 

@@ -1,18 +1,38 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
 
+// Points of a cloud that the file holds and the reader left out.
+struct LeftOut {
+  std::string reason;  // as "empty cells"
+  std::uint64_t points = 0;
+};
+
+// One of several scans in a file.
+struct ScanPart {
+  std::string name;       // empty where the file gives none
+  std::size_t begin = 0;  // its first point; it ends where the next scan begins
+};
+
 // A cloud as it was read: 64-bit coordinates in the file's unit, points in file order.
 struct PointCloud {
   std::vector<Point> points;
   std::vector<Point> normals;             // empty, or one per point
-  std::vector<std::uint32_t> file_index;  // empty, or each point's index in the file when invalid
-                                          // points were skipped
+  std::vector<std::uint32_t> file_index;  // empty, or each point's index in the file when some
+                                          // points were left out
+  std::vector<ScanPart> scans = {};       // empty for formats without scans
+  std::vector<LeftOut> left_out = {};     // by reason, each at least one point
+  std::string unit = {};                  // "metre", "foot", "US survey foot"; empty: not stated
+  // The farthest that rounding to the numbers of the file may have moved a point. It is 0 where the
+  // numbers have 64 bits, and for text and meshes, where it is not known.
+  double resolution = 0;
 
   std::uint32_t index_in_file(std::size_t i) const {
     return file_index.empty() ? static_cast<std::uint32_t>(i) : file_index[i];

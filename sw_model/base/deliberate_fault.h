@@ -21,6 +21,7 @@ enum class Fault {
   // In the readers of files, messages and frames.
   kTrustsCounts,   // a count or length is not compared with the bytes that are there
   kTrustsIndices,  // an index is not compared with the number of vertices
+  kKeepsInvalid,   // points that a file marks as invalid are kept
   kSkipsCrc,       // a CRC is not compared
 };
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "sw_model/base/mesh_view.h"
+
+namespace emax {
+
+// The place and direction of a scanner: a rotation about the origin, then a shift.
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Point shift = Point::Zero();
+
+  // Each coordinate is ((r0 x + r1 y) + r2 z) + shift, with a rounding for each operation.
+  Point operator()(const Point& p) const {
+    Point moved;
+    for (int k = 0; k < 3; ++k) {
+      moved[k] = rotation(k, 0) * p[0] + rotation(k, 1) * p[1] + rotation(k, 2) * p[2] + shift[k];
+    }
+    return moved;
+  }
+
+  // How far the matrix is from a rotation: the greatest element of its product with its own
+  // transpose less the identity, infinite for a reflection and where a number is not finite. It
+  // changes lengths by about half of this share.
+  double defect() const;
+};
+
+// A pose with a greater defect is refused. Files of six digits stay below.
+inline constexpr double kGreatestDefect = 1e-5;
+
+// The rotation of a quaternion w, x, y, z whose length is not 0.
+Eigen::Matrix3d rotation_of(const std::array<double, 4>& quaternion);
+
+}  // namespace emax
