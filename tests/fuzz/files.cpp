@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 
 #include "host/files/cloud_file.h"
 #include "host/files/mesh_file.h"
@@ -19,6 +20,16 @@ void require_sound(const PointCloud& cloud) {
   require(std::ranges::all_of(cloud.normals, is_finite), "normals are finite");
   require(cloud.file_index.empty() || cloud.file_index.size() == cloud.points.size(),
           "each point that is left has its index in the file");
+  require(
+      std::ranges::adjacent_find(cloud.file_index, std::greater_equal()) == cloud.file_index.end(),
+      "indices in the file ascend");
+  std::size_t begin = 0;
+  for (const ScanPart& scan : cloud.scans) {
+    require(begin <= scan.begin && scan.begin <= cloud.points.size(),
+            "scans follow each other within the points");
+    begin = scan.begin;
+  }
+  require(cloud.resolution >= 0, "a resolution is a length");
 }
 
 void require_sound(const TriangleMesh& mesh) {
