@@ -17,7 +17,7 @@ Certificate certificate_of(const CertifiedResult& result, const std::filesystem:
   certificate.mesh_sha256 = std::move(mesh_sha256);
   certificate.cloud_file = scan.path.filename().string();
   certificate.cloud_sha256 = result.cloud.sha256;
-  certificate.skip_invalid = result.cloud.skip_invalid;
+  certificate.reading = result.cloud.reading;
   certificate.vertices_of_mesh = result.cloud.vertices_of_mesh;
   certificate.epsilon = result.epsilon;
   certificate.error = in_file_indices(result.proven.points, scan.cloud);

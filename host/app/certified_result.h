@@ -25,7 +25,7 @@ struct ProvenMesh {
 struct ResultCloud {
   const Scan& scan;
   const std::string& sha256;      // of its file
-  bool skip_invalid = false;      // see Certificate
+  CloudReadOptions reading = {};  // see Certificate
   bool vertices_of_mesh = false;  // see Certificate
 };
 

@@ -1,6 +1,7 @@
 #include "host/app/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -39,7 +40,17 @@ void add_progress(CLI::App& command, CommandLine& line) {
       ->check(CLI::IsMember({"text", "json", "none"}));
 }
 
-void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& skip_invalid,
+void add_reading(CLI::App& command, CloudReadOptions& reading) {
+  command.add_flag("--skip-invalid", reading.skip_invalid,
+                   "leave out points with NaN or infinite coordinates");
+  command
+      .add_option("--class", reading.left_out_classes,
+                  "leave out the points of these classes of a LAS or LAZ file, N,N,...")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 255));
+}
+
+void add_points_and_json(CLI::App& command, std::string& excluded_share, CloudReadOptions& reading,
                          std::string& json) {
   add_json(command, json);
   command
@@ -47,18 +58,18 @@ void add_points_and_json(CLI::App& command, std::string& excluded_share, bool& s
                   "share of the points (N or N%) that may lie farther than the tolerance; the "
                   "certificate lists them")
       ->capture_default_str();
-  command.add_flag("--skip-invalid", skip_invalid,
-                   "leave out points with NaN or infinite coordinates");
+  add_reading(command, reading);
 }
 
 void add_common(CLI::App& command, CommonOptions& options) {
   command
-      .add_option("CLOUD", options.cloud, "point cloud: .ply .pcd .xyz .asc .txt .pts .obj .off")
+      .add_option("CLOUD", options.cloud,
+                  fmt::format("point cloud: {}", fmt::join(cloud_endings(), " ")))
       ->required();
   command
       .add_option("--device", options.device, "device that evaluates the kernel: " + device_help())
       ->capture_default_str();
-  add_points_and_json(command, options.excluded_share, options.skip_invalid, options.json);
+  add_points_and_json(command, options.excluded_share, options.reading, options.json);
   command.add_flag("--brute-force", options.brute_force,
                    "compare every point with every triangle: slow, with the same result");
 }
@@ -225,7 +236,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "the error, and their corners; 40 suits machine parts; leave it out for noisy "
                   "scans")
       ->check(within(1, 180));
-  add_points_and_json(command, decimate.excluded_share, decimate.skip_invalid, decimate.json);
+  add_points_and_json(command, decimate.excluded_share, decimate.reading, decimate.json);
   command
       .add_option("--time", decimate.seconds,
                   "stop after this many seconds, with the mesh reached by then")
@@ -246,6 +257,9 @@ void add_decimate(CLI::App& app, CommandLine& line) {
     if (!decimate.two_sided && !decimate.back_error.empty()) {
       throw CLI::ValidationError(
           "--back-error bounds the other direction: it needs --bound two-sided");
+    }
+    if (!decimate.reading.left_out_classes.empty() && decimate.cloud.empty()) {
+      throw CLI::ValidationError("--class leaves out points of a cloud: it needs --cloud");
     }
     line.chosen = [&decimate] { return run_decimate(decimate); };
   });
@@ -331,10 +345,10 @@ void add_info(CLI::App& app, CommandLine& line) {
   CLI::App& command = *app.add_subcommand(
       "info", "say what a file of a cloud or a mesh holds, and which tolerance suits it");
   command
-      .add_option("FILE", info.file, "cloud or mesh: .ply .pcd .xyz .asc .txt .pts .obj .off .stl")
+      .add_option("FILE", info.file,
+                  fmt::format("cloud or mesh: {} .stl", fmt::join(cloud_endings(), " ")))
       ->required();
-  command.add_flag("--skip-invalid", info.skip_invalid,
-                   "leave out points with NaN or infinite coordinates");
+  add_reading(command, info.reading);
   add_json(command, info.json);
   add_examples(command,
                "  emax info scan.ply  points, extent, spacing, noise, a tolerance that suits");

@@ -52,7 +52,7 @@ struct DecimateOptions {
   bool two_sided = true;
   bool repair = false;  // remove intersecting triangles instead of keeping them
   bool closed = false;  // every hole is closed
-  bool skip_invalid = false;
+  CloudReadOptions reading;
 };
 int run_decimate(const DecimateOptions& options);
 
@@ -70,7 +70,7 @@ int run_error(const ErrorOptions& options);
 
 struct InfoOptions {
   std::string file;
-  bool skip_invalid = false;
+  CloudReadOptions reading;
   std::string json;
 };
 int run_info(const InfoOptions& options);

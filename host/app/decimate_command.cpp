@@ -59,8 +59,8 @@ class DecimateCommand {
     MeshFile file = read_mesh_file(options.mesh);
     given_ = std::move(file.mesh);
     lost_attributes_ = std::move(file.attributes);
-    scan_ = own_cloud_ ? vertices_of(options.mesh, given_)
-                       : read_scan(options.cloud, options.skip_invalid);
+    scan_ =
+        own_cloud_ ? vertices_of(options.mesh, given_) : read_scan(options.cloud, options.reading);
     drop_unused_vertices(given_.vertices, given_.triangles);
     // The checksums are those of the files as they were read: files may change while the decimation
     // runs.
@@ -231,6 +231,7 @@ class DecimateCommand {
     }
     fmt::print("points         {}: {}{}, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "", scan_.width);
+    print_left_out(scan_.cloud);
     std::string tolerances;
     for (const ToleratedMesh& bound : bounds_) {
       if (bounds_.size() == 1) {
@@ -271,7 +272,7 @@ class DecimateCommand {
   }
 
   CertifiedResult result() const {
-    CertifiedResult result = {.cloud = {scan_, cloud_sha256_, options_.skip_invalid, own_cloud_},
+    CertifiedResult result = {.cloud = {scan_, cloud_sha256_, options_.reading, own_cloud_},
                               .epsilon = epsilon_,
                               .mesh = result_.mesh,
                               .proven = proven_,

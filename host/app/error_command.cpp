@@ -69,7 +69,7 @@ Reference read_reference(const ErrorOptions& options, const Scan& scan) {
   if (may_be_mesh && (!may_be_cloud || holds_triangles(options.reference))) {
     return {options.reference, Reference::Kind::kSurface, read_mesh(options.reference)};
   }
-  PointCloud cloud = read_cloud(options.reference, {options.common.skip_invalid});
+  PointCloud cloud = read_cloud(options.reference, {options.common.reading.skip_invalid});
   return cloud_reference(options.reference, Reference::Kind::kCloud, std::move(cloud.points));
 }
 
@@ -219,6 +219,7 @@ void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
            const TriangleMesh& mesh, std::size_t excludable) {
   fmt::print("cloud          {}: {} points, width {:.6g}\n", scan.path.string(),
              grouped(scan.cloud.points.size()), scan.width);
+  print_left_out(scan.cloud);
   fmt::print("mesh           {}: {} triangles; {}\n", options.mesh, grouped(mesh.triangles.size()),
              describe(f.validity));
   fmt::print("topology       {}\n", describe(f.topology, f.reference_topology()));
@@ -269,12 +270,15 @@ int run_error(const ErrorOptions& options) {
   check_outputs(options);
   TriangleMesh mesh = read_mesh(options.mesh);
   drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
-  const Scan scan = read_scan(options.common.cloud, options.common.skip_invalid);
+  const Scan scan = read_scan(options.common.cloud, options.common.reading);
   std::optional<Reference> reference;
   if (options.two_sided) reference = read_reference(options, scan);
   f.errors.width = scan.width;
   std::optional<double>& limit = f.errors.limit;
-  if (f.tolerance) limit = f.tolerance->in_units(scan.width);
+  if (f.tolerance) {
+    limit = f.tolerance->in_units(scan.width);
+    require_resolution(scan, *limit);
+  }
 
   // The work that needs only the mesh runs beside the work that needs the cloud.
   auto of_mesh = std::async(std::launch::async, [&] {

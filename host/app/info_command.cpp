@@ -44,7 +44,7 @@ Contents read(const InfoOptions& options) {
     contents.mesh = read_mesh_file(options.file);
     contents.cloud.points = contents.mesh->mesh.vertices;
   } else {
-    contents.cloud = read_cloud(options.file, {options.skip_invalid});
+    contents.cloud = read_cloud(options.file, options.reading);
   }
   contents.bounds = bounds_of(contents.cloud.points);
   if (contents.cloud.points.size() >= kFewest) contents.scan = estimate_scan(contents.cloud.points);
@@ -66,6 +66,17 @@ void print(const InfoOptions& options, const Contents& c) {
   } else {
     fmt::print("cloud          {} points{}\n", grouped(c.cloud.points.size()),
                c.cloud.normals.empty() ? "" : ", with normals");
+    print_left_out(c.cloud);
+    if (!c.cloud.scans.empty()) {
+      std::vector<std::string> names;
+      for (const ScanPart& scan : c.cloud.scans) names.push_back(scan.name);
+      fmt::print("scans          {}: {}\n", names.size(), fmt::join(names, ", "));
+    }
+    if (!c.cloud.unit.empty()) fmt::print("unit           {}\n", c.cloud.unit);
+    if (c.cloud.resolution > 0) {
+      fmt::print("resolution     stored within {:.3g}: enough for --max-error {:.3g} and more\n",
+                 c.cloud.resolution, c.cloud.resolution / kResolutionShare);
+    }
   }
   const Point size = c.bounds.upper - c.bounds.lower;
   fmt::print("extent         {:.6g} x {:.6g} x {:.6g}, from ({:.6g}, {:.6g}, {:.6g})\n", size.x(),
@@ -88,11 +99,20 @@ Json to_json(const InfoOptions& options, const Contents& c) {
                {"lower", place(c.bounds.lower)},
                {"upper", place(c.bounds.upper)},
                {"width", c.bounds.width()},
+               {"unit", nullptr},
+               {"resolution", c.cloud.resolution},
+               {"scans", Json::array()},
+               {"left_out", Json::object()},
                {"spacing", nullptr},
                {"noise", nullptr},
                {"suggested_max_error", nullptr},
                {"validity", nullptr},
                {"topology", nullptr}};
+  if (!c.cloud.unit.empty()) json["unit"] = c.cloud.unit;
+  for (const ScanPart& scan : c.cloud.scans) {
+    json["scans"].push_back({{"name", scan.name}, {"begin", scan.begin}});
+  }
+  for (const LeftOut& part : c.cloud.left_out) json["left_out"][part.reason] = part.points;
   if (c.mesh) {
     json["triangles"] = c.mesh->mesh.triangles.size();
     json["attributes"] = c.mesh->attributes;

@@ -64,7 +64,7 @@ class OptimizeCommand {
     settings_.begun = begun_;
     settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
     phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
-    scan_ = read_scan(options.common.cloud, options.common.skip_invalid);
+    scan_ = read_scan(options.common.cloud, options.common.reading);
     cloud_sha256_ = sha256_of_file(scan_.path);
     phase_.end();
     reading_ended_ = Clock::now();
@@ -97,7 +97,7 @@ class OptimizeCommand {
  private:
   [[noreturn]] void suggest_tolerance() {
     phase_.begin("reading the cloud", reading_seconds(options_.common.cloud));
-    const Scan scan = read_scan(options_.common.cloud, options_.common.skip_invalid);
+    const Scan scan = read_scan(options_.common.cloud, options_.common.reading);
     const ScanEstimate estimate = estimate_scan(scan.cloud.points);
     const std::optional<double> suggested = suggested_tolerance(estimate);
     if (!suggested)
@@ -112,6 +112,7 @@ class OptimizeCommand {
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
     fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
                grouped(scan_.cloud.points.size()), scan_.width);
+    print_left_out(scan_.cloud);
     fmt::print("tolerance      {}, {}\n", to_text(tolerance, scan_.width),
                settings_.epsilon_back ? "two-sided" : "one-sided");
     fmt::print("search         {} + {}, {} evaluations, seed {}, {} jobs, device {}\n",

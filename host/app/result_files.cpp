@@ -74,7 +74,7 @@ ProvenMesh ResultFiles::prove(const BestMesh& best) {
 
 CertifiedResult ResultFiles::result(const BestMesh& best, const ProvenMesh& proven,
                                     std::uint64_t evaluations) const {
-  return {.cloud = {scan_, cloud_sha256_, options_.common.skip_invalid},
+  return {.cloud = {scan_, cloud_sha256_, options_.common.reading},
           .epsilon = constraint_.epsilon(),
           .mesh = best.mesh,
           .proven = proven,
@@ -103,8 +103,7 @@ bool ResultFiles::hold_fewer_than(std::size_t triangles) const {
   try {
     const Certificate there = read_certificate(path);
     return there.triangles < triangles && there.cloud_sha256 == cloud_sha256_ &&
-           there.skip_invalid == options_.common.skip_invalid &&
-           there.epsilon == constraint_.epsilon() &&
+           there.reading == options_.common.reading && there.epsilon == constraint_.epsilon() &&
            there.error.excluded.size() <= constraint_.excludable() &&
            there.reference.has_value() == reference_.has_value() &&
            (!there.reference || (there.reference->sha256 == reference_->sha256() &&

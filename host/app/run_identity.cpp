@@ -1,6 +1,7 @@
 #include "host/app/run_identity.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <iterator>
@@ -41,7 +42,7 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
                          const std::string& cloud_sha256, double epsilon) {
   RunSettings run = {
       {"cloud.sha256", cloud_sha256},
-      {"cloud.skip_invalid", options.common.skip_invalid ? "true" : "false"},
+      {"cloud.skip_invalid", options.common.reading.skip_invalid ? "true" : "false"},
       {"max_error", fmt::format("{}", epsilon)},
       {"exclude_outliers", fmt::format("{}", parse_share(options.common.excluded_share))},
       {"method", settings.method},
@@ -51,6 +52,10 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"mesh.ending", lower_case_ending(settings.output)},
       {"seed", fmt::format("{}", settings.seed)},
   };
+  if (!options.common.reading.left_out_classes.empty()) {
+    run.emplace_back("cloud.left_out_classes",
+                     fmt::format("{}", fmt::join(options.common.reading.left_out_classes, ",")));
+  }
   if (takes_bound(settings.decimator)) run.emplace_back(kBoundSetting, "");
   for (auto& value : named_values(settings.config)) {
     if (value.first != "search.budget") run.push_back(std::move(value));  // it may grow

@@ -19,8 +19,8 @@
 
 namespace emax {
 
-Scan read_scan(const std::filesystem::path& path, bool skip_invalid) {
-  Scan scan = {path, read_cloud(path, {skip_invalid}), 0};
+Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading) {
+  Scan scan = {path, read_cloud(path, reading), 0};
   check_cloud(scan.cloud, path.string());
   scan.width = bounds_of(scan.cloud.points).width();
   return scan;
@@ -57,9 +57,21 @@ EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::ui
   return worst;
 }
 
+void require_resolution(const Scan& scan, double epsilon) {
+  const double moved = scan.cloud.resolution;
+  if (moved <= kResolutionShare * epsilon) return;
+  throw Error(fmt::format(
+      "{}: the resolution of its coordinates may move points by {:.3g}, more than a hundredth of "
+      "the tolerance {:.6g}; export it with finer steps, or give a tolerance of at least {:.3g}",
+      scan.path.string(), moved, epsilon, 1.01 * moved / kResolutionShare));
+}
+
 double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan) {
   const double length = tolerance.in_units(scan.width);
-  if (length < scan.width) return length;
+  if (length < scan.width) {
+    require_resolution(scan, length);
+    return length;
+  }
   throw Error(
       fmt::format("{} {:.6g} is no less than the width of {}, {:.6g}: give it in the unit of the "
                   "file, or as N%",
@@ -116,6 +128,11 @@ std::string describe(const MeshValidity& v) {
   count(v.self_intersections, "self-intersections");
   text.pop_back();
   return text;
+}
+
+void print_left_out(const PointCloud& cloud) {
+  if (cloud.left_out.empty()) return;
+  fmt::print("left out       {}\n", describe(cloud.left_out));
 }
 
 void print_excluded(const CertifiedError& certified, std::size_t excludable) {

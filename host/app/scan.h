@@ -9,6 +9,7 @@
 
 #include "host/device/device_address.h"
 #include "host/engine/error_engine.h"
+#include "host/files/cloud_file.h"
 #include "host/files/tolerance.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
@@ -25,7 +26,7 @@ struct CommonOptions {
   std::string device = "cpu";
   std::string json;
   std::string excluded_share = "0";
-  bool skip_invalid = false;
+  CloudReadOptions reading;
   bool brute_force = false;
 };
 
@@ -41,14 +42,19 @@ struct Scan {
 // triangle has an area.
 Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-Scan read_scan(const std::filesystem::path& path, bool skip_invalid);
+Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading);
 
 // The kernel's error over the points that are not excluded; the index of its worst point is the
 // file's.
 EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded);
 
+// The share of a tolerance by which the numbers in a scan's file may have moved points.
+inline constexpr double kResolutionShare = 0.01;
+// Throws Error if the numbers in the scan's file are coarser than that share of `epsilon`.
+void require_resolution(const Scan& scan, double epsilon);
+
 // The tolerance in the scan's unit. Throws Error naming the option if the tolerance is not less
-// than the scan's width, as when it is given in another unit.
+// than the scan's width, as when it is given in another unit, and as require_resolution().
 double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan);
 
 // Calls check_output for the mesh, the certificate and, if there may be one, the reference.
@@ -63,6 +69,9 @@ EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud);
 
 // 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
+
+// Prints how many points of the file were left out and why, if any were.
+void print_left_out(const PointCloud& cloud);
 
 // "valid: ..." or "not valid: 3 non-manifold edges, ..."
 std::string describe(const MeshValidity& validity);

@@ -92,7 +92,8 @@ class Verification {
     const TriangleMesh mesh = read_mesh(mesh_path_);
     const Scan scan = certificate_.vertices_of_mesh
                           ? vertices_of(cloud_path_, read_mesh(cloud_path_))
-                          : read_scan(cloud_path_, certificate_.skip_invalid);
+                          : read_scan(cloud_path_, certificate_.reading);
+    require_resolution(scan, certificate_.epsilon);
     require(mesh.triangles.size() == certificate_.triangles &&
                 mesh.vertices.size() == certificate_.vertices,
             fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",

@@ -58,7 +58,10 @@ Certificate parse(const Json& json) {
   get_count(mesh.at("vertices"), c.vertices);
   cloud.at("file").get_to(c.cloud_file);
   cloud.at("sha256").get_to(c.cloud_sha256);
-  cloud.at("skip_invalid").get_to(c.skip_invalid);
+  cloud.at("skip_invalid").get_to(c.reading.skip_invalid);
+  if (cloud.contains("left_out_classes")) {
+    cloud.at("left_out_classes").get_to(c.reading.left_out_classes);
+  }
   c.vertices_of_mesh = cloud.value("vertices_of_mesh", false);
   get_count(json.at("triangles"), c.triangles);
   json.at("epsilon").get_to(c.epsilon);
@@ -100,7 +103,7 @@ Json to_json(const ReferenceBound& r) {
 }
 
 std::string to_json_text(const Certificate& c) {
-  const Json json = {
+  Json json = {
       {"schema", kSchema},
       {"kernel_version", kKernelVersion},
       {"bound", c.reference ? kTwoSidedBound : kBound},
@@ -119,7 +122,7 @@ std::string to_json_text(const Certificate& c) {
       {"cloud",
        {{"file", c.cloud_file},
         {"sha256", c.cloud_sha256},
-        {"skip_invalid", c.skip_invalid},
+        {"skip_invalid", c.reading.skip_invalid},
         {"vertices_of_mesh", c.vertices_of_mesh}}},
       {"reference", c.reference ? to_json(*c.reference) : Json()},
       {"transform", to_json(c.transform)},
@@ -128,6 +131,9 @@ std::string to_json_text(const Certificate& c) {
       {"parameters", c.chain.parameters.by_name()},
       {"seed", c.seed},
       {"evaluations", c.evaluations}};
+  if (!c.reading.left_out_classes.empty()) {
+    json["cloud"]["left_out_classes"] = c.reading.left_out_classes;
+  }
   return json.dump(2) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/files/cloud_file.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/geometry/point_cloud.h"
@@ -30,7 +31,7 @@ struct ReferenceBound {
 struct Certificate {
   std::string mesh_file, mesh_sha256;  // file names without folders
   std::string cloud_file, cloud_sha256;
-  bool skip_invalid = false;      // how the cloud was read
+  CloudReadOptions reading;       // how the cloud was read
   bool vertices_of_mesh = false;  // the cloud is the vertices that the triangles of a mesh file use
   double epsilon = 0;             // in the cloud's unit
   CertifiedError error;           // indices are the file's

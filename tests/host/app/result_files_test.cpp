@@ -74,8 +74,8 @@ TEST_F(ResultFilesTest, ABetterMeshIsSeenOnlyUnderTheSameBounds) {
   const Point first = settings_.bound.reference.vertices.front();
   EXPECT_FALSE(changed([&] { settings_.bound.reference.vertices.front() *= 1.01; },
                        [&] { settings_.bound.reference.vertices.front() = first; }));
-  EXPECT_FALSE(changed([&] { options_.common.skip_invalid = true; },
-                       [&] { options_.common.skip_invalid = false; }));
+  EXPECT_FALSE(changed([&] { options_.common.reading.skip_invalid = true; },
+                       [&] { options_.common.reading.skip_invalid = false; }));
   // Not the mesh that was certified, and no certificate at all.
   folder_.write("mesh.ply", "another");
   EXPECT_FALSE(files().hold_fewer_than(all() + 1));

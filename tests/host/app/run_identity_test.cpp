@@ -51,7 +51,7 @@ std::set<std::string> changed_by(const Change& change) {
 TEST(RunIdentity, IsAnotherWhereAResultWouldBe) {
   const std::vector<std::pair<std::string, Change>> changes = {
       {"cloud.sha256", [](Asked& a) { a.cloud_sha256 = "of another"; }},
-      {"cloud.skip_invalid", [](Asked& a) { a.options.common.skip_invalid = true; }},
+      {"cloud.skip_invalid", [](Asked& a) { a.options.common.reading.skip_invalid = true; }},
       {"max_error", [](Asked& a) { a.epsilon = std::nextafter(a.epsilon, 1); }},
       {"exclude_outliers", [](Asked& a) { a.options.common.excluded_share = "1%"; }},
       {"method", [](Asked& a) { a.settings.method = "imls"; }},
