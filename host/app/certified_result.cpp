@@ -20,6 +20,7 @@ Certificate certificate_of(const CertifiedResult& result, const std::filesystem:
   certificate.reading = result.cloud.reading;
   certificate.vertices_of_mesh = result.cloud.vertices_of_mesh;
   certificate.epsilon = result.epsilon;
+  if (scan.unit) certificate.unit = scan.unit->name;
   certificate.error = in_file_indices(result.proven.points, scan.cloud);
   certificate.kernel = result.proven.kernel;
   certificate.vertices = result.mesh.vertices.size();
@@ -60,6 +61,7 @@ ResultReport report_of(const CertifiedResult& result) {
   report.certified = in_file_indices(result.proven.points, scan.cloud);
   report.kernel = result.proven.kernel;
   report.points = scan.cloud.points.size();
+  if (scan.unit) report.unit = scan.unit->name;
   report.transform = normalization_of(scan.cloud.points);
   report.reference = result.proven.reference;
   return report;

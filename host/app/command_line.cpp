@@ -50,6 +50,26 @@ void add_reading(CLI::App& command, CloudReadOptions& reading) {
       ->check(CLI::Range(0, 255));
 }
 
+void add_unit(CLI::App& command, std::string& unit) {
+  std::vector<std::string> names;
+  for (const Unit& u : kUnits) names.emplace_back(u.name);
+  command
+      .add_option(
+          "--unit", unit,
+          "what the numbers of the file are; lengths with a unit (0.5mm) need it unless the "
+          "file says it, as E57 and some LAS files do")
+      ->check(CLI::IsMember(names));
+}
+
+// --loa stands for a tolerance.
+void add_level(CLI::App& command, int& level) {
+  command
+      .add_option("--loa", level,
+                  "in place of --max-error: the level of represented accuracy (USIBD), as a "
+                  "maximum; 20: 50 mm, 30: 15 mm, 40: 5 mm, 50: 1 mm")
+      ->check(CLI::IsMember({20, 30, 40, 50}));
+}
+
 void add_points_and_json(CLI::App& command, std::string& excluded_share, CloudReadOptions& reading,
                          std::string& json) {
   add_json(command, json);
@@ -70,6 +90,7 @@ void add_common(CLI::App& command, CommonOptions& options) {
       .add_option("--device", options.device, "device that evaluates the kernel: " + device_help())
       ->capture_default_str();
   add_points_and_json(command, options.excluded_share, options.reading, options.json);
+  add_unit(command, options.unit);
   command.add_flag("--brute-force", options.brute_force,
                    "compare every point with every triangle: slow, with the same result");
 }
@@ -107,9 +128,11 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                           "make a mesh of a scan, searching for the reconstruction and the "
                           "decimation that give the fewest triangles");
   add_common(command, optimize.common);
-  command.add_option("--max-error", optimize.max_error,
-                     "tolerance: N in the cloud's unit, or N% of its width; without it the command "
-                     "only says which one suits the scan");
+  command.add_option(
+      "--max-error", optimize.max_error,
+      "tolerance: N in the cloud's unit, N% of its width, or 0.5mm; without it the command "
+      "only says which one suits the scan");
+  add_level(command, optimize.level);
   command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off (required)");
   add_chain(command, optimize.method, optimize.decimator);
   std::vector<std::string> one_sided = names_of_decimators(false);
@@ -180,7 +203,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       "  emax optimize scan.ply --max-error 0.2% -o part.ply --effort quick  a first look\n"
       "  emax optimize scan.ply --max-error 0.5 -o part.ply --time 600  in ten minutes");
   command.callback([&] {
-    if (optimize.output.empty() && !optimize.max_error.empty()) {
+    if (optimize.output.empty() && (!optimize.max_error.empty() || optimize.level > 0)) {
       throw CLI::RequiredError("--output");
     }
     if (polish.count() == 0) optimize.polish = optimize.effort != "quick";
@@ -200,7 +223,8 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command
       .add_option(
           "--max-error", decimate.max_error,
-          "tolerance: N in the unit of the points, or N% of their width; several, separated by "
+          "tolerance: N in the unit of the points, N% of their width, or 0.5mm; several, separated "
+          "by "
           "commas, write a mesh for each, MESH-N.ply, and their curve")
       ->required();
   command
@@ -237,6 +261,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "scans")
       ->check(within(1, 180));
   add_points_and_json(command, decimate.excluded_share, decimate.reading, decimate.json);
+  add_unit(command, decimate.unit);
   command
       .add_option("--time", decimate.seconds,
                   "stop after this many seconds, with the mesh reached by then")
@@ -274,6 +299,7 @@ void add_error(CLI::App& app, CommandLine& line) {
   command.add_option("--max-error", error.max_error,
                      "tolerance, N or N%: the output counts the points that are farther; exit "
                      "code 2 when the tolerance is exceeded");
+  add_level(command, error.level);
   command.add_flag("--two-sided", error.two_sided,
                    "also bound the distance of the whole mesh from the reference");
   command

@@ -17,6 +17,7 @@ namespace emax {
 struct OptimizeOptions {
   CommonOptions common;
   std::string max_error;  // empty: the error says what suits the scan
+  int level = 0;          // of accuracy, in place of max_error
   std::string output;
   std::string method = kFitMethod;
   std::string decimator{Bounded::kName};
@@ -39,6 +40,7 @@ int run_optimize(const OptimizeOptions& options);
 struct DecimateOptions {
   std::string mesh;
   std::string cloud;  // empty: the mesh's vertices, and its whole surface
+  std::string unit;   // of the points; empty: what the file says
   std::string max_error;
   std::string back_error;  // empty: max_error
   std::string output;
@@ -60,6 +62,7 @@ struct ErrorOptions {
   CommonOptions common;
   std::string mesh;
   std::string max_error;  // empty: only measure
+  int level = 0;          // of accuracy, in place of max_error
   bool two_sided = false;
   std::string reference;          // a mesh or a cloud; empty: the cloud itself
   std::vector<double> quantiles;  // percent; empty: the usual ones

@@ -61,12 +61,14 @@ class DecimateCommand {
     lost_attributes_ = std::move(file.attributes);
     scan_ =
         own_cloud_ ? vertices_of(options.mesh, given_) : read_scan(options.cloud, options.reading);
+    if (!options.unit.empty()) scan_.unit = unit_named(options.unit);
     drop_unused_vertices(given_.vertices, given_.triangles);
     // The checksums are those of the files as they were read: files may change while the decimation
     // runs.
     mesh_sha256_ = sha256_of_file(options.mesh);
     cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_file(scan_.path);
     if (back) back_ = below_width(*back, "--back-error", scan_);
+    for (ToleratedMesh& bound : bounds_) bound.tolerance = bound.tolerance.in_unit_of(scan_.unit);
     // All tolerances have the same reference, which is made for the smallest.
     std::ranges::sort(bounds_, {},
                       [&](const ToleratedMesh& b) { return b.tolerance.in_units(scan_.width); });
@@ -229,13 +231,14 @@ class DecimateCommand {
       fmt::print("not kept       {}: the result holds vertices and triangles alone\n",
                  fmt::join(lost_attributes_, ", "));
     }
-    fmt::print("points         {}: {}{}, width {:.6g}\n", scan_.path.string(),
-               grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "", scan_.width);
+    fmt::print("points         {}: {}{}, width {}\n", scan_.path.string(),
+               grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "",
+               length_text(scan_.width, scan_.unit));
     print_left_out(scan_.cloud);
     std::string tolerances;
     for (const ToleratedMesh& bound : bounds_) {
       if (bounds_.size() == 1) {
-        tolerances = to_text(bound.tolerance, scan_.width);
+        tolerances = to_text(bound.tolerance, scan_.width, scan_.unit);
       } else {
         tolerances += (tolerances.empty() ? "" : ", ") + bound.text;
       }

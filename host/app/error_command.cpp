@@ -217,8 +217,7 @@ struct Findings {
 
 void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
            const TriangleMesh& mesh, std::size_t excludable) {
-  fmt::print("cloud          {}: {} points, width {:.6g}\n", scan.path.string(),
-             grouped(scan.cloud.points.size()), scan.width);
+  fmt::print("cloud          {}\n", describe(scan));
   print_left_out(scan.cloud);
   fmt::print("mesh           {}: {} triangles; {}\n", options.mesh, grouped(mesh.triangles.size()),
              describe(f.validity));
@@ -227,7 +226,8 @@ void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
              100 * f.certified.e_max_upper / scan.width);
   print_excluded(f.certified, excludable);
   if (f.tolerance) {
-    fmt::print("tolerance      {}: {}\n", to_text(*f.tolerance, scan.width),
+    fmt::print("tolerance      {}{}: {}\n", to_text(*f.tolerance, scan.width, scan.unit),
+               level_text(options.level),
                f.feasible() ? "kept" : fmt::format("exceeded: {}", f.exceeding()));
   }
   fmt::print("worst point    {}\n", f.measured.kept.worst_point);
@@ -251,6 +251,7 @@ std::string json_text(const Findings& f, const ErrorOptions& options, const Tria
   report.certified = f.certified;
   report.kernel = f.measured.kept;
   report.points = scan.cloud.points.size();
+  if (scan.unit) report.unit = scan.unit->name;
   report.transform = transform;
   report.device = options.common.device;
   report.counters = f.counters;
@@ -266,11 +267,12 @@ int run_error(const ErrorOptions& options) {
   const DeviceAddress address = DeviceAddress::parse(options.common.device);
   const double share = parse_share(options.common.excluded_share);
   Findings f;
-  if (!options.max_error.empty()) f.tolerance = parse_tolerance(options.max_error);
+  f.tolerance = given_tolerance(options.max_error, options.level);
   check_outputs(options);
   TriangleMesh mesh = read_mesh(options.mesh);
   drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
-  const Scan scan = read_scan(options.common.cloud, options.common.reading);
+  const Scan scan = read_scan(options.common.cloud, options.common.reading, options.common.unit);
+  if (f.tolerance) f.tolerance = f.tolerance->in_unit_of(scan.unit);
   std::optional<Reference> reference;
   if (options.two_sided) reference = read_reference(options, scan);
   f.errors.width = scan.width;

@@ -72,7 +72,7 @@ void print(const InfoOptions& options, const Contents& c) {
       for (const ScanPart& scan : c.cloud.scans) names.push_back(scan.name);
       fmt::print("scans          {}: {}\n", names.size(), fmt::join(names, ", "));
     }
-    if (!c.cloud.unit.empty()) fmt::print("unit           {}\n", c.cloud.unit);
+    if (c.cloud.unit) fmt::print("unit           {}\n", c.cloud.unit->name);
     if (c.cloud.resolution > 0) {
       fmt::print("resolution     stored within {:.3g}: enough for --max-error {:.3g} and more\n",
                  c.cloud.resolution, c.cloud.resolution / kResolutionShare);
@@ -108,7 +108,7 @@ Json to_json(const InfoOptions& options, const Contents& c) {
                {"suggested_max_error", nullptr},
                {"validity", nullptr},
                {"topology", nullptr}};
-  if (!c.cloud.unit.empty()) json["unit"] = c.cloud.unit;
+  if (c.cloud.unit) json["unit"] = c.cloud.unit->name;
   for (const ScanPart& scan : c.cloud.scans) {
     json["scans"].push_back({{"name", scan.name}, {"begin", scan.begin}});
   }

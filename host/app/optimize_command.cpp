@@ -46,9 +46,9 @@ class OptimizeCommand {
         settings_(search_settings(options)),
         address_(DeviceAddress::parse(options.common.device)),
         device_(make_evaluator(address_)) {
-    if (options.max_error.empty()) suggest_tolerance();
+    const std::optional<Tolerance> given = given_tolerance(options.max_error, options.level);
+    if (!given) suggest_tolerance();
     const double share = parse_share(options.common.excluded_share);
-    const Tolerance tolerance = parse_tolerance(options.max_error);
     const bool two_sided = is_two_sided(options);
     if (options.closed && !(two_sided && settings_.method == kFitMethod)) {
       throw Error(
@@ -64,11 +64,11 @@ class OptimizeCommand {
     settings_.begun = begun_;
     settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
     phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
-    scan_ = read_scan(options.common.cloud, options.common.reading);
+    scan_ = read_scan(options.common.cloud, options.common.reading, options.common.unit);
     cloud_sha256_ = sha256_of_file(scan_.path);
     phase_.end();
     reading_ended_ = Clock::now();
-    epsilon_ = below_width(tolerance, "--max-error", scan_);
+    epsilon_ = below_width(*given, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
     suit_to_cloud(settings_, options, scan_.cloud.points.size());
@@ -76,7 +76,7 @@ class OptimizeCommand {
     settings_.log = &*log_;
     Settings& search = settings_.config.search;
     search.earlier_budgets = log_->give_budget(search.budget);
-    print_task(tolerance);
+    print_task(given->in_unit_of(scan_.unit));
   }
 
   int run() {
@@ -97,24 +97,25 @@ class OptimizeCommand {
  private:
   [[noreturn]] void suggest_tolerance() {
     phase_.begin("reading the cloud", reading_seconds(options_.common.cloud));
-    const Scan scan = read_scan(options_.common.cloud, options_.common.reading);
+    const Scan scan =
+        read_scan(options_.common.cloud, options_.common.reading, options_.common.unit);
     const ScanEstimate estimate = estimate_scan(scan.cloud.points);
     const std::optional<double> suggested = suggested_tolerance(estimate);
     if (!suggested)
       throw Error("--max-error is missing; give it in the unit of the file, or as N%");
-    throw Error(fmt::format(
-        "--max-error is missing; the points of {} are {:.3g} apart with a noise "
-        "of {:.2g}, so --max-error {:.2g} suits it: {}",
-        scan.path.string(), estimate.spacing, estimate.noise, *suggested, kWhySuggested));
+    throw Error(
+        fmt::format("--max-error is missing; the points of {} are {:.3g} apart with a noise "
+                    "of {:.2g}, so --max-error {:.2g}{} suits it: {}",
+                    scan.path.string(), estimate.spacing, estimate.noise, *suggested,
+                    scan.unit ? scan.unit->name : "", kWhySuggested));
   }
 
   void print_task(const Tolerance& tolerance) const {
     fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
-    fmt::print("cloud          {}: {} points, width {:.6g}\n", scan_.path.string(),
-               grouped(scan_.cloud.points.size()), scan_.width);
+    fmt::print("cloud          {}\n", describe(scan_));
     print_left_out(scan_.cloud);
-    fmt::print("tolerance      {}, {}\n", to_text(tolerance, scan_.width),
-               settings_.epsilon_back ? "two-sided" : "one-sided");
+    fmt::print("tolerance      {}{}, {}\n", to_text(tolerance, scan_.width, scan_.unit),
+               level_text(options_.level), settings_.epsilon_back ? "two-sided" : "one-sided");
     fmt::print("search         {} + {}, {} evaluations, seed {}, {} jobs, device {}\n",
                settings_.method, settings_.decimator, settings_.config.search.budget,
                settings_.seed, settings_.jobs, options_.common.device);

@@ -19,11 +19,22 @@
 
 namespace emax {
 
-Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading) {
-  Scan scan = {path, read_cloud(path, reading), 0};
+Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading,
+               std::string_view unit) {
+  Scan scan = {path, read_cloud(path, reading), 0, unit_named(unit)};
+  if (unit.empty()) scan.unit = scan.cloud.unit;
   check_cloud(scan.cloud, path.string());
   scan.width = bounds_of(scan.cloud.points).width();
   return scan;
+}
+
+std::string describe(const Scan& scan) {
+  std::string text =
+      fmt::format("{}: {} points, width {}", scan.path.string(), grouped(scan.cloud.points.size()),
+                  length_text(scan.width, scan.unit));
+  const std::optional<Unit>& stated = scan.cloud.unit;
+  if (stated && scan.unit != stated) text += fmt::format(" (the file says {})", stated->name);
+  return text;
 }
 
 Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh) {
@@ -66,8 +77,18 @@ void require_resolution(const Scan& scan, double epsilon) {
       scan.path.string(), moved, epsilon, 1.01 * moved / kResolutionShare));
 }
 
+std::optional<Tolerance> given_tolerance(const std::string& max_error, int level) {
+  if (max_error.empty()) return level > 0 ? std::optional(tolerance_of_level(level)) : std::nullopt;
+  if (level > 0) throw Error("--loa is a tolerance, too: leave it out or --max-error");
+  return parse_tolerance(max_error);
+}
+
+std::string level_text(int level) {
+  return level > 0 ? fmt::format(" (represented accuracy, LOA {}, as a maximum)", level) : "";
+}
+
 double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan) {
-  const double length = tolerance.in_units(scan.width);
+  const double length = tolerance.in_unit_of(scan.unit, option).in_units(scan.width);
   if (length < scan.width) {
     require_resolution(scan, length);
     return length;

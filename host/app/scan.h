@@ -27,6 +27,7 @@ struct CommonOptions {
   std::string json;
   std::string excluded_share = "0";
   CloudReadOptions reading;
+  std::string unit;  // of the cloud's numbers; empty: what the file says
   bool brute_force = false;
 };
 
@@ -35,6 +36,7 @@ struct Scan {
   std::filesystem::path path;
   PointCloud cloud;
   double width;
+  std::optional<Unit> unit = {};  // of the coordinates, where it is known
 };
 
 // The vertices of the triangles of a mesh that have an area, as a scan. A mesh may be flat, or have
@@ -42,7 +44,13 @@ struct Scan {
 // triangle has an area.
 Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading);
+// `unit`: that of the file's numbers, as given to --unit; empty: what the file says.
+Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading,
+               std::string_view unit = {});
+
+// What a command prints of its scan: "scan.ply: 1,234 points, width 5 m", and which unit was taken
+// in place of the file's.
+std::string describe(const Scan& scan);
 
 // The kernel's error over the points that are not excluded; the index of its worst point is the
 // file's.
@@ -52,6 +60,13 @@ EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::ui
 inline constexpr double kResolutionShare = 0.01;
 // Throws Error if the numbers in the scan's file are coarser than that share of `epsilon`.
 void require_resolution(const Scan& scan, double epsilon);
+
+// The tolerance of --max-error or, where that is empty, of --loa (0: none given). Throws Error
+// where both are given.
+std::optional<Tolerance> given_tolerance(const std::string& max_error, int level);
+
+// " (represented accuracy, LOA 30, as a maximum)"; empty for level 0.
+std::string level_text(int level);
 
 // The tolerance in the scan's unit. Throws Error naming the option if the tolerance is not less
 // than the scan's width, as when it is given in another unit, and as require_resolution().

@@ -108,7 +108,7 @@ PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions&
 
   PointCloud cloud{
       std::move(content.vertices), std::move(content.normals),  std::move(content.file_index),
-      std::move(content.scans),    std::move(content.left_out), std::move(content.unit),
+      std::move(content.scans),    std::move(content.left_out), content.unit,
       content.resolution};
   if (!content.first_invalid.empty()) {
     if (!options.skip_invalid) {

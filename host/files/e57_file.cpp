@@ -82,7 +82,7 @@ void read_scan(const InputStream& input, E57File& file, std::size_t index, FileC
 
 FileContent read_e57(const InputStream& input, const CloudReadOptions& /*options*/) {
   FileContent content;
-  content.unit = "metre";
+  content.unit = unit_named("m");
   std::string place;
   try {
     E57File file(input.descriptor());

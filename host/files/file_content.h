@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "host/files/cloud_file.h"
 #include "host/files/input_file.h"
 #include "host/geometry/point_cloud.h"
+#include "host/geometry/unit.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
@@ -39,7 +41,7 @@ struct FileContent {
   std::vector<std::uint32_t> file_index;
   std::vector<ScanPart> scans;
   std::vector<LeftOut> left_out;
-  std::string unit;
+  std::optional<Unit> unit;
   double resolution = 0;
   bool has_classes = false;  // the format gives each point a class
 

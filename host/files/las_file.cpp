@@ -101,27 +101,27 @@ Header read_header(const InputStream& input) {
   return h;
 }
 
-// The unit of lengths that GeoTIFF keys name; empty where they name none of these.
-std::string unit_of(std::span<const std::uint8_t> keys) {
+// The unit of lengths that GeoTIFF keys name, if it is one of ours.
+std::optional<Unit> unit_of(std::span<const std::uint8_t> keys) {
   constexpr std::uint16_t kProjectedLinearUnits = 3076;
   for (std::size_t at = 8; at + 8 <= keys.size(); at += 8) {
     if (load<std::uint16_t>(&keys[at]) != kProjectedLinearUnits) continue;
     switch (load<std::uint16_t>(&keys[at + 6])) {
       case 9001:
-        return "metre";
+        return unit_named("m");
       case 9002:
-        return "foot";
+        return unit_named("ft");
       case 9003:
-        return "US survey foot";
+        return unit_named("us-ft");
       default:
-        return "";
+        return std::nullopt;
     }
   }
-  return "";
+  return std::nullopt;
 }
 
 struct Records {
-  std::string unit;
+  std::optional<Unit> unit;
   std::optional<std::vector<std::uint8_t>> laz;
 };
 

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/geometry/unit.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
@@ -29,7 +31,7 @@ struct PointCloud {
                                           // points were left out
   std::vector<ScanPart> scans = {};       // empty for formats without scans
   std::vector<LeftOut> left_out = {};     // by reason, each at least one point
-  std::string unit = {};                  // "metre", "foot", "US survey foot"; empty: not stated
+  std::optional<Unit> unit = {};          // nothing where the file does not state it
   // The farthest that rounding to the numbers of the file may have moved a point. It is 0 where the
   // numbers have 64 bits, and for text and meshes, where it is not known.
   double resolution = 0;

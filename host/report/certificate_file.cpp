@@ -65,6 +65,7 @@ Certificate parse(const Json& json) {
   c.vertices_of_mesh = cloud.value("vertices_of_mesh", false);
   get_count(json.at("triangles"), c.triangles);
   json.at("epsilon").get_to(c.epsilon);
+  c.unit = json.value("unit", "");
   json.at("e_max").get_to(c.error.e_max_upper);
   get_count(json.at("worst_point"), c.kernel.worst_point);
   get_count(json.at("points"), c.error.points);
@@ -131,6 +132,7 @@ std::string to_json_text(const Certificate& c) {
       {"parameters", c.chain.parameters.by_name()},
       {"seed", c.seed},
       {"evaluations", c.evaluations}};
+  if (!c.unit.empty()) json["unit"] = c.unit;
   if (!c.reading.left_out_classes.empty()) {
     json["cloud"]["left_out_classes"] = c.reading.left_out_classes;
   }

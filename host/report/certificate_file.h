@@ -34,6 +34,7 @@ struct Certificate {
   CloudReadOptions reading;       // how the cloud was read
   bool vertices_of_mesh = false;  // the cloud is the vertices that the triangles of a mesh file use
   double epsilon = 0;             // in the cloud's unit
+  std::string unit;               // its name, where it is known
   CertifiedError error;           // indices are the file's
   EmaxResult kernel = {};         // over the points that are not excluded; the index is the file's
   std::size_t vertices = 0, triangles = 0;

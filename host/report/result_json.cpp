@@ -22,6 +22,7 @@ std::string to_json_text(const ResultReport& r) {
       {"valid", r.validity ? Json(r.validity->valid()) : Json()},
       {"triangles", or_null(r.triangles)},
       {"epsilon", or_null(r.epsilon)},
+      {"unit", or_null(r.unit)},
       {"e_max", r.certified ? Json(r.certified->e_max_upper) : Json()},
       {"e_max_all", r.certified ? Json(r.certified->e_max_upper_all) : Json()},
       {"e_max_squared_bits", r.kernel ? Json(bits_text(r.kernel->squared_bits)) : Json()},

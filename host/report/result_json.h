@@ -24,6 +24,7 @@ struct ResultReport {
   std::optional<MeshTopology> topology;
   std::optional<std::size_t> triangles;  // of the best mesh, else of the one with the least error
   std::optional<double> epsilon;         // file units
+  std::optional<std::string> unit;       // of the file, where it is known
   std::optional<CertifiedError> certified;  // indices are the file's
   std::optional<EmaxResult> kernel;         // over the kept points; the index is the file's
   std::size_t points = 0;

@@ -32,8 +32,8 @@ int dump(int count, char** arguments) {
   fmt::print(
       "{{\"points\": {}, \"unit\": \"{}\", \"resolution\": {}, \"scans\": [{}], "
       "\"left_out\": \"{}\", \"last_index\": {}}}\n",
-      cloud.points.size(), cloud.unit, cloud.resolution, scans, emax::describe(cloud.left_out),
-      cloud.index_in_file(cloud.points.size() - 1));
+      cloud.points.size(), cloud.unit ? cloud.unit->name : "", cloud.resolution, scans,
+      emax::describe(cloud.left_out), cloud.index_in_file(cloud.points.size() - 1));
   for (const emax::Point& p : cloud.points) std::fwrite(p.data(), sizeof(double), 3, stdout);
   return 0;
 }

@@ -247,7 +247,7 @@ def check_e57(folder):
         write_e57(path, [(name, {**fields_of(CARTESIAN, make, values), "intensity": (intensity, ones)}, None, None)])
         told, got = read(path)
         expect_points(name, got, raw(path, 0))
-        expect(told["unit"] == "metre" and told["scans"] == [[name, 0]], f"{path}: {told}")
+        expect(told["unit"] == "m" and told["scans"] == [[name, 0]], f"{path}: {told}")
         step = {"double": 0, "single": np.linalg.norm(np.abs(got).max(axis=0)) * 2**-24, "scaled": 0.5e-4 * math.sqrt(3)}
         expect(math.isclose(told["resolution"], step[name]), f"{path}: {told}")
 

@@ -109,7 +109,7 @@ TEST_F(ScanFile, LasScalesShiftsAndLeavesClassesOut) {
                                               {100 * 0.01 + 1, -7 * 0.01 + 2, 1 * 0.01 + 3},
                                               {5 * 0.01 + 1, 6 * 0.01 + 2, 7 * 0.01 + 3}}));
   EXPECT_TRUE(cloud.file_index.empty());
-  EXPECT_EQ(cloud.unit, "");
+  EXPECT_FALSE(cloud.unit);
   const PointCloud left = read("a.LAS", bytes, {.left_out_classes = {7}});
   EXPECT_EQ(left.file_index, (Indices{0, 2}));
   EXPECT_EQ(describe(left.left_out), "1 of class 7");
@@ -130,8 +130,8 @@ TEST_F(ScanFile, LasOverflowIsNotFinite) {
 }
 
 TEST_F(ScanFile, LasNamesTheUnitOfItsKeys) {
-  for (const auto& [code, unit] : {std::pair(9001, "metre"), std::pair(9002, "foot"),
-                                   std::pair(9003, "US survey foot"), std::pair(9999, "")}) {
+  for (const auto& [code, unit] : {std::pair(9001, "m"), std::pair(9002, "ft"),
+                                   std::pair(9003, "us-ft"), std::pair(9999, "")}) {
     std::string bytes = las_bytes({{0, 0, 0, 0}});
     std::string record(54 + 16, '\0');
     record.replace(2, 15, "LASF_Projection");
@@ -142,7 +142,7 @@ TEST_F(ScanFile, LasNamesTheUnitOfItsKeys) {
     bytes.insert(227, record);
     put(bytes, 96, static_cast<std::uint32_t>(227 + record.size()));
     put(bytes, 100, std::uint32_t{1});
-    EXPECT_EQ(read("a.las", bytes).unit, unit);
+    EXPECT_EQ(read("a.las", bytes).unit, unit_named(unit));
     put(bytes, 227 + 20, std::uint16_t{17});
     expect_refused("a.las", bytes, "record 0 ends behind", "export");
   }
@@ -177,7 +177,7 @@ TEST_F(ScanFile, E57AppliesThePoseAndLeavesInvalidPointsOut) {
     EXPECT_LT((cloud.points[i] - expected[i]).norm(), 1e-15);
   }
   EXPECT_EQ(describe(cloud.left_out), "1 marked as invalid");
-  EXPECT_EQ(cloud.unit, "metre");
+  EXPECT_EQ(cloud.unit, unit_named("m"));
   ASSERT_EQ(cloud.scans.size(), 1u);
   EXPECT_EQ(cloud.scans[0].name, "north");
   EXPECT_NEAR(cloud.resolution, 0.005 * std::sqrt(3), 1e-15);

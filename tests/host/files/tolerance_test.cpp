@@ -7,6 +7,7 @@
 
 #include "host/files/number_text.h"
 #include "host/geometry/bounds.h"
+#include "sw_model/base/error.h"
 #include "tests/support/messages.h"
 #include "tests/support/stimuli.h"
 
@@ -28,11 +29,44 @@ TEST(Tolerance, UnitsAndPercent) {
   EXPECT_EQ(to_text(parse_tolerance("0.321%"), 155.7), "0.499797 (0.321% of the width 155.7)");
 }
 
+// By hand.
+TEST(Tolerance, UnitsOfItsOwn) {
+  const auto in = [](std::string_view text, std::string_view unit) {
+    return parse_tolerance(text).in_unit_of(unit_named(unit)).in_units(1e9);
+  };
+  EXPECT_EQ(in("0.5mm", "mm"), 0.5);
+  EXPECT_DOUBLE_EQ(in("0.5mm", "m"), 0.0005);
+  EXPECT_DOUBLE_EQ(in("2cm", "mm"), 20);
+  EXPECT_DOUBLE_EQ(in("1m", "mm"), 1000);
+  EXPECT_DOUBLE_EQ(in("1in", "mm"), 25.4);
+  EXPECT_DOUBLE_EQ(in("1ft", "in"), 12);
+  EXPECT_DOUBLE_EQ(in("3937us-ft", "m"), 1200);
+  EXPECT_EQ(in("0.5", "mm"), 0.5);
+  EXPECT_EQ(in("0.5%", "mm"), 5e6);
+  EXPECT_EQ(parse_tolerance("0.5").in_unit_of(std::nullopt).value, 0.5);
+  expect_clear(
+      message_of([] { parse_tolerance("0.5mm").in_unit_of(std::nullopt, "--back-error"); }),
+      "--back-error 0.5mm: ", "does not say its unit", "--unit");
+  EXPECT_EQ(to_text(parse_tolerance("0.5"), 200, unit_named("mm")),
+            "0.5 mm (0.25% of the width 200 mm)");
+}
+
+TEST(Tolerance, OfLevelsOfAccuracy) {
+  double last = 1;
+  for (const int level : {20, 30, 40, 50}) {
+    const double metres = tolerance_of_level(level).in_unit_of(unit_named("m")).value;
+    EXPECT_LT(metres, last);
+    last = metres;
+  }
+  EXPECT_DOUBLE_EQ(tolerance_of_level(30).in_unit_of(unit_named("m")).value, 0.015);
+  for (const int level : {0, 10, 25, 60}) EXPECT_THROW(tolerance_of_level(level), Error);
+}
+
 TEST(Tolerance, NothingElse) {
   for (const std::string text :
-       {"",      "%",     "0",    "0%",    "-1",  "-0.5%", "nan",  "nan%",
-        "inf",   "-inf",  "inf%", "1e999", "5mm", "5 mm",  "0.5 ", " 0.5",
-        "0.5 %", "0.5%%", "%0.5", "0,5",   "0x1", "half",  "1e",   "--1"}) {
+       {"",      "%",   "0",    "0%",   "-1",   "-0.5%", "nan",   "nan%", "inf", "-inf", "inf%",
+        "1e999", "5km", "5 mm", "0.5 ", " 0.5", "0.5 %", "0.5%%", "%0.5", "0,5", "0x1",  "half",
+        "1e",    "--1", "mm",   "0mm",  "5mm%", "5%mm",  "5MM",   "-1ft", "5us"}) {
     SCOPED_TRACE(text);
     EXPECT_TRUE(message_of([&] {
                   parse_tolerance(text, "--back-error");
