@@ -16,6 +16,7 @@
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/scan_estimate.h"
 #include "host/report/json_parts.h"
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {
@@ -41,6 +42,10 @@ bool is_mesh(const std::filesystem::path& path) {
 Contents read(const InfoOptions& options) {
   Contents contents;
   if (is_mesh(options.file)) {
+    if (!options.reading.left_out_classes.empty()) {
+      throw Error(fmt::format(
+          "{}: --class: only LAS and LAZ files have classes; leave the option out", options.file));
+    }
     contents.mesh = read_mesh_file(options.file);
     contents.cloud.points = contents.mesh->mesh.vertices;
   } else {
