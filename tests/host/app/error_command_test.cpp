@@ -84,6 +84,28 @@ TEST_F(ErrorCommand, StatisticsAreThoseOfTheExactDistances) {
 }
 
 // The tolerance is a point's own distance, and then the next number below: where roundings decide.
+// Half a metre, whichever way it is given.
+TEST_F(ErrorCommand, TolerancesHaveUnits) {
+  const json metres = errors({"--max-error", "0.5", "--unit", "m"});
+  EXPECT_EQ(metres.at("unit"), "m");
+  EXPECT_EQ(errors({"--max-error", "500mm", "--unit", "m"}).at("epsilon"), metres.at("epsilon"));
+  EXPECT_EQ(errors({"--max-error", "50cm", "--unit", "mm"}).at("epsilon"), 500);
+  EXPECT_EQ(errors({"--loa", "40", "--unit", "mm"}).at("epsilon"), 5);
+  EXPECT_EQ(errors({"--max-error", "0.5"}).at("unit"), nullptr);
+  EXPECT_NE(error({"--loa", "30", "--unit", "m"}).output.find("LOA 30, as a maximum"),
+            std::string::npos);
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--max-error", "0.5mm"},
+        {"--loa", "30"},
+        {"--unit", "km"},
+        {"--loa", "10", "--unit", "m"},
+        {"--loa", "30", "--max-error", "1", "--unit", "m"}}) {
+    const ProgramRun run = error(wrong);
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_NE(run.errors.find("--"), std::string::npos) << run.errors;
+  }
+}
+
 TEST_F(ErrorCommand, CountsPointsBeyondATolerance) {
   std::vector<double> distances = exact_distances();
   std::ranges::sort(distances);
