@@ -51,7 +51,8 @@ body() {
 }
 
 document=$docs/user/${command:-files}.md
-what=$(help_text | head -n 1 | sed 's/^emax: //; s/\.$//' | plain)
+# All of the text is read, as a program whose reader leaves is ended by a signal.
+what=$(help_text | sed -n '1{s/^emax: //; s/\.$//; p}' | plain)
 usage=$(help_text | sed -n 's/^Usage: //p' | plain)
 printf '# NAME\n\n%s - %s\n\n# SYNOPSIS\n\n**%s** %s\n\n' "$name" "$what" "${usage%% *}" "${usage#* }"
 echo "# DESCRIPTION"
