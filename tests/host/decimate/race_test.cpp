@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <utility>
 
 #include "host/decimate/bounded_decimation.h"
 #include "host/geometry/mesh_validity.h"
@@ -32,6 +32,8 @@ TEST(Race, IsLostOnceAndForAll) {
 
 class RaceTest : public testing::Test {
  protected:
+  explicit RaceTest(TriangleMesh surface = bumpy(40, 64)) : surface_(std::move(surface)) {}
+
   DecimatedMesh against(std::size_t rival, DecimationSettings::Effort effort) const {
     DecimationSettings settings;
     settings.epsilon = kEpsilon;
@@ -48,7 +50,7 @@ class RaceTest : public testing::Test {
     EXPECT_TRUE(decided_distance(surface_.view(), exact, kEpsilon).within(kEpsilon));
   }
 
-  const TriangleMesh surface_ = bumpy(40, 64);
+  const TriangleMesh surface_;
 };
 
 // The twin is the whole work, which would have had no fewer triangles than the rival.
@@ -78,7 +80,10 @@ TEST_F(RaceTest, IsLostOnlyAgainstWhatTheWholeWorkDoesNotBeat) {
   }
 }
 
-using RaceFault = RaceTest;
+class RaceFault : public RaceTest {
+ protected:
+  RaceFault() : RaceTest(bumpy(24, 40)) {}
+};
 
 TEST_F(RaceFault, IsCaught) {
   constexpr auto kEffort = DecimationSettings::Effort::kRelax;
