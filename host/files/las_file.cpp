@@ -90,10 +90,11 @@ Header read_header(const InputStream& input) {
         kExportAgain);
   }
   for (int k = 0; k < 3; ++k) {
-    h.scale[k] = load<double>(&bytes[static_cast<std::size_t>(131 + 8 * k)]);
-    h.shift[k] = load<double>(&bytes[static_cast<std::size_t>(155 + 8 * k)]);
-    h.greatest[k] = load<double>(&bytes[static_cast<std::size_t>(179 + 16 * k)]);
-    h.least[k] = load<double>(&bytes[static_cast<std::size_t>(187 + 16 * k)]);
+    const auto axis = static_cast<std::size_t>(k);
+    h.scale[k] = load<double>(&bytes[131 + 8 * axis]);
+    h.shift[k] = load<double>(&bytes[155 + 8 * axis]);
+    h.greatest[k] = load<double>(&bytes[179 + 16 * axis]);
+    h.least[k] = load<double>(&bytes[187 + 16 * axis]);
   }
   if (!h.scale.allFinite() || (h.scale.array() == 0).any() || !h.shift.allFinite()) {
     input.fail("a scale factor is 0 or not finite, or an offset is not finite", kExportAgain);
@@ -236,7 +237,7 @@ FileContent read_las(const InputStream& input, const CloudReadOptions& options) 
   if (!EMAX_FAULT(kTrustsCounts)) {
     check_count(input, header.points, "points", header.point_bytes, room);
   }
-  if (!header.may_follow && room - header.points * header.point_bytes >= header.point_bytes) {
+  if (!header.may_follow && room / header.point_bytes > header.points) {
     input.fail(fmt::format("the header promises {} points, but the file has {}", header.points,
                            room / header.point_bytes),
                kExportAgain);
