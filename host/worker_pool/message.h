@@ -24,7 +24,8 @@
 //   {"kind": "mesh", "ticket": n, "vertices": P, "triangles": T,
 //    "reconstruction_triangles": n, "unmeshed_points": n,
 //    "topology_difference": n, "back_distance": number, "reference_distance": number,
-//    "stopped": boolean, "expected_triangles": n, "seconds": [number, 4 of them]}              the answer to "run", or:
+//    "stopped": boolean, "expected_triangles": n,
+//    "seconds": [number, 4 of them]}                              the answer to "run", or:
 //   {"kind": "failure", "ticket": n, "reason": "error" | "out of memory", "message": s}
 //   {"kind": "unusable", "message": s}                               no evaluation can be made here
 // P: byte string, three little-endian binary64 a point. T: byte string, three little-endian 32-bit
