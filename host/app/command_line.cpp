@@ -224,8 +224,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
       .add_option(
           "--max-error", decimate.max_error,
           "tolerance: N in the unit of the points, N% of their width, or 0.5mm; several, separated "
-          "by "
-          "commas, write a mesh for each, MESH-N.ply, and their curve")
+          "by commas, write a mesh for each, MESH-N.ply, and their curve")
       ->required();
   command
       .add_option("--bound", line.decimate_bound,

@@ -27,6 +27,8 @@ constexpr std::size_t kFewest = 100;  // points that say something of a scan
 struct Contents {
   PointCloud cloud;  // of a mesh: its vertices
   std::optional<MeshFile> mesh;
+  MeshValidity validity;  // of the mesh
+  MeshTopology topology;  // likewise
   Bounds bounds;
   ScanEstimate scan;
 };
@@ -48,6 +50,8 @@ Contents read(const InfoOptions& options) {
     }
     contents.mesh = read_mesh_file(options.file);
     contents.cloud.points = contents.mesh->mesh.vertices;
+    contents.validity = check_mesh(contents.mesh->mesh.view());
+    contents.topology = topology_of(contents.mesh->mesh.view());
   } else {
     contents.cloud = read_cloud(options.file, options.reading);
   }
@@ -62,8 +66,8 @@ void print(const InfoOptions& options, const Contents& c) {
   if (c.mesh) {
     fmt::print("mesh           {} triangles, {} vertices; {}\n",
                grouped(c.mesh->mesh.triangles.size()), grouped(c.cloud.points.size()),
-               describe(check_mesh(c.mesh->mesh.view())));
-    fmt::print("topology       {}\n", describe(topology_of(c.mesh->mesh.view())));
+               describe(c.validity));
+    fmt::print("topology       {}\n", describe(c.topology));
     if (!c.mesh->attributes.empty()) {
       fmt::print("also has       {}; emax does not keep these\n",
                  fmt::join(c.mesh->attributes, ", "));
@@ -121,8 +125,8 @@ Json to_json(const InfoOptions& options, const Contents& c) {
   if (c.mesh) {
     json["triangles"] = c.mesh->mesh.triangles.size();
     json["attributes"] = c.mesh->attributes;
-    json["validity"] = to_json(check_mesh(c.mesh->mesh.view()));
-    json["topology"] = to_json(topology_of(c.mesh->mesh.view()));
+    json["validity"] = to_json(c.validity);
+    json["topology"] = to_json(c.topology);
   }
   if (const std::optional<double> suggested = suggested_tolerance(c.scan)) {
     json["spacing"] = c.scan.spacing;
