@@ -14,7 +14,6 @@
 #include "host/app/reference_text.h"
 #include "host/files/atomic_file.h"
 #include "host/files/cloud_file.h"
-#include "host/files/input_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/tolerance.h"
 #include "host/geometry/merge_vertices.h"
@@ -62,11 +61,7 @@ Reference read_reference(const ErrorOptions& options, const Scan& scan) {
   if (options.reference.empty()) {
     return cloud_reference(scan.path.string(), Reference::Kind::kScan, scan.cloud.points);
   }
-  // A file whose ending is used for both counts as a surface if it has triangles.
-  const std::string ending = lower_case_ending(options.reference);
-  const bool may_be_mesh = std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
-  const bool may_be_cloud = std::ranges::find(cloud_endings(), ending) != cloud_endings().end();
-  if (may_be_mesh && (!may_be_cloud || holds_triangles(options.reference))) {
+  if (is_surface(options.reference)) {
     return {options.reference, Reference::Kind::kSurface, read_mesh(options.reference)};
   }
   PointCloud cloud = read_cloud(options.reference, {options.common.reading.skip_invalid});

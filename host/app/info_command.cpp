@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "host/app/commands.h"
@@ -10,7 +9,6 @@
 #include "host/app/scan.h"
 #include "host/files/atomic_file.h"
 #include "host/files/cloud_file.h"
-#include "host/files/input_file.h"
 #include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/mesh_topology.h"
@@ -33,17 +31,9 @@ struct Contents {
   ScanEstimate scan;
 };
 
-bool is_mesh(const std::filesystem::path& path) {
-  const std::string ending = lower_case_ending(path);
-  const auto names = [&](std::span<const std::string_view> endings) {
-    return std::ranges::find(endings, ending) != endings.end();
-  };
-  return names(mesh_endings()) && (!names(cloud_endings()) || holds_triangles(path));
-}
-
 Contents read(const InfoOptions& options) {
   Contents contents;
-  if (is_mesh(options.file)) {
+  if (is_surface(options.file)) {
     if (!options.reading.left_out_classes.empty()) {
       throw Error(fmt::format(
           "{}: --class: only LAS and LAZ files have classes; leave the option out", options.file));

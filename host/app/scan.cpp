@@ -9,6 +9,7 @@
 
 #include "host/files/atomic_file.h"
 #include "host/files/cloud_file.h"
+#include "host/files/input_file.h"
 #include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/exact_predicates.h"
@@ -55,6 +56,14 @@ Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh) {
   }
   scan.width = bounds_of(scan.cloud.points).width();
   return scan;
+}
+
+bool is_surface(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  const auto among = [&](std::span<const std::string_view> endings) {
+    return std::ranges::find(endings, ending) != endings.end();
+  };
+  return among(mesh_endings()) && (!among(cloud_endings()) || holds_triangles(path));
 }
 
 EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded) {

@@ -52,6 +52,10 @@ Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& readin
 // in place of the file's.
 std::string describe(const Scan& scan);
 
+// Whether the file is one of a mesh: one whose ending is used for clouds, too, counts as that if it
+// has triangles. Throws Error for a damaged file.
+bool is_surface(const std::filesystem::path& path);
+
 // The kernel's error over the points that are not excluded; the index of its worst point is the
 // file's.
 EmaxResult kernel_error(const Scan& scan, MeshView mesh, std::span<const std::uint32_t> excluded);
