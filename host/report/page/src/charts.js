@@ -2,6 +2,7 @@
 import { deviation, integer, number, percent } from './format.js';
 import { el, svg } from './dom.js';
 
+const PAPER_WIDTH = 440; // letters are as large on paper as those of the text
 const MARGIN = { left: 62, right: 16, top: 14, bottom: 40 };
 
 /** Round numbers from low to high, about `wanted` of them. */
@@ -37,14 +38,15 @@ function axis_of(low, high, from, to, log) {
 function figure(caption, height, draw) {
   const box = el('div', { class: 'chart' });
   let drawn = 0;
-  const redraw = () => {
-    const width = Math.round(box.clientWidth);
+  const redraw = (width = Math.round(box.clientWidth)) => {
     if (width < 40 || width === drawn) return;
     drawn = width;
     box.replaceChildren(svg('svg', {
       viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': caption }, draw(width, height)));
   };
-  new ResizeObserver(redraw).observe(box);
+  new ResizeObserver(() => redraw()).observe(box);
+  addEventListener('beforeprint', () => redraw(PAPER_WIDTH));
+  addEventListener('afterprint', () => redraw());
   return el('figure', {}, el('figcaption', {}, caption), box);
 }
 
@@ -78,7 +80,8 @@ export function histogram(data, scale, unit) {
     const x = axis_of(first - (below > 0 ? margin : 0), last + (above > 0 ? margin : 0),
       MARGIN.left, width - MARGIN.right, false);
     const y = axis_of(0, most, height - MARGIN.bottom, MARGIN.top, false);
-    const x_ticks = ticks(first, last, width < 480 ? 3 : 6);
+    const parts = width < 400 ? 2 : 4;
+    const x_ticks = Array.from({ length: parts + 1 }, (_, i) => first + ((last - first) * i) / parts);
     return [
       frame(width, height, x, y, {
         x: x_ticks, x_text: (value) => deviation(value, scale.signed, 3), y: ticks(0, most, 4), y_text: integer,
@@ -128,7 +131,7 @@ export function progress(caption, x_name, points, { best = false, x_text = numbe
     return [
       frame(width, height, x, y, {
         x: ticks(first, last, width < 480 ? 3 : 5), x_text, x_name,
-        y: log ? log_ticks(low, high) : ticks(low, high, 4), y_text: integer }),
+        y: log ? log_ticks(low, high) : ticks(low, high, 5), y_text: integer }),
       path.length > 0 ? svg('path', { class: 'line', d: path.join(' ') }) : null,
       known.map((point) => svg('circle', { class: point.good ? 'good' : 'bad', cx: x(point.x), cy: y(point.y), r: 3.5 },
         svg('title', {}, `${x_text(point.x)}: ${integer(point.y)} triangles${point.good ? '' : ', exceeds the tolerance'}`)))];

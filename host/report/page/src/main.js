@@ -36,14 +36,19 @@ async function make_view(data, scale, stage) {
   }
 }
 
-// Everything folded is open on paper.
+// On paper, what is folded on the screen is open and stands at the end.
 function unfold_for_print() {
   let folded = [];
   addEventListener('beforeprint', () => {
-    folded = [...document.querySelectorAll('details:not([open])')];
+    const all = [...document.querySelectorAll('#answer details')];
+    folded = all.filter((details) => !details.open);
     for (const details of folded) details.open = true;
+    by_id('sections').append(...all);
   });
-  addEventListener('afterprint', () => { for (const details of folded) details.open = false; });
+  addEventListener('afterprint', () => {
+    by_id('answer').append(...document.querySelectorAll('#sections details'));
+    for (const details of folded) details.open = false;
+  });
 }
 
 async function main() {

@@ -9,6 +9,7 @@ const SIDES = ['front', 'back', 'left', 'right', 'top', 'bottom', 'isometric'];
 const TURN = Math.PI / 24; // for each press of an arrow key
 const PICTURE_MS = 400; // of rest before the view is kept for printing
 const CLICK_PIXELS = 4;
+const NOTHING_SAID = 'A click on a point says its deviation.';
 
 const capital = (word) => word[0].toUpperCase() + word.slice(1);
 
@@ -75,7 +76,7 @@ function toolbar(view, data, scale, changed) {
         view.show({ go_no_go: scale.go_no_go });
         changed();
       }),
-      options('colour-mesh', 'Triangles', [['worst', 'by their worst point'], ['plain', 'plain']],
+      options('colour-mesh', 'Triangles', [['plain', 'plain'], ['worst', 'by their worst point']],
         (value) => view.show({ coloured: value === 'worst' }))),
     section_controls(view, data.unit ? ` ${data.unit}` : ''));
 }
@@ -147,7 +148,7 @@ function printing(view, stage) {
 /** Puts controls, legend and what is said of points around the view. Returns `go(point, triangle)`. */
 export function show_panel(view, data, scale, model, stage) {
   const { box, redraw } = legend(data, scale);
-  const said = el('p', { id: 'said', role: 'status' });
+  const said = el('p', { id: 'said', role: 'status' }, NOTHING_SAID);
   const say = (text) => { said.textContent = text; };
   const { points, points_of } = data.geometry;
   const thinned = points < points_of ? ` ${integer(points)} of ${integer(points_of)} points are drawn; the worst are among them.` : '';
@@ -157,7 +158,7 @@ export function show_panel(view, data, scale, model, stage) {
   stage.append(el('span', { class: 'hint', 'aria-hidden': 'true' }, 'Tap to turn'));
   model.prepend(toolbar(view, data, scale, redraw));
   model.append(box, said, el('p', { class: 'note', id: 'help' },
-    el('span', { class: 'screen' }, 'Drag to turn, drag with the right button or two fingers to move. After a click the wheel zooms, and arrow keys, + and − work; Escape ends that. A click on a point says its deviation.'),
+    el('span', { class: 'screen' }, 'Drag to turn, drag with the right button or two fingers to move. After a click the wheel zooms, and arrow keys, + and − work; Escape ends that.'),
     thinned));
   focus_rules(view);
   keys(view);

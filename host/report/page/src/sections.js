@@ -4,6 +4,8 @@ import { el, pairs, section, table } from './dom.js';
 import { deviation, integer, number, percent, position, seconds } from './format.js';
 import { unit_of } from './answer.js';
 
+const count_text = (count) => `${integer(count)} ${count === 1 ? 'point' : 'points'}`;
+
 function statistics(data) {
   const { statistics: s, signed, epsilon } = data;
   const value = (number_) => deviation(number_, signed);
@@ -11,7 +13,7 @@ function statistics(data) {
   const rows = [
     ['points', integer(s.count)], ['minimum', value(s.min)], ['maximum', value(s.max)],
     ['mean', value(s.mean)], ['RMS', number(s.rms)], ['standard deviation σ', number(s.sigma)],
-    ...(s.within_sigma ?? []).map((part, i) => [`within ${i + 1}σ of the mean`, percent(part)])];
+    ...(s.within_sigma ?? []).map((part, i) => [`within ${i + 1}σ`, percent(part)])];
   if (epsilon !== null) {
     if (s.above !== null) rows.push([signed ? 'above +ε' : 'beyond ε', share(s.above)]);
     if (s.within !== null) rows.push(['within ε', share(s.within)]);
@@ -64,9 +66,9 @@ function left_out(data, go) {
   const count = data.excluded_count ?? excluded.length;
   return section('left-out', 'Points left out',
     data.left_out?.length
-      ? pairs('Points left out', data.left_out.map(({ reason, points }) => [reason, `${integer(points)} points`])) : null,
-    count > 0 ? el('p', {}, `${integer(count)} points are excluded as outliers${excluded.length < count
-      ? `; ${integer(excluded.length)} of them are listed` : ''}. The tolerance does not count for them.`) : null,
+      ? pairs('Points left out', data.left_out.map(({ reason, points }) => [reason, count_text(points)])) : null,
+    count > 0 ? el('p', {}, `${count_text(count)} left out as outliers${excluded.length < count
+      ? `; ${integer(excluded.length)} of them are listed` : ''}. The tolerance does not hold there.`) : null,
     excluded.length > 0 ? points_table('Excluded points', excluded, data, go, false) : null);
 }
 

@@ -7,6 +7,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import * as shaders from './shaders.js';
 
 const FLIGHT_MS = 450;
+const FITTED = 20000; // points and corners that are asked for whether they are in view
 const NO_TRIANGLE = -1;
 const NO_DEVIATION = 1e30; // shaders.js; not a number has no sure comparison there
 const EVERYWHERE = new Vector4(0, 0, 0, 1); // a section that leaves all
@@ -39,6 +40,7 @@ export class View {
     this.scale = scale;
     this.shape = data.geometry;
     this.geometry = geometry;
+    this.step = new Vector3(...this.shape.step);
     this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
     this.renderer.setClearColor(0, 0);
     this.box = box_of(geometry, this.shape.step);
@@ -87,7 +89,7 @@ export class View {
     this.mesh = this.#add(Mesh, {
       position: new BufferAttribute(geometry.corners, 3), deviation: new BufferAttribute(deviations, 1) },
     this.#material('mesh', { ...colours(1e-6 * scale.range), faces: { value: true }, edges: { value: true },
-      coloured: { value: true }, plain: { value: [0.66, 0.69, 0.72] }, line: { value: [0.08, 0.1, 0.13] },
+      coloured: { value: false }, plain: { value: [0.66, 0.69, 0.72] }, line: { value: [0.08, 0.1, 0.13] },
       marked: { value: NO_TRIANGLE }, lineWidth: { value: 1 } }));
     // A deviation is stored to half a step.
     this.points = this.#add(Points, { position: new BufferAttribute(geometry.points, 4) },
@@ -154,7 +156,7 @@ export class View {
     const size = this.box.high.clone().sub(this.box.low);
     const area = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
     const apart = Math.sqrt(area / Math.max(1, this.shape.points));
-    return Math.min(Math.max(0.5 * apart * this.pixels, 1.2), 7);
+    return Math.min(Math.max(0.55 * apart * this.pixels, 1.2), 7);
   }
 
   /** A camera direction of DIRECTIONS, turned for the up axis of the report. */
@@ -187,16 +189,26 @@ export class View {
     this.camera.updateMatrixWorld();
   }
 
+  /** The zoom at which all is in view. */
   #zoom_to_fit() {
     let [wide, tall] = [1e-12, 1e-12];
-    for (let i = 0; i < 8; ++i) {
-      const corner = new Vector3(...[0, 1, 2].map((axis) =>
-        (i >> axis & 1 ? this.box.high : this.box.low).getComponent(axis)));
-      corner.applyMatrix4(this.camera.matrixWorldInverse);
-      wide = Math.max(wide, Math.abs(corner.x));
-      tall = Math.max(tall, Math.abs(corner.y));
+    const { corners, points } = this.geometry;
+    const place = new Vector3();
+    const widen = () => {
+      place.applyMatrix4(this.camera.matrixWorldInverse);
+      wide = Math.max(wide, Math.abs(place.x));
+      tall = Math.max(tall, Math.abs(place.y));
+    };
+    const stride = (length, size) => size * Math.max(1, Math.floor(length / size / FITTED));
+    for (let i = 0; i < corners.length; i += stride(corners.length, 3)) {
+      place.fromArray(corners, i);
+      widen();
     }
-    return 0.94 * Math.min(this.camera.right / wide, this.camera.top / tall);
+    for (let i = 0; i < points.length; i += stride(points.length, 4)) {
+      place.set(points[i], points[i + 1], points[i + 2]).multiply(this.step);
+      widen();
+    }
+    return 0.92 * Math.min(this.camera.right / wide, this.camera.top / tall);
   }
 
   /** Moves to a position of the cloud, seen from outside, and marks it and a triangle. */
