@@ -4,7 +4,7 @@ import { el, pairs, section, table } from './dom.js';
 import { deviation, integer, number, percent, position, seconds } from './format.js';
 import { unit_of } from './answer.js';
 
-const count_text = (count) => `${integer(count)} ${count === 1 ? 'point' : 'points'}`;
+const count_text = (count, thing = 'point') => `${integer(count)} ${thing}${count === 1 ? '' : 's'}`;
 
 function statistics(data) {
   const { statistics: s, signed, epsilon } = data;
@@ -74,12 +74,13 @@ function left_out(data, go) {
 
 function search(data) {
   const evaluations = data.search?.evaluations ?? [];
+  if (evaluations.length === 0) return null;
   const values = (x) => evaluations.map((e) => ({ x: e[x] ?? NaN, y: e.triangles ?? NaN, good: e.feasible }));
   return section('search', 'Convergence of the search',
     el('div', { class: 'charts' }, [
       progress('Triangles by evaluation', 'evaluation', values('index'), { best: true, x_text: integer }),
       progress('Triangles by time', 'time', values('seconds'), { best: true, x_text: seconds })].filter(Boolean)),
-    evaluations.length > 0 ? el('p', { class: 'note' }, `${integer(evaluations.length)} evaluations. The line is the least number of triangles so far within the tolerance; a hollow mark exceeds the tolerance.`) : null);
+    el('p', { class: 'note' }, `${count_text(evaluations.length, 'evaluation')}. The line is the least number of triangles so far within the tolerance; a hollow mark exceeds the tolerance.`));
 }
 
 function curve(data) {
