@@ -49,6 +49,7 @@ install(FILES LICENSE ${documents} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(EMAX_MAN)
   find_program(LOWDOWN lowdown REQUIRED)
   file(GLOB documents CONFIGURE_DEPENDS docs/user/*.md)
+  list(FILTER documents EXCLUDE REGEX /report\\.md$)  # an option of several commands
   foreach(document ${documents})
     get_filename_component(command ${document} NAME_WE)
     set(page emax-${command})

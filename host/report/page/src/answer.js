@@ -17,16 +17,16 @@ function verdict_box({ within, text }) {
 }
 
 function figures(data) {
-  const [e_max, epsilon] = compared(data.e_max, data.epsilon);
+  const [e_max, back, epsilon] = compared([data.e_max, data.back], data.epsilon);
   const unit = data.unit ? ` ${data.unit}` : '';
-  const relative = (value) => (data.width > 0 ? `${percent(value / data.width).replace(' %', '')} % of the width` : null);
+  const relative = (value) => (data.width > 0 ? `${percent(value / data.width)} of the width` : null);
   const figure = (id, name, value, exact, note) => el('div', { class: 'figure', id },
     el('dt', {}, name),
     el('dd', {}, el('data', { value: exact, title: exact === null ? null : String(exact) }, value), note ? el('small', {}, note) : null));
   return el('dl', { id: 'figures' },
     data.epsilon === null ? null : figure('epsilon', 'Tolerance ε', epsilon + unit, data.epsilon, relative(data.epsilon)),
     figure('e_max', 'Maximum error e_max', e_max + unit, data.e_max, relative(data.e_max)),
-    data.back === null ? null : figure('back', 'Mesh to reference', number(data.back, 6) + unit, data.back, relative(data.back)),
+    data.back === null ? null : figure('back', 'Mesh to reference', back + unit, data.back, relative(data.back)),
     figure('triangles', 'Triangles', integer(data.triangles), data.triangles),
     figure('points', 'Points', integer(data.points), data.points),
     figure('width', 'Width', number(data.width, 6) + unit, data.width, data.unit ? `all lengths in ${data.unit}` : 'all lengths in the cloud’s unit'));

@@ -60,7 +60,7 @@ function frame(width, height, x, y, labels) {
     svg('line', { class: 'axis', x1: MARGIN.left, x2: right, y1: floor, y2: floor }),
     labels.x.map((value) => [
       svg('line', { class: 'axis', x1: x(value), x2: x(value), y1: floor, y2: floor + 4 }),
-      svg('text', { x: x(value), y: floor + 17, 'text-anchor': 'middle' }, labels.x_text(value))]),
+      svg('text', { x: x(value), y: floor + 17, 'text-anchor': x(value) > right - 24 ? 'end' : 'middle' }, labels.x_text(value))]),
     svg('text', { class: 'name', x: (MARGIN.left + right) / 2, y: height - 6, 'text-anchor': 'middle' }, labels.x_name)];
 }
 

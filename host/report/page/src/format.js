@@ -33,7 +33,7 @@ export function percent(share) {
   const value = 100 * share;
   if (value > 0 && value < 0.01) return '< 0.01 %';
   if (value < 100 && value > 99.99) return '> 99.99 %';
-  return `${value.toFixed(value < 10 ? 2 : 1).replace(/\.0+$/, '')} %`;
+  return `${value.toFixed(value < 10 ? 2 : 1).replace(/\.?0+$/, '')} %`;
 }
 
 export function seconds(value) {
@@ -57,15 +57,16 @@ function rounded(value, digits, way) {
 }
 
 /**
- * An error and the tolerance it is compared with, as text: the error is never rounded down, the
- * tolerance never up, with as many digits as keep their order.
+ * The texts of errors and of the tolerance they are compared with. An error is never rounded down, the
+ * tolerance never up, and there are as many digits as keep their order.
  */
-export function compared(error, tolerance) {
-  if (!known(error) || !known(tolerance)) return [number(error, 6), number(tolerance, 6)];
+export function compared(errors, tolerance) {
   for (let digits = 5; digits < 17; ++digits) {
-    const up = rounded(error, digits, 1);
-    const down = rounded(tolerance, digits, -1);
-    if (up <= down === error <= tolerance) return [number(up, digits), number(down, digits)];
+    const ups = errors.map((error) => (known(error) ? rounded(error, digits, 1) : error));
+    const down = known(tolerance) ? rounded(tolerance, digits, -1) : tolerance;
+    if (!known(tolerance) || errors.every((error, i) => !known(error) || ups[i] <= down === error <= tolerance)) {
+      return [ups, down].flat().map((value) => number(value, digits));
+    }
   }
-  return [number(error, 17), number(tolerance, 17)];
+  return [...errors, tolerance].map((value) => number(value, 17));
 }

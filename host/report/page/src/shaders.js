@@ -89,14 +89,14 @@ void main() {
   bool isMarked = triangle == marked;
   float drawn = edges || isMarked ? 1.0 - smoothstep(lineWidth - 0.5, lineWidth + 0.5, isMarked ? nearest - 1.5 * lineWidth : nearest) : 0.0;
   // Where triangles are smaller than some pixels, lines would cover them.
-  if (!isMarked) drawn *= 0.55 * (1.0 - smoothstep(0.08, 0.35, max(max(slope.x, slope.y), slope.z)));
+  if (!isMarked) drawn *= 0.5 * (1.0 - smoothstep(0.08, 0.35, max(max(slope.x, slope.y), slope.z)));
   if (!faces) {
     if (drawn < 0.15) discard;
     colour = vec4(line, 1.0);
     return;
   }
   vec3 normal = normalize(cross(dFdx(seenAt), dFdy(seenAt)));
-  float light = 0.42 + 0.58 * abs(dot(normal, normalize(vec3(0.25, 0.35, 1.0))));
+  float light = 0.5 + 0.5 * abs(dot(normal, normalize(vec3(0.25, 0.35, 1.0))));
   vec3 base = coloured && ofTriangle < 1e29 ? colourOf(ofTriangle) : plain;
   if (!gl_FrontFacing) base = mix(base, plain, 0.35) * 0.8;
   colour = vec4(mix(base * light, isMarked ? vec3(0.0) : line, drawn), 1.0);

@@ -156,7 +156,7 @@ export class View {
     const size = this.box.high.clone().sub(this.box.low);
     const area = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
     const apart = Math.sqrt(area / Math.max(1, this.shape.points));
-    return Math.min(Math.max(0.55 * apart * this.pixels, 1.2), 7);
+    return Math.min(Math.max(0.75 * apart * this.pixels, 1.2), 7);
   }
 
   /** A camera direction of DIRECTIONS, turned for the up axis of the report. */
