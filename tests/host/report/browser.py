@@ -63,6 +63,14 @@ class Browser:
                    found.value = arguments[1];
                    found.dispatchEvent(new Event(found.type === 'range' ? 'input' : 'change'))""", selector, value)
 
+    def touch(self, places):
+        """A finger goes down at the first place, over the others, and up."""
+        for kind, place in [("touchStart", places[0]), *(("touchMove", place) for place in places[1:])]:
+            self.devtools("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": place[0], "y": place[1]}])
+            time.sleep(0.02)  # as fast as a finger; a browser decides in time whether it scrolls
+        self.devtools("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        time.sleep(0.2)
+
     def pixels(self):
         """Numbers of the drawn view: { seen, red, blue, amber, hash } of its opaque pixels."""
         return self.js("""

@@ -202,6 +202,34 @@ def fits_every_width(browser, path):
         equal(beyond, [], f"elements beyond the edge at {width}")
 
 
+def leaves_the_page_to_fingers(browser, path):
+    """A finger on the view scrolls the page; after a tap it turns the view."""
+    browser.open(path, 360, 740)
+    browser.devtools("Emulation.setTouchEmulationEnabled", enabled=True)
+    hint = "return getComputedStyle(document.querySelector('.hint')).display"
+    state = "return [scrollY, window.emax_view.camera.position.toArray()]"
+    middle = """window.emax_view.stage.scrollIntoView({ block: 'center' });
+        const b = window.emax_view.canvas.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]"""
+
+    def drag():
+        x, y = browser.js(middle)
+        before = browser.js(state)
+        browser.touch([(x + 3 * i, y - 10 * i) for i in range(12)])
+        after = browser.js(state)
+        return after[0] - before[0], after[1] != before[1]
+
+    equal(browser.js(hint), "block", "the hint for fingers")
+    scrolled, turned = drag()
+    holds(scrolled > 40 and not turned, f"before a tap a finger scrolls by {scrolled}; it turns the view: {turned}")
+    x, y = browser.js(middle)
+    browser.touch([(x, y)])
+    browser.until("return document.activeElement.id === 'view'", "a tap does not reach the view")
+    equal(browser.js(hint), "none", "the hint after a tap")
+    scrolled, turned = drag()
+    holds(scrolled == 0 and turned, f"after a tap a finger scrolls by {scrolled}; it turns the view: {turned}")
+    browser.devtools("Emulation.setTouchEmulationEnabled", enabled=False)
+
+
 def prints(browser, folder):
     file = folder / "report.pdf"
     file.write_bytes(browser.pdf())
@@ -265,10 +293,10 @@ def shows_distances_without_sign(browser, pages):
 
 
 def loads_many_points(browser, pages):
-    """Two hundred thousand points and a mesh load and draw within seconds, on a processor that draws in software."""
-    data, geometry = fixture.sphere_report(200_000)
+    """A hundred thousand points and a mesh load and draw within seconds, on a processor that draws in software."""
+    data, geometry = fixture.sphere_report(100_000)
     path = pages.write("many", data, geometry)
-    holds(path.stat().st_size <= 1_000_000 + 12 * (200_000 + 222), f"the page of many points has {path.stat().st_size} bytes")
+    holds(path.stat().st_size <= 1_000_000 + 12 * (100_000 + 222), f"the page of many points has {path.stat().st_size} bytes")
     begin = time.monotonic()
     browser.open(path)
     took = time.monotonic() - begin
@@ -338,6 +366,7 @@ def main():
         keeps_text_text(browser, pages, data, geometry)
         shows_distances_without_sign(browser, pages)
         fits_every_width(browser, path)
+        leaves_the_page_to_fingers(browser, path)
         loads_many_points(browser, pages)
         refuses_damage(browser, pages, data, geometry)
         with Browser(webgl=False) as plain:

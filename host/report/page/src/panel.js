@@ -148,8 +148,11 @@ function printing(view, stage) {
 /** Puts controls, legend and what is said of points around the view. Returns `go(point, triangle)`. */
 export function show_panel(view, data, scale, model, stage) {
   const { box, redraw } = legend(data, scale);
-  const said = el('p', { id: 'said', role: 'status' }, NOTHING_SAID);
-  const say = (text) => { said.textContent = text; };
+  const said = el('p', { id: 'said', class: 'note', role: 'status' }, NOTHING_SAID);
+  const say = (text) => {
+    said.textContent = text;
+    said.classList.remove('note');
+  };
   const { points, points_of } = data.geometry;
   const thinned = points < points_of ? ` ${integer(points)} of ${integer(points_of)} points are drawn; the worst are among them.` : '';
   view.canvas.setAttribute('role', 'img');

@@ -82,10 +82,8 @@ export class View {
       slack: { value: slack }, diverging: { value: scale.signed }, goNoGo: this.go_no_go });
     // Points within the error of the surface are drawn before it, on whichever side of it they lie.
     const nearer = { value: Math.min(1.05 * data.e_max, 0.02 * this.radius) + 1e-4 * this.radius };
-    const deviations = Float32Array.from({ length: 3 * geometry.deviations.length }, (_, i) => {
-      const d = geometry.deviations[Math.floor(i / 3)];
-      return Number.isNaN(d) ? NO_DEVIATION : d;
-    });
+    const deviations = new Float32Array(3 * geometry.deviations.length);
+    geometry.deviations.forEach((d, i) => deviations.fill(Number.isNaN(d) ? NO_DEVIATION : d, 3 * i, 3 * i + 3));
     this.mesh = this.#add(Mesh, {
       position: new BufferAttribute(geometry.corners, 3), deviation: new BufferAttribute(deviations, 1) },
     this.#material('mesh', { ...colours(1e-6 * scale.range), faces: { value: true }, edges: { value: true },
