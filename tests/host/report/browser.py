@@ -6,7 +6,17 @@ import time
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
-WAIT_S = 30
+WAIT_S = 60
+# Draws the view and reads it: view, width, height, and data with four bytes a pixel.
+DRAWN = """
+    const view = window.emax_view;
+    view.draw();
+    const { width, height } = view.canvas;
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [width, height];
+    const to = copy.getContext('2d', { willReadFrequently: true });
+    to.drawImage(view.canvas, 0, 0);
+    const data = to.getImageData(0, 0, width, height).data;"""
 
 
 class Browser:
@@ -73,18 +83,10 @@ class Browser:
 
     def pixels(self):
         """Numbers of the drawn view: { seen, red, blue, amber, hash } of its opaque pixels."""
-        return self.js("""
-            const view = window.emax_view;
-            view.draw();
-            const copy = document.createElement('canvas');
-            copy.width = view.canvas.width;
-            copy.height = view.canvas.height;
-            const to = copy.getContext('2d');
-            to.drawImage(view.canvas, 0, 0);
-            const data = to.getImageData(0, 0, copy.width, copy.height).data;
+        return self.js(DRAWN + """
             const count = { seen: 0, red: 0, blue: 0, amber: 0, hash: 0 };
             for (let i = 0; i < data.length; i += 4) {
-              const [r, g, b, a] = data.subarray(i, i + 4);
+              const [r, g, b, a] = [data[i], data[i + 1], data[i + 2], data[i + 3]];
               if (a < 128) continue;
               ++count.seen;
               if (r > 1.5 * b && r > 1.5 * g) ++count.red;
@@ -93,6 +95,15 @@ class Browser:
               count.hash = (Math.imul(count.hash, 31) + r + 256 * g + 65536 * b + i) | 0;
             }
             return count;""")
+
+    def colours_at(self, positions):
+        """[(r, g, b, a)] of the drawn view at positions of the cloud."""
+        return self.js(DRAWN + """
+            return arguments[0].map((position) => {
+              const seen = view.centre.clone().set(...position.map((value, i) => value - view.shape.origin[i])).project(view.camera);
+              const [x, y] = [(seen.x + 1) / 2 * width, (1 - seen.y) / 2 * height].map(Math.floor);
+              return [...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 4)];
+            });""", positions)
 
     def pdf(self):
         answer = self.devtools("Page.printToPDF", printBackground=True, preferCSSPageSize=True)
