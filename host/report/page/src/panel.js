@@ -139,9 +139,6 @@ function printing(view, stage) {
     clearTimeout(timer);
     timer = setTimeout(() => { ours = true; keep(); ours = false; }, PICTURE_MS);
   };
-  ours = true;
-  keep();
-  ours = false;
   addEventListener('beforeprint', keep);
 }
 

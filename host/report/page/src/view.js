@@ -52,8 +52,6 @@ export class View {
     this.#make_camera();
     stage.append(canvas);
     new ResizeObserver(() => this.resize()).observe(stage);
-    this.resize();
-    this.look('isometric');
   }
 
   #material(name, uniforms, more = {}) {
@@ -117,7 +115,8 @@ export class View {
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.stage;
-    if (!width || !height) return;
+    if (!width || !height || (this.size && this.size[0] === width && this.size[1] === height)) return;
+    this.size = [width, height];
     this.renderer.setPixelRatio(Math.min(devicePixelRatio || 1, 2));
     this.renderer.setSize(width, height, false);
     const aspect = width / height;
@@ -175,7 +174,7 @@ export class View {
     this.camera.zoom = this.#zoom_to_fit();
     this.camera.updateProjectionMatrix();
     this.controls.update();
-    this.draw();
+    this.draw_soon();
   }
 
   #place(target, direction, zoom) {
