@@ -18,7 +18,7 @@ from three_package import PackageError, unpack
 HERE = Path(__file__).resolve().parent
 # The program puts the data of a report in the place of this marker (host/report/page/README.md).
 MARKER = "<!--emax:report-->"
-# An eighth of the megabyte that a page may have is left for data and picture.
+# The rest of the megabyte that a page may have is for data and picture.
 MOST_BYTES = 800_000
 
 

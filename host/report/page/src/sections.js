@@ -22,7 +22,7 @@ function statistics(data) {
   return el('div', { class: 'statistics' }, pairs('Statistics', rows),
     el('p', { class: 'note' }, `Lengths in ${data.unit ?? 'the cloud’s unit'}. ${signed
       ? 'A deviation is positive where the point lies outside of the mesh.'
-      : 'Distances have no sign, as the mesh does not have one inside.'}`));
+      : 'Distances have no sign, as the mesh is not consistently oriented.'}`));
 }
 
 function distribution(data, scale) {
