@@ -23,6 +23,9 @@ enum class Fault {
   kTrustsIndices,  // an index is not compared with the number of vertices
   kKeepsInvalid,   // points that a file marks as invalid are kept
   kSkipsCrc,       // a CRC is not compared
+  // In reports.
+  kSideOfOneTriangle,  // the side of a mesh is taken from the nearest triangle's normal alone
+  kReportUnescaped,    // text of a report may end its element
 };
 
 #ifdef EMAX_DELIBERATE_FAULTS
