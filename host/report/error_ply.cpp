@@ -2,25 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <string>
 
 #include "host/files/atomic_file.h"
+#include "host/picture/colour.h"
 
 namespace emax {
 namespace {
 
-constexpr std::array<Colour, 9> kViridis = {{{68, 1, 84},
-                                             {71, 44, 122},
-                                             {59, 81, 139},
-                                             {44, 113, 142},
-                                             {33, 144, 141},
-                                             {39, 173, 129},
-                                             {92, 200, 99},
-                                             {170, 220, 50},
-                                             {253, 231, 37}}};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes written at once
 
 template <class Value>
@@ -30,18 +20,6 @@ void append(std::string& bytes, const Value& value) {
 }
 
 }  // namespace
-
-Colour viridis(double position) {
-  const double at = std::clamp(position, 0.0, 1.0) * (kViridis.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
-  const double part = at - static_cast<double>(i);
-  Colour colour;
-  for (std::size_t k = 0; k < colour.size(); ++k) {
-    colour[k] = static_cast<std::uint8_t>(
-        std::lround((1 - part) * kViridis[i][k] + part * kViridis[i + 1][k]));
-  }
-  return colour;
-}
 
 void write_error_ply(const std::filesystem::path& path, std::span<const Point> points,
                      std::span<const double> distances, double greatest,

@@ -1,18 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <span>
 
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
-
-using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
-
-// The perceptually uniform map "viridis" from dark blue at 0 to yellow at 1 and beyond.
-Colour viridis(double position);
 
 // Writes a binary PLY of the points (and triangles over them) with their distances as a property
 // "distance", coloured from 0 to `greatest`. The file is written whole or not at all. Throws Error.

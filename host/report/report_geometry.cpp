@@ -1,0 +1,115 @@
+#include "host/report/report_geometry.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "host/geometry/bounds.h"
+
+namespace emax {
+namespace {
+
+constexpr double kLastStep = 65535;
+constexpr double kClipped = 32767;
+// Deviations are told apart up to so many times the reach of the legend. What lies beyond is shown
+// as just as far.
+constexpr double kReaches = 64;
+// Coordinates of vertices are rounded to that share of the greatest extent, so that their last
+// bytes are 0.
+constexpr double kVertexSteps = 1 << 19;
+
+template <class Value>
+void append(std::string& bytes, Value value) {
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// Of 24 bits the 8 last become 0: the colour of a triangle needs no more.
+float coarse(float value) {
+  if (!std::isfinite(value)) return value;
+  int exponent = 0;
+  const float mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, 16)), exponent - 16);
+}
+
+void append_points(ReportGeometry& geometry, std::span<const Point> cloud,
+                   std::span<const std::uint32_t> shown, std::span<const double> deviations) {
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double step = geometry.step[k];
+    for (const std::uint32_t i : shown) {
+      const double at = step > 0 ? std::round((cloud[i][k] - geometry.origin[k]) / step) : 0;
+      append(geometry.bytes, static_cast<std::uint16_t>(std::clamp(at, 0.0, kLastStep)));
+    }
+  }
+  for (const std::uint32_t i : shown) {
+    const double at = std::round(deviations[i] / geometry.deviation_step);
+    append(geometry.bytes, static_cast<std::int16_t>(std::clamp(at, -kClipped, kClipped)));
+  }
+}
+
+void append_mesh(ReportGeometry& geometry, MeshView mesh, double width,
+                 std::span<const float> deviations) {
+  constexpr std::uint32_t kUnused = ~0u;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused), order;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      if (place[v] != kUnused) continue;
+      place[v] = static_cast<std::uint32_t>(order.size());
+      order.push_back(v);
+    }
+  }
+  geometry.vertices = order.size();
+  const double step = width / kVertexSteps;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    for (const std::uint32_t v : order) {
+      const double at = mesh.vertices[v][k] - geometry.origin[k];
+      append(geometry.bytes, static_cast<float>(step > 0 ? std::round(at / step) * step : at));
+    }
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) append(geometry.bytes, place[v]);
+  }
+  for (const float d : deviations) append(geometry.bytes, coarse(d));
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> points_shown(std::span<const Point> cloud,
+                                        std::span<const std::uint32_t> excluded,
+                                        std::span<const std::uint32_t> always, std::size_t most) {
+  std::vector<bool> is_excluded(cloud.size(), false), is_shown(cloud.size(), false);
+  for (const std::uint32_t i : excluded) is_excluded[i] = true;
+  std::vector<std::uint32_t> order = along_morton_curve(cloud);
+  std::erase_if(order, [&](std::uint32_t i) { return is_excluded[i]; });
+  if (order.size() <= most) return order;
+  for (const std::uint32_t i : always) is_shown[i] = true;
+  const std::size_t evenly = most - std::min(most, always.size());
+  for (std::size_t k = 0; k < evenly; ++k) is_shown[order[k * order.size() / evenly]] = true;
+  std::erase_if(order, [&](std::uint32_t i) { return !is_shown[i]; });
+  return order;
+}
+
+ReportGeometry report_geometry(std::span<const Point> cloud, std::span<const std::uint32_t> shown,
+                               MeshView mesh, const Deviations& deviations, double reach) {
+  ReportGeometry geometry;
+  geometry.points = shown.size();
+  geometry.triangles = mesh.triangles.size();
+  double greatest = 0;
+  for (const std::uint32_t i : shown) {
+    greatest = std::max(greatest, std::abs(deviations.of_points[i]));
+  }
+  geometry.deviation_step = std::clamp(greatest, reach, kReaches * reach) / (kClipped - 1);
+  double width = 0;
+  if (!cloud.empty()) {
+    const Bounds box = bounds_of(cloud);
+    geometry.origin = box.lower;
+    geometry.step = (box.upper - box.lower) / kLastStep;
+    width = box.width();
+  }
+  append_points(geometry, cloud, shown, deviations.of_points);
+  append_mesh(geometry, mesh, width, deviations.of_triangles);
+  return geometry;
+}
+
+}  // namespace emax
