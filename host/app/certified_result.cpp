@@ -37,18 +37,20 @@ Certificate certificate_of(const CertifiedResult& result, const std::filesystem:
 
 }  // namespace
 
-void write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
-                  ReferenceFile* reference) {
+WrittenResult write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
+                           ReferenceFile* reference) {
   std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh));
-  const Certificate certificate = certificate_of(result, mesh, sha256(bytes));
+  const std::string mesh_sha256 = sha256(bytes);
+  std::string certificate = to_json_text(certificate_of(result, mesh, mesh_sha256));
   std::vector<OutputFile> files;
   if (reference != nullptr && reference->unwritten() != nullptr) {
     files.push_back(*reference->unwritten());
   }
   files.push_back({mesh, std::move(bytes)});
-  files.push_back({certificate_path(mesh), to_json_text(certificate)});
+  files.push_back({certificate_path(mesh), certificate});
   write_together(files);
   if (reference != nullptr) reference->was_written();
+  return {mesh_sha256, std::move(certificate)};
 }
 
 ResultReport report_of(const CertifiedResult& result) {

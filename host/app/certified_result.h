@@ -19,6 +19,7 @@ struct ProvenMesh {
   CertifiedError points;   // indices are the cloud's
   EmaxResult kernel = {};  // over the points that are not excluded; the index is the file's
   std::optional<ReferenceBound> reference;  // of a two-sided bound
+  std::filesystem::path reference_path;     // of its file
 };
 
 // The scan that results are certified against, and how it was read.
@@ -39,10 +40,15 @@ struct CertifiedResult {
   std::uint64_t seed = 0, evaluations = 0;
 };
 
+struct WrittenResult {
+  std::string mesh_sha256;
+  std::string certificate;  // its text
+};
+
 // Writes the mesh, the certificate and, unless it exists already, the reference: all of them or
 // none. `reference` is nullptr for a one-sided bound. Throws Error if they cannot be written.
-void write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
-                  ReferenceFile* reference);
+WrittenResult write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
+                           ReferenceFile* reference);
 
 // The JSON report of a result, for any command that found it.
 ResultReport report_of(const CertifiedResult& result);

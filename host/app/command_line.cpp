@@ -21,6 +21,12 @@ void add_json(CLI::App& command, std::string& json) {
                      "then goes to standard error");
 }
 
+void add_report(CLI::App& command, ReportOptions& report) {
+  command.add_option("--report", report.report,
+                     "also write a page for a browser, with the deviations in 3-D: .html");
+  command.add_option("--picture", report.picture, "also write a picture of the deviations: .png");
+}
+
 // At the end of the help: a command a line, and behind two blanks what it does.
 void add_examples(CLI::App& command, const std::string& lines) {
   command.footer("Examples:\n" + lines);
@@ -90,6 +96,7 @@ void add_common(CLI::App& command, CommonOptions& options) {
       .add_option("--device", options.device, "device that evaluates the kernel: " + device_help())
       ->capture_default_str();
   add_points_and_json(command, options.excluded_share, options.reading, options.json);
+  add_report(command, options.report);
   add_unit(command, options.unit);
   command.add_flag("--brute-force", options.brute_force,
                    "compare every point with every triangle: slow, with the same result");
@@ -260,6 +267,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "scans")
       ->check(within(1, 180));
   add_points_and_json(command, decimate.excluded_share, decimate.reading, decimate.json);
+  add_report(command, decimate.report);
   add_unit(command, decimate.unit);
   command
       .add_option("--time", decimate.seconds,
@@ -343,6 +351,7 @@ void add_verify(CLI::App& app, CommandLine& line) {
                      "the reference of a two-sided bound, if it lies neither beside the "
                      "certificate nor in the current folder");
   add_json(command, verify.json);
+  add_report(command, verify.report);
   add_quiet(command, line);
   add_examples(
       command,

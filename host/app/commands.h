@@ -48,6 +48,7 @@ struct DecimateOptions {
   std::string objective = "triangles";  // or hoppe
   double feature_angle = 0;             // degrees; 0: no features
   std::string json;
+  ReportOptions report;
   std::string excluded_share = "0";
   std::optional<double> seconds;
   unsigned threads = 0;  // 0: one per processor
@@ -82,6 +83,7 @@ struct VerifyOptions {
   std::string certificate;
   std::string cloud, mesh, reference;  // empty: found by the names in the certificate
   std::string json;
+  ReportOptions report;
 };
 int run_verify(const VerifyOptions& options);
 

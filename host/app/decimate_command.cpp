@@ -10,6 +10,7 @@
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
+#include "host/app/report_output.h"
 #include "host/app/tolerated_meshes.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/decimate/decimation_sequence.h"
@@ -50,7 +51,10 @@ class DecimateCommand {
     const std::filesystem::path curve = several ? curve_path(options.output) : "";
     for (const ToleratedMesh& bound : bounds_) {
       check_mesh_outputs(bound.output, options.two_sided);
-      check_distinct({bound.output, certificate_path(bound.output), options.json, curve},
+      const ReportOptions report = reports_of(bound);
+      check_report_outputs(report);
+      check_distinct({bound.output, certificate_path(bound.output), options.json, curve,
+                      report.report, report.picture},
                      {options.mesh, options.cloud});
     }
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
@@ -88,7 +92,7 @@ class DecimateCommand {
 
   int run() {
     progress_.finish();
-    print_task();
+    print_task(facts_);
     progress_.begin("making the reference surface", joining_seconds(scan_.cloud.points.size()));
     choose_kept();
     make_reference();
@@ -121,7 +125,9 @@ class DecimateCommand {
       file_.emplace(options_.mesh, mesh, scan_.cloud.points, mesh_sha256_);
       return;
     }
-    check_distinct({reference_file(), options_.json}, {options_.mesh, options_.cloud});
+    const ReportOptions report = reports_of(bounds_.front());
+    check_distinct({reference_file(), options_.json, report.report, report.picture},
+                   {options_.mesh, options_.cloud});
     file_.emplace(reference_file(), mesh, scan_.cloud.points);
   }
 
@@ -143,11 +149,14 @@ class DecimateCommand {
     }
     judge();
     progress_.finish();
-    feasible_ ? print_result() : refuse();
+    feasible_ ? print_result(facts_) : refuse(facts_);
     print_time(
         result_.repairs > 0
             ? fmt::format("; results that missed the bound and were corrected: {}", result_.repairs)
             : "");
+    if (options_.report.any()) {
+      write_report(options_.report, report_of(bounds_.front()), facts_);
+    }
     write_json();
     return exit_code(feasible_);
   }
@@ -156,6 +165,7 @@ class DecimateCommand {
   int run_sequence() {
     DecimationSequence sequence(reference_.surface.mesh, kept_);
     std::vector<CurveRow> curve;
+    std::vector<MadeReport> reports;
     for (const ToleratedMesh& bound : bounds_) {
       set_bound(bound);
       progress_.begin("assigning the points", joining_seconds(kept_.size()));
@@ -166,17 +176,54 @@ class DecimateCommand {
       progress_.finish();
       curve.push_back(
           {bound, epsilon_, feasible_, result_.mesh.triangles.size(), result_.points.e_max_upper});
+      if (options_.report.any()) reports.push_back(silent_report(bound));
       if (was_interrupted() || result_.interrupted) break;
     }
-    print_reference();
+    print_reference(facts_);
     print(curve);
     draw(curve, curve_path(options_.output));
     print_time("");
+    for (MadeReport& made : reports) {
+      made.data.curve = report_curve(curve);
+      write_report(made.files, std::move(made.data), made.facts);
+    }
     if (json_is_wanted(options_.json)) {
-      emax::write_json(options_.json, to_json_text(curve, options_.mesh));
+      emax::write_json(options_.json, to_json_text(curve, options_.mesh, options_.report));
     }
     return exit_code(curve.size() == bounds_.size() &&
                      std::ranges::all_of(curve, &CurveRow::feasible));
+  }
+
+  // A report that is written when all tolerances are done, as it shows the curve.
+  struct MadeReport {
+    ReportOptions files;
+    ReportData data;
+    Facts facts;
+  };
+
+  MadeReport silent_report(const ToleratedMesh& bound) const {
+    Facts facts = facts_;
+    facts.be_silent(true);
+    feasible_ ? print_result(facts) : refuse(facts);
+    facts.be_silent(false);
+    return {reports_of(bound), report_of(bound), std::move(facts)};
+  }
+
+  ReportData report_of(const ToleratedMesh& bound) const {
+    ReportData report = report_of_result(options_.report, result(), bound.output,
+                                         feasible_ ? std::optional(written_) : std::nullopt);
+    report.command = "decimate";
+    report.parameters.push_back({"objective", options_.objective});
+    if (!own_cloud_)
+      report.provenance.push_back(report_input("input", options_.mesh, mesh_sha256_));
+    report.times.push_back({"decimation", progress_.seconds()});
+    return report;
+  }
+
+  // The files of --report and --picture, named as the meshes are if there are several.
+  ReportOptions reports_of(const ToleratedMesh& bound) const {
+    if (bounds_.size() == 1) return options_.report;
+    return {named_for(options_.report.report, bound), named_for(options_.report.picture, bound)};
   }
 
   // Proves the decimator's result, and writes it if it keeps the bounds.
@@ -220,21 +267,20 @@ class DecimateCommand {
     return reference_path(options_.output);
   }
 
-  void print_reference() const {
-    print(reference_, options_.two_sided ? reference_file().string() : "");
+  void print_reference(Facts& facts) const {
+    print(facts, reference_, options_.two_sided ? reference_file().string() : "");
   }
 
-  void print_task() const {
-    fmt::print("mesh           {}: {} triangles\n", options_.mesh,
-               grouped(given_.triangles.size()));
+  void print_task(Facts& facts) const {
+    facts.add("mesh", "{}: {} triangles", options_.mesh, grouped(given_.triangles.size()));
     if (!lost_attributes_.empty()) {
-      fmt::print("not kept       {}: the result holds vertices and triangles alone\n",
-                 fmt::join(lost_attributes_, ", "));
+      facts.add("not kept", "{}: the result holds vertices and triangles alone",
+                fmt::join(lost_attributes_, ", "));
     }
-    fmt::print("points         {}: {}{}, width {}\n", scan_.path.string(),
-               grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "",
-               length_text(scan_.width, scan_.unit));
-    print_left_out(scan_.cloud);
+    facts.add("points", "{}: {}{}, width {}", scan_.path.string(),
+              grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "",
+              length_text(scan_.width, scan_.unit));
+    print_left_out(facts, scan_.cloud);
     std::string tolerances;
     for (const ToleratedMesh& bound : bounds_) {
       if (bounds_.size() == 1) {
@@ -243,17 +289,18 @@ class DecimateCommand {
         tolerances += (tolerances.empty() ? "" : ", ") + bound.text;
       }
     }
-    fmt::print("tolerance      {}, {}", tolerances, options_.two_sided ? "two-sided" : "one-sided");
-    if (options_.two_sided && epsilon_back() != epsilon_) {
-      fmt::print(", mesh to reference {:.6g}", epsilon_back());
-    }
-    fmt::print("\n");
+    const bool own_back = options_.two_sided && epsilon_back() != epsilon_;
+    facts.add("tolerance", "{}, {}{}", tolerances, options_.two_sided ? "two-sided" : "one-sided",
+              own_back ? fmt::format(", mesh to reference {:.6g}", epsilon_back()) : "");
     std::fflush(stdout);
   }
 
   void write() {
-    if (file_) proven_.reference = bound();
-    write_result(output_, result(), file_ ? &*file_ : nullptr);
+    if (file_) {
+      proven_.reference = bound();
+      proven_.reference_path = file_->path();
+    }
+    written_ = write_result(output_, result(), file_ ? &*file_ : nullptr);
   }
 
   // Collects the decimator's proofs in the form of the certificate.
@@ -287,66 +334,69 @@ class DecimateCommand {
     return result;
   }
 
-  void print_result() const {
-    print_reference();
-    fmt::print("result         {}: {} triangles; {}\n", output_.string(),
-               grouped(result_.mesh.triangles.size()), describe(result_.validity));
-    fmt::print(
-        "topology       {}\n",
+  void print_result(Facts& facts) const {
+    print_reference(facts);
+    facts.add("result", "{}: {} triangles; {}", output_.string(),
+              grouped(result_.mesh.triangles.size()), describe(result_.validity));
+    facts.add(
+        "topology", "{}",
         describe(proven_.topology,
                  proven_.reference ? std::optional(proven_.reference->topology) : std::nullopt));
-    fmt::print(
-        "e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width): every point to "
-        "the mesh\n",
-        result_.points.e_max_upper, epsilon_, percent(result_.points.e_max_upper));
-    if (proven_.reference) print(*proven_.reference, epsilon_, scan_.width, reference_file());
+    facts.add("e_max",
+              "{:.9g} certified, at most {:.9g} ({:.4g}% of the width): every point to the mesh",
+              result_.points.e_max_upper, epsilon_, percent(result_.points.e_max_upper));
+    if (proven_.reference)
+      print(facts, *proven_.reference, epsilon_, scan_.width, reference_file());
     if (!may_leave_out_own_vertices()) {
-      print_excluded(result_.points, excludable());
+      print_excluded(facts, result_.points, excludable());
     } else if (!result_.points.excluded.empty()) {
-      fmt::print(
-          "left out       vertices of removed triangles: {}, up to {:.9g} from the result; the "
-          "certificate names them\n",
-          grouped(result_.points.excluded.size()), result_.points.e_max_upper_all);
+      facts.add("left out",
+                "vertices of removed triangles: {}, up to {:.9g} from the result; the certificate "
+                "names them",
+                grouped(result_.points.excluded.size()), result_.points.e_max_upper_all);
     }
-    fmt::print("kernel         e_max^2 bits 0x{:08x} at point {}\n", proven_.kernel.squared_bits,
-               proven_.kernel.worst_point);
-    fmt::print("certificate    {}\n", certificate_path(output_).string());
+    facts.add("kernel", "e_max^2 bits 0x{:08x} at point {}", proven_.kernel.squared_bits,
+              proven_.kernel.worst_point);
+    facts.add("certificate", "{}", certificate_path(output_).string());
   }
 
-  void refuse() const {
+  void refuse(Facts& facts) const {
     const CertifiedError& points = result_.points;
     const double farthest = std::ranges::max(points.excluded_distances);
-    fmt::print(
-        "result         infeasible: {1} of {2} points are farther than {0:.9g} from the mesh, and "
-        "no triangle could be added to reach them; the farthest is at {3:.9g} (point {4}); nothing "
-        "is written\n",
+    facts.add(
+        "result",
+        "infeasible: {1} of {2} points are farther than {0:.9g} from the mesh, and no triangle "
+        "could be added to reach them; the farthest is at {3:.9g} (point {4}); nothing is written",
         epsilon_, grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), farthest,
         scan_.cloud.index_in_file(points.excluded[static_cast<std::size_t>(
             std::ranges::max_element(points.excluded_distances) -
             points.excluded_distances.begin())]));
-    fmt::print("               raise --max-error or exclude points with --exclude-outliers\n");
+    facts.add("", "raise --max-error or exclude points with --exclude-outliers");
   }
 
-  void print_time(std::string_view remark) const {
-    fmt::print("decimation     {:.1f} s{}{}\n", progress_.seconds(), remark,
-               was_interrupted()     ? "; interrupted"
-               : result_.interrupted ? "; out of time"
-                                     : "");
+  void print_time(std::string_view remark) {
+    facts_.add_passing("decimation", "{:.1f} s{}{}", progress_.seconds(), remark,
+                       was_interrupted()     ? "; interrupted"
+                       : result_.interrupted ? "; out of time"
+                                             : "");
   }
 
   void write_json() const {
     if (!json_is_wanted(options_.json)) return;
-    ResultReport report = report_of(result());
+    ResultReport report = emax::report_of(result());
     report.feasible = feasible_;
     report.reconstruction_triangles = given_.triangles.size();
     report.lost_attributes = lost_attributes_;
     report.device = "cpu";
     report.two_sided = options_.two_sided;
+    report.page = options_.report.report;
+    report.picture = options_.report.picture;
     emax::write_json(options_.json, to_json_text(report));
   }
 
   DecimationProgress progress_;
   const DecimateOptions& options_;
+  Facts facts_;
   bool own_cloud_;
   double share_;
   std::vector<ToleratedMesh> bounds_;  // ascending
@@ -366,6 +416,7 @@ class DecimateCommand {
   std::optional<ReferenceFile> file_;  // of a two-sided bound
   CertifiedDecimation result_;
   ProvenMesh proven_;
+  WrittenResult written_;  // of the last result that keeps the bounds
   bool feasible_ = false;
 };
 

@@ -41,8 +41,18 @@ void draw(std::span<const CurveRow> curve, const std::filesystem::path& picture)
   fmt::print("curve          {}\n", picture.string());
 }
 
-std::string to_json_text(std::span<const CurveRow> curve, const std::string& mesh) {
+std::vector<ReportCurvePoint> report_curve(std::span<const CurveRow> curve) {
+  std::vector<ReportCurvePoint> points;
+  for (const CurveRow& row : curve) {
+    points.push_back({row.epsilon, row.feasible ? std::optional(row.triangles) : std::nullopt});
+  }
+  return points;
+}
+
+std::string to_json_text(std::span<const CurveRow> curve, const std::string& mesh,
+                         const ReportOptions& report) {
   using Json = nlohmann::ordered_json;
+  const auto file = [](const std::string& name) { return name.empty() ? Json() : Json(name); };
   Json rows = Json::array();
   for (const CurveRow& row : curve) {
     rows.push_back({{"max_error", row.bound.text},
@@ -50,7 +60,9 @@ std::string to_json_text(std::span<const CurveRow> curve, const std::string& mes
                     {"feasible", row.feasible},
                     {"triangles", row.triangles},
                     {"e_max", row.e_max},
-                    {"mesh", row.feasible ? Json(row.bound.output.string()) : Json()}});
+                    {"mesh", row.feasible ? Json(row.bound.output.string()) : Json()},
+                    {"report", file(named_for(report.report, row.bound))},
+                    {"picture", file(named_for(report.picture, row.bound))}});
   }
   const Json json = {{"schema", "emax-curve-1"}, {"mesh", mesh}, {"curve", rows}};
   return json.dump(2) + "\n";

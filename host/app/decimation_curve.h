@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "host/app/report_options.h"
 #include "host/app/tolerated_meshes.h"
+#include "host/report/report_data.h"
 
 namespace emax {
 
@@ -27,7 +30,11 @@ void print(std::span<const CurveRow> curve);
 // Draws the picture and prints its name, if there are at least two meshes to draw.
 void draw(std::span<const CurveRow> curve, const std::filesystem::path& picture);
 
-// The content of --json. `mesh`: the file that was decimated.
-std::string to_json_text(std::span<const CurveRow> curve, const std::string& mesh);
+// The same for a report.
+std::vector<ReportCurvePoint> report_curve(std::span<const CurveRow> curve);
+
+// The content of --json. `mesh`: the file that was decimated; `report`: the options as given.
+std::string to_json_text(std::span<const CurveRow> curve, const std::string& mesh,
+                         const ReportOptions& report);
 
 }  // namespace emax

@@ -52,18 +52,20 @@ void CpuTwin::measure(MeshView mesh, const MeasuredError& by_device) {
   }
 }
 
-void print_prediction(const BoardModel& board, const DeviceCounters& counters, double cpu_seconds) {
+void print_prediction(Facts& facts, const BoardModel& board, const DeviceCounters& counters,
+                      double cpu_seconds) {
   const std::uint64_t cycles = counters.cycles.value_or(0);
-  fmt::print(
-      "predicted      {:.3g} s on {} ({}), estimated: computing {:.3g} s ({} elements at "
-      "{:.0f} MHz), link {:.3g} s ({:.6g} MB/s)\n",
-      predicted_seconds(board, cycles, counters.words_in, counters.words_out), board.name,
-      board.device, predicted_seconds(board, cycles, 0, 0), board.elements, board.clock_hz / 1e6,
-      predicted_seconds(board, 0, counters.words_in, counters.words_out),
-      board.link_bytes_per_second / 1e6);
-  fmt::print(
-      "this CPU       {:.3g} s, measured: the same work on one thread, its search included\n",
-      cpu_seconds);
+  facts.add_passing("predicted",
+                    "{:.3g} s on {} ({}), estimated: computing {:.3g} s ({} elements at {:.0f} "
+                    "MHz), link {:.3g} s ({:.6g} MB/s)",
+                    predicted_seconds(board, cycles, counters.words_in, counters.words_out),
+                    board.name, board.device, predicted_seconds(board, cycles, 0, 0),
+                    board.elements, board.clock_hz / 1e6,
+                    predicted_seconds(board, 0, counters.words_in, counters.words_out),
+                    board.link_bytes_per_second / 1e6);
+  facts.add_passing("this CPU",
+                    "{:.3g} s, measured: the same work on one thread, its search included",
+                    cpu_seconds);
 }
 
 }  // namespace emax

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "host/app/facts.h"
 #include "host/measure/error_constraint.h"
 #include "sw_model/protocol/cycle_model.h"
 #include "sw_model/protocol/device.h"
@@ -29,6 +30,7 @@ class CpuTwin {
 };
 
 // Prints the time that `board` would take for the work, and the time that it took on this CPU.
-void print_prediction(const BoardModel& board, const DeviceCounters& counters, double cpu_seconds);
+void print_prediction(Facts& facts, const BoardModel& board, const DeviceCounters& counters,
+                      double cpu_seconds);
 
 }  // namespace emax

@@ -12,9 +12,11 @@
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
+#include "host/app/report_output.h"
 #include "host/files/atomic_file.h"
 #include "host/files/cloud_file.h"
 #include "host/files/mesh_file.h"
+#include "host/files/sha256.h"
 #include "host/files/tolerance.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/measure/error_constraint.h"
@@ -40,7 +42,9 @@ void check_outputs(const ErrorOptions& options) {
   if (!json.empty()) check_output(json, kJsonEndings);
   if (!options.color.empty()) check_output(options.color, kColorEndings);
   if (!options.color_mesh.empty()) check_output(options.color_mesh, kColorEndings);
-  check_distinct({json, options.color, options.color_mesh},
+  const ReportOptions& report = options.common.report;
+  check_report_outputs(report);
+  check_distinct({json, options.color, options.color_mesh, report.report, report.picture},
                  {options.common.cloud, options.mesh, options.reference});
 }
 
@@ -161,13 +165,13 @@ double color_range(std::span<const double> distances, std::optional<double> limi
   return limit ? *limit : *std::ranges::max_element(distances);
 }
 
-void write_colors(const std::string& path, std::span<const Point> points,
+void write_colors(Facts& facts, const std::string& path, std::span<const Point> points,
                   std::span<const double> distances, std::span<const Triangle> triangles,
                   std::optional<double> limit) {
   const double greatest = color_range(distances, limit);
   write_error_ply(path, points, distances, greatest, triangles);
-  fmt::print("colours        {}: viridis, dark blue 0, green {:.6g}, yellow {:.6g}{}\n", path,
-             greatest / 2, greatest, limit ? " and beyond" : "");
+  facts.add("colours", "{}: viridis, dark blue 0, green {:.6g}, yellow {:.6g}{}", path,
+            greatest / 2, greatest, limit ? " and beyond" : "");
 }
 
 struct MeshFindings {
@@ -210,26 +214,26 @@ struct Findings {
   bool feasible() const { return errors.limit && exceeding().empty(); }
 };
 
-void print(const Findings& f, const ErrorOptions& options, const Scan& scan,
+void print(Facts& facts, const Findings& f, const ErrorOptions& options, const Scan& scan,
            const TriangleMesh& mesh, std::size_t excludable) {
-  fmt::print("cloud          {}\n", describe(scan));
-  print_left_out(scan.cloud);
-  fmt::print("mesh           {}: {} triangles; {}\n", options.mesh, grouped(mesh.triangles.size()),
-             describe(f.validity));
-  fmt::print("topology       {}\n", describe(f.topology, f.reference_topology()));
-  fmt::print("e_max          {:.9g} certified ({:.4g}% of the width)\n", f.certified.e_max_upper,
-             100 * f.certified.e_max_upper / scan.width);
-  print_excluded(f.certified, excludable);
+  facts.add("cloud", "{}", describe(scan));
+  print_left_out(facts, scan.cloud);
+  facts.add("mesh", "{}: {} triangles; {}", options.mesh, grouped(mesh.triangles.size()),
+            describe(f.validity));
+  facts.add("topology", "{}", describe(f.topology, f.reference_topology()));
+  facts.add("e_max", "{:.9g} certified ({:.4g}% of the width)", f.certified.e_max_upper,
+            100 * f.certified.e_max_upper / scan.width);
+  print_excluded(facts, f.certified, excludable);
   if (f.tolerance) {
-    fmt::print("tolerance      {}{}: {}\n", to_text(*f.tolerance, scan.width, scan.unit),
-               level_text(options.level),
-               f.feasible() ? "kept" : fmt::format("exceeded: {}", f.exceeding()));
+    facts.add("tolerance", "{}{}: {}", to_text(*f.tolerance, scan.width, scan.unit),
+              level_text(options.level),
+              f.feasible() ? "kept" : fmt::format("exceeded: {}", f.exceeding()));
   }
-  fmt::print("worst point    {}\n", f.measured.kept.worst_point);
-  fmt::print("kernel         e_max^2 bits 0x{:08x}\n", f.measured.kept.squared_bits);
-  fmt::print("device {:<7} {} in {:.3f} s\n", options.common.device, describe_counters(f.counters),
-             f.seconds);
-  if (f.board) print_prediction(*f.board, *f.counters, *f.cpu_seconds);
+  facts.add("worst point", "{}", f.measured.kept.worst_point);
+  facts.add("kernel", "e_max^2 bits 0x{:08x}", f.measured.kept.squared_bits);
+  facts.add_passing("device " + options.common.device, "{} in {:.3f} s",
+                    describe_counters(f.counters), f.seconds);
+  if (f.board) print_prediction(facts, *f.board, *f.counters, *f.cpu_seconds);
   fmt::print("{}", to_text(f.errors));
 }
 
@@ -253,7 +257,52 @@ std::string json_text(const Findings& f, const ErrorOptions& options, const Tria
   report.board = f.board;
   report.cpu_seconds = f.cpu_seconds;
   report.errors = f.errors;
+  report.page = options.common.report.report;
+  report.picture = options.common.report.picture;
   return to_json_text(report);
+}
+
+std::string verdict_of(const Findings& f, const Scan& scan) {
+  const auto length = [&](double value) { return length_text(value, scan.unit); };
+  if (!f.errors.limit) {
+    return fmt::format("The farthest point lies {} from the mesh.",
+                       length(f.certified.e_max_upper));
+  }
+  if (f.feasible()) {
+    return fmt::format("Within tolerance: every {}point lies within {} of the mesh.",
+                       f.certified.excluded.empty() ? "" : "kept ", length(*f.errors.limit));
+  }
+  return fmt::format("Not within {}: {}.", length(*f.errors.limit), f.exceeding());
+}
+
+// The files of a report, with the checksums that they had when they were read.
+std::vector<ReportInput> inputs_of(const ErrorOptions& options) {
+  std::vector<ReportInput> inputs;
+  if (options.common.report.report.empty()) return inputs;
+  const auto add = [&](const char* name, const std::string& file) {
+    if (!file.empty()) inputs.push_back(report_input(name, file, sha256_of_file(file)));
+  };
+  add("cloud", options.common.cloud);
+  add("mesh", options.mesh);
+  add("reference", options.reference);
+  return inputs;
+}
+
+void write_report_of(Facts& facts, const Findings& f, const ErrorOptions& options,
+                     const TriangleMesh& mesh, const Scan& scan, std::vector<ReportInput> inputs) {
+  const ReportOptions& wanted = options.common.report;
+  if (!wanted.any()) return;
+  ReportData report =
+      measured_report(wanted, scan, mesh.view(), f.measured.excluded, f.errors.limit);
+  report.command = "error";
+  report.title = std::filesystem::path(options.mesh).filename().string();
+  if (f.tolerance) report.within = f.feasible();
+  report.verdict = verdict_of(f, scan);
+  report.e_max = f.certified.e_max_upper;
+  if (f.errors.reference) report.back = f.errors.reference->from_mesh.distance.upper;
+  report.provenance = std::move(inputs);
+  report.times.push_back({"e_max on " + options.common.device, f.seconds});
+  write_report(wanted, std::move(report), facts);
 }
 
 }  // namespace
@@ -270,6 +319,7 @@ int run_error(const ErrorOptions& options) {
   if (f.tolerance) f.tolerance = f.tolerance->in_unit_of(scan.unit);
   std::optional<Reference> reference;
   if (options.two_sided) reference = read_reference(options, scan);
+  std::vector<ReportInput> inputs = inputs_of(options);
   f.errors.width = scan.width;
   std::optional<double>& limit = f.errors.limit;
   if (f.tolerance) {
@@ -324,15 +374,17 @@ int run_error(const ErrorOptions& options) {
   }
 
   const std::string& json = options.common.json;
-  print(f, options, scan, mesh, constraint.excludable());
+  Facts facts;
+  print(facts, f, options, scan, mesh, constraint.excludable());
   if (!options.color.empty()) {
-    write_colors(options.color, scan.cloud.points, cloud.distances(), {}, limit);
+    write_colors(facts, options.color, scan.cloud.points, cloud.distances(), {}, limit);
   }
   if (!options.color_mesh.empty()) {
     const auto distances =
         point_distances(PreparedCloud(mesh.vertices), reference->mesh.view(), was_interrupted);
-    write_colors(options.color_mesh, mesh.vertices, distances, mesh.triangles, limit);
+    write_colors(facts, options.color_mesh, mesh.vertices, distances, mesh.triangles, limit);
   }
+  write_report_of(facts, f, options, mesh, scan, std::move(inputs));
   if (json_is_wanted(json)) {
     write_json(json, json_text(f, options, mesh, scan, constraint.cloud().normalization()));
   }

@@ -9,15 +9,14 @@
 
 namespace emax {
 
-void print_fit(const ReferenceFit& fit, double epsilon) {
+void print_fit(Facts& facts, const ReferenceFit& fit, double epsilon) {
   if (fit.tried.empty()) return;
-  fmt::print(
-      "scan           points {:.3g} apart ({:.3g} of the tolerance), noise {:.2g} ({:.2g})\n",
-      fit.scan.spacing, fit.scan.spacing / epsilon, fit.scan.noise, fit.scan.noise / epsilon);
+  facts.add("scan", "points {:.3g} apart ({:.3g} of the tolerance), noise {:.2g} ({:.2g})",
+            fit.scan.spacing, fit.scan.spacing / epsilon, fit.scan.noise, fit.scan.noise / epsilon);
   for (const TriedSurface& tried : fit.tried) {
     const bool taken = &tried == &fit.best();
-    fmt::print("{:<14} {}: {}\n", taken ? "surface" : "not taken", tried.chain.method,
-               tried.failure.empty() ? describe(tried) : tried.failure);
+    facts.add(taken ? "surface" : "not taken", "{}: {}", tried.chain.method,
+              tried.failure.empty() ? describe(tried) : tried.failure);
   }
   std::vector<std::string> mended;
   const auto say = [&](std::size_t count, const char* one, const char* many, const char* then) {
@@ -29,24 +28,22 @@ void print_fit(const ReferenceFit& fit, double epsilon) {
           .c_str());
   say(fit.surface.dropped_triangles, " triangle", " triangles",
       " dropped that intersected others or were not manifold");
-  if (!mended.empty()) fmt::print("repaired       {}\n", fmt::join(mended, ", "));
+  if (!mended.empty()) facts.add("repaired", "{}", fmt::join(mended, ", "));
   if (fit.joined + fit.left_out > 0) {
-    fmt::print("far points     {} farther than {:.3g} joined to it, {} left out\n",
-               grouped(fit.joined), fit.joined_beyond, grouped(fit.left_out));
+    facts.add("far points", "{} farther than {:.3g} joined to it, {} left out", grouped(fit.joined),
+              fit.joined_beyond, grouped(fit.left_out));
   }
 }
 
-void print_closed(std::size_t holes, std::span<const OpenBorder> open) {
-  fmt::print("closed         {} {} of the surface\n", grouped(holes),
-             holes == 1 ? "hole" : "holes");
+void print_closed(Facts& facts, std::size_t holes, std::span<const OpenBorder> open) {
+  facts.add("closed", "{} {} of the surface", grouped(holes), holes == 1 ? "hole" : "holes");
   for (const OpenBorder& border : open) {
-    fmt::print(
-        "left open      a border of {} edges within {:.4g} of ({:.6g}, {:.6g}, {:.6g}): {}\n",
-        grouped(border.edges), border.radius, border.middle.x(), border.middle.y(),
-        border.middle.z(),
-        border.edges > kMostClosedEdges
-            ? fmt::format("it has more than {} edges", grouped(kMostClosedEdges))
-            : "no patch continues the surface without intersecting it");
+    facts.add("left open", "a border of {} edges within {:.4g} of ({:.6g}, {:.6g}, {:.6g}): {}",
+              grouped(border.edges), border.radius, border.middle.x(), border.middle.y(),
+              border.middle.z(),
+              border.edges > kMostClosedEdges
+                  ? fmt::format("it has more than {} edges", grouped(kMostClosedEdges))
+                  : "no patch continues the surface without intersecting it");
   }
 }
 

@@ -68,7 +68,7 @@ GivenReference make_reference(const TriangleMesh& given, std::span<const Point> 
   return made;
 }
 
-void print(const GivenReference& reference, const std::string& file) {
+void print(Facts& facts, const GivenReference& reference, const std::string& file) {
   if (reference.is_as_given()) return;
   const ReferenceSurface& s = reference.surface;
   std::string made;
@@ -86,14 +86,13 @@ void print(const GivenReference& reference, const std::string& file) {
   say(s.cut_vertices, s.cut_vertices == 1 ? "non-manifold vertex" : "non-manifold vertices",
       "cut apart");
   say(s.inserted, s.inserted == 1 ? "point" : "points", "added that the mesh missed");
-  fmt::print("reference      {}{}\n", made.empty() ? "as given" : made,
-             file.empty() ? "" : ": " + file);
-  if (reference.closed) print_closed(reference.closed->closed, reference.closed->open);
+  facts.add("reference", "{}{}", made.empty() ? "as given" : made, file.empty() ? "" : ": " + file);
+  if (reference.closed) print_closed(facts, reference.closed->closed, reference.closed->open);
   if (!reference.before_repair) return;
   const bool was_closed = reference.before_repair->border_loops == 0;
   const MeshTopology now = topology_of(s.mesh.view());
-  fmt::print("repaired       {}{}; now {}\n", describe(*reference.before_repair),
-             was_closed && now.border_loops > 0 ? "; was closed, now open" : "", describe(now));
+  facts.add("repaired", "{}{}; now {}", describe(*reference.before_repair),
+            was_closed && now.border_loops > 0 ? "; was closed, now open" : "", describe(now));
 }
 
 }  // namespace emax

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "host/app/facts.h"
 #include "host/decimate/bounded_decimation.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/surface/close_holes.h"
@@ -34,6 +35,6 @@ GivenReference make_reference(const TriangleMesh& given, std::span<const Point> 
                               const std::function<bool()>& interrupted);
 
 // Prints the changes of the mesh. `file`: the path of the reference; empty for a one-sided bound.
-void print(const GivenReference& reference, const std::string& file);
+void print(Facts& facts, const GivenReference& reference, const std::string& file);
 
 }  // namespace emax

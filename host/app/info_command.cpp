@@ -65,7 +65,8 @@ void print(const InfoOptions& options, const Contents& c) {
   } else {
     fmt::print("cloud          {} points{}\n", grouped(c.cloud.points.size()),
                c.cloud.normals.empty() ? "" : ", with normals");
-    print_left_out(c.cloud);
+    Facts facts;
+    print_left_out(facts, c.cloud);
     if (!c.cloud.scans.empty()) {
       std::vector<std::string> names;
       for (const ScanPart& scan : c.cloud.scans) names.push_back(scan.name);

@@ -10,6 +10,7 @@
 #include "host/app/json_output.h"
 #include "host/app/phase_progress.h"
 #include "host/app/progress.h"
+#include "host/app/report_output.h"
 #include "host/app/result_files.h"
 #include "host/app/run_identity.h"
 #include "host/app/search_report.h"
@@ -56,11 +57,16 @@ class OptimizeCommand {
     }
     check_mesh_outputs(options.output, two_sided);
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
+    const ReportOptions& report = options.common.report;
+    check_report_outputs(report);
     check_distinct({options.output, certificate_path(options.output),
-                    two_sided ? reference_path(options.output) : "", options.common.json},
+                    two_sided ? reference_path(options.output) : "", options.common.json,
+                    report.report, report.picture},
                    {options.common.cloud, options.config});
     const std::string folder = options.resume.empty() ? options.output + ".run" : options.resume;
-    check_outside({options.output, certificate_path(options.output), options.common.json}, folder);
+    check_outside({options.output, certificate_path(options.output), options.common.json,
+                   report.report, report.picture},
+                  folder);
     settings_.begun = begun_;
     settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
     phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
@@ -110,15 +116,15 @@ class OptimizeCommand {
                     scan.unit ? scan.unit->name : "", kWhySuggested));
   }
 
-  void print_task(const Tolerance& tolerance) const {
-    fmt::print("run            {}\n", describe(*log_, settings_.config.search.budget));
-    fmt::print("cloud          {}\n", describe(scan_));
-    print_left_out(scan_.cloud);
-    fmt::print("tolerance      {}{}, {}\n", to_text(tolerance, scan_.width, scan_.unit),
+  void print_task(const Tolerance& tolerance) {
+    facts_.add_passing("run", "{}", describe(*log_, settings_.config.search.budget));
+    facts_.add("cloud", "{}", describe(scan_));
+    print_left_out(facts_, scan_.cloud);
+    facts_.add("tolerance", "{}{}, {}", to_text(tolerance, scan_.width, scan_.unit),
                level_text(options_.level), settings_.epsilon_back ? "two-sided" : "one-sided");
-    fmt::print("search         {} + {}, {} evaluations, seed {}, {} jobs, device {}\n",
-               settings_.method, settings_.decimator, settings_.config.search.budget,
-               settings_.seed, settings_.jobs, options_.common.device);
+    facts_.add_passing("search", "{} + {}, {} evaluations, seed {}, {} jobs, device {}",
+                       settings_.method, settings_.decimator, settings_.config.search.budget,
+                       settings_.seed, settings_.jobs, options_.common.device);
     std::fflush(stdout);
   }
 
@@ -191,10 +197,26 @@ class OptimizeCommand {
         .counters = device_ ? std::optional(device_->counters()) : std::nullopt,
         .board = address_.board,
         .cpu_seconds = cpu_ ? std::optional(cpu_->seconds()) : std::nullopt};
-    print(outcome);
+    print(facts_, outcome);
+    write_report_of(result, best != nullptr, took);
     if (json_is_wanted(options_.common.json)) {
       write_json(options_.common.json, to_json_text(report_of(outcome)));
     }
+  }
+
+  void write_report_of(const CertifiedResult& result, bool feasible, double took) {
+    const ReportOptions& wanted = options_.common.report;
+    if (!wanted.any()) return;
+    phase_.begin("measuring for the report", certifying_seconds(scan_.cloud.points.size()));
+    ReportData report =
+        report_of_result(wanted, result, options_.output,
+                         feasible ? files_->written() : std::optional<WrittenResult>());
+    phase_.end();
+    report.command = "optimize";
+    report.search = evaluations_of(*log_);
+    report.times.push_back({"reading", seconds(begun_, reading_ended_)});
+    report.times.push_back({"search", took});
+    write_report(wanted, std::move(report), facts_);
   }
 
   const BestMesh* best_mesh() const {
@@ -228,19 +250,17 @@ class OptimizeCommand {
   void fix_bound() {
     make_bound();
     files_.emplace(options_, settings_, scan_, cloud_sha256_, *constraint_);
-    print_fit(fit_, epsilon_);
-    if (settings_.closed) print_closed(fit_.closed_holes, fit_.open);
+    print_fit(facts_, fit_, epsilon_);
+    if (settings_.closed) print_closed(facts_, fit_.closed_holes, fit_.open);
     if (takes_bound(settings_.decimator)) log_->settle(kBoundSetting, checksum(settings_.bound));
     if (!settings_.bound.outliers.empty()) {
-      fmt::print(
-          "outliers       {} points farther than the tolerance from the reconstruction are left "
-          "out\n",
-          grouped(settings_.bound.outliers.size()));
+      facts_.add("outliers",
+                 "{} points farther than the tolerance from the reconstruction are left out",
+                 grouped(settings_.bound.outliers.size()));
     }
     if (settings_.epsilon_back) {
       const std::string written = write_reference();
-      fmt::print("reference      {}: {} triangles; {}{}\n",
-                 reference_path(options_.output).string(),
+      facts_.add("reference", "{}: {} triangles; {}{}", reference_path(options_.output).string(),
                  grouped(settings_.bound.reference.triangles.size()),
                  describe(files_->topology_of_reference()), written);
     }
@@ -304,13 +324,14 @@ class OptimizeCommand {
     }
   }
 
-  void say_what_is_kept(std::string_view what_next) const {
-    fmt::print("run            kept in {}{}\n", log_->folder().string(), what_next);
+  void say_what_is_kept(std::string_view what_next) {
+    facts_.add_passing("run", "kept in {}{}", log_->folder().string(), what_next);
   }
 
   const Clock::time_point begun_ = Clock::now();
   PhaseProgress phase_;
   const OptimizeOptions& options_;
+  Facts facts_;
   OptimizeSettings settings_;
   DeviceAddress address_;
   std::unique_ptr<Evaluator> device_;

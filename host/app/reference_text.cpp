@@ -13,11 +13,11 @@ std::string describe(const MeshTopology& mesh, const std::optional<MeshTopology>
   return text;
 }
 
-void print(const ReferenceBound& bound, double epsilon, double width,
+void print(Facts& facts, const ReferenceBound& bound, double epsilon, double width,
            const std::filesystem::path& reference) {
   const auto line = [&](const char* name, double length, double limit, const std::string& what) {
-    fmt::print("{:<14} {:.9g} certified, at most {:.9g} ({:.4g}% of the width): {}\n", name, length,
-               limit, 100 * length / width, what);
+    facts.add(name, "{:.9g} certified, at most {:.9g} ({:.4g}% of the width): {}", length, limit,
+              100 * length / width, what);
   };
   line("to reference", bound.mesh_to_reference, bound.epsilon_back,
        "all of the mesh to " + reference.string());

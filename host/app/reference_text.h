@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/app/facts.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/report/certificate_file.h"
 
@@ -13,7 +14,7 @@ namespace emax {
 std::string describe(const MeshTopology& mesh, const std::optional<MeshTopology>& reference);
 
 // Prints the certified distances between mesh and reference, two lines.
-void print(const ReferenceBound& bound, double epsilon, double width,
+void print(Facts& facts, const ReferenceBound& bound, double epsilon, double width,
            const std::filesystem::path& reference);
 
 }  // namespace emax

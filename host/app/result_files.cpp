@@ -68,7 +68,10 @@ ProvenMesh ResultFiles::prove(const BestMesh& best) {
   if (!proven.points.within(constraint_.epsilon())) {
     contradict("the kernel's e_max", proven.points.e_max_upper);
   }
-  if (reference_) proven.reference = bound_of_reference(best);
+  if (reference_) {
+    proven.reference = bound_of_reference(best);
+    proven.reference_path = reference_->path();
+  }
   return proven;
 }
 
@@ -87,8 +90,8 @@ ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {
   const std::tuple mesh(best.index, best.triangles, best.error.kept.squared_bits);
   if (!proven_ || proven_mesh_ != mesh) proven_ = prove(best);
   proven_mesh_ = mesh;
-  write_result(options_.output, result(best, *proven_, evaluations),
-               reference_ ? &*reference_ : nullptr);
+  written_ = write_result(options_.output, result(best, *proven_, evaluations),
+                          reference_ ? &*reference_ : nullptr);
   return *proven_;
 }
 

@@ -25,6 +25,9 @@ class ResultFiles {
   // kernel or the decimator.
   ProvenMesh write(const BestMesh& best, std::uint64_t evaluations);
 
+  // What write() wrote last, if anything.
+  const std::optional<WrittenResult>& written() const { return written_; }
+
   // Writes only the reference of a two-sided bound, and computes its topology.
   void write_reference();
   const MeshTopology& topology_of_reference() const { return reference_->topology(); }
@@ -53,6 +56,7 @@ class ResultFiles {
   // The evaluation and numbers that identify the mesh that was written last, and its proofs.
   std::tuple<std::uint64_t, std::size_t, std::uint32_t> proven_mesh_;
   std::optional<ProvenMesh> proven_;
+  std::optional<WrittenResult> written_;
 };
 
 }  // namespace emax

@@ -160,15 +160,15 @@ std::string describe(const MeshValidity& v) {
   return text;
 }
 
-void print_left_out(const PointCloud& cloud) {
+void print_left_out(Facts& facts, const PointCloud& cloud) {
   if (cloud.left_out.empty()) return;
-  fmt::print("left out       {}\n", describe(cloud.left_out));
+  facts.add("left out", "{}", describe(cloud.left_out));
 }
 
-void print_excluded(const CertifiedError& certified, std::size_t excludable) {
+void print_excluded(Facts& facts, const CertifiedError& certified, std::size_t excludable) {
   if (excludable == 0) return;
-  fmt::print("outliers       {} of at most {} points excluded; e_max over all points {:.9g}\n",
-             grouped(certified.excluded.size()), grouped(excludable), certified.e_max_upper_all);
+  facts.add("outliers", "{} of at most {} points excluded; e_max over all points {:.9g}",
+            grouped(certified.excluded.size()), grouped(excludable), certified.e_max_upper_all);
 }
 
 }  // namespace emax

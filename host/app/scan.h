@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/app/facts.h"
+#include "host/app/report_options.h"
 #include "host/device/device_address.h"
 #include "host/engine/error_engine.h"
 #include "host/files/cloud_file.h"
@@ -25,6 +27,7 @@ struct CommonOptions {
   std::string cloud;
   std::string device = "cpu";
   std::string json;
+  ReportOptions report;
   std::string excluded_share = "0";
   CloudReadOptions reading;
   std::string unit;  // of the cloud's numbers; empty: what the file says
@@ -90,12 +93,12 @@ EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud);
 std::string grouped(std::uint64_t number);
 
 // Prints how many points of the file were left out and why, if any were.
-void print_left_out(const PointCloud& cloud);
+void print_left_out(Facts& facts, const PointCloud& cloud);
 
 // "valid: ..." or "not valid: 3 non-manifold edges, ..."
 std::string describe(const MeshValidity& validity);
 
 // Prints how many points were excluded, if that is permitted, and e_max over all points.
-void print_excluded(const CertifiedError& certified, std::size_t excludable);
+void print_excluded(Facts& facts, const CertifiedError& certified, std::size_t excludable);
 
 }  // namespace emax

@@ -24,55 +24,52 @@ double percent_of_width(const CertifiedResult& result) {
   return 100 * result.proven.points.e_max_upper / result.cloud.scan.width;
 }
 
-void print_feasible(const SearchOutcome& o) {
+void print_feasible(Facts& facts, const SearchOutcome& o) {
   const std::string& output = o.options.output;
   const ProvenMesh& proven = o.result.proven;
   const double epsilon = o.result.epsilon;
-  fmt::print("result         {}: {} triangles{}; {}\n", output,
-             grouped(o.shown.mesh.triangles.size()),
-             o.is_reference ? ", the reference surface as it is" : "", describe(proven.validity));
-  fmt::print("topology       {}\n",
-             describe(proven.topology,
-                      proven.reference ? std::optional(proven.reference->topology) : std::nullopt));
-  fmt::print("e_max          {:.9g} certified, at most {:.9g} ({:.4g}% of the width)\n",
-             proven.points.e_max_upper, epsilon, percent_of_width(o.result));
+  facts.add("result", "{}: {} triangles{}; {}", output, grouped(o.shown.mesh.triangles.size()),
+            o.is_reference ? ", the reference surface as it is" : "", describe(proven.validity));
+  facts.add("topology", "{}",
+            describe(proven.topology,
+                     proven.reference ? std::optional(proven.reference->topology) : std::nullopt));
+  facts.add("e_max", "{:.9g} certified, at most {:.9g} ({:.4g}% of the width)",
+            proven.points.e_max_upper, epsilon, percent_of_width(o.result));
   if (proven.reference) {
-    print(*proven.reference, epsilon, o.result.cloud.scan.width, reference_path(output));
+    print(facts, *proven.reference, epsilon, o.result.cloud.scan.width, reference_path(output));
   }
-  fmt::print("certificate    {}\n", certificate_path(output).string());
+  facts.add("certificate", "{}", certificate_path(output).string());
 }
 
 // Prints the bound that is broken, with the remedy.
-void print_infeasible(const SearchOutcome& o) {
+void print_infeasible(Facts& facts, const SearchOutcome& o) {
   const CertifiedError& points = o.result.proven.points;
   const double epsilon = o.result.epsilon;
   const bool two_sided = o.settings.epsilon_back.has_value();
   const std::string triangles = grouped(o.shown.mesh.triangles.size());
-  fmt::print("result         infeasible: no mesh within {:.9g} was found, none is written{}\n",
-             epsilon,
-             two_sided ? fmt::format("; the reference surface is in {}",
-                                     reference_path(o.options.output).string())
-                       : "");
+  facts.add("result", "infeasible: no mesh within {:.9g} was found, none is written{}", epsilon,
+            two_sided ? fmt::format("; the reference surface is in {}",
+                                    reference_path(o.options.output).string())
+                      : "");
   if (!points.within(epsilon)) {
-    fmt::print(
-        "e_max          {:.9g} is the least found ({:.4g}% of the width), with {} "
-        "triangles; raise --max-error, raise --budget or exclude outliers\n",
-        points.e_max_upper, percent_of_width(o.result), triangles);
+    facts.add("e_max",
+              "{:.9g} is the least found ({:.4g}% of the width), with {} triangles; raise "
+              "--max-error, raise --budget or exclude outliers",
+              points.e_max_upper, percent_of_width(o.result), triangles);
   } else if (two_sided) {
-    fmt::print(
-        "reference      {:.4g} times the bound is the least distance found between mesh and "
-        "reference, with {} triangles; raise --max-error, raise --budget or take --bound "
-        "one-sided\n",
-        1 + o.shown.violation, triangles);
+    facts.add("reference",
+              "{:.4g} times the bound is the least distance found between mesh and reference, with "
+              "{} triangles; raise --max-error, raise --budget or take --bound one-sided",
+              1 + o.shown.violation, triangles);
   } else {
-    fmt::print(
-        "e_max          {:.9g} certified, but the tolerance is below what the kernel can tell "
-        "apart; raise --max-error\n",
-        points.e_max_upper);
+    facts.add("e_max",
+              "{:.9g} certified, but the tolerance is below what the kernel can tell apart; raise "
+              "--max-error",
+              points.e_max_upper);
   }
 }
 
-void print_evaluations(const OptimizeState& state, double seconds) {
+void print_evaluations(Facts& facts, const OptimizeState& state, double seconds) {
   const std::string outpaced =
       state.outpaced > 0
           ? fmt::format(", {} of them not to the end, as they would not have been the best",
@@ -80,17 +77,17 @@ void print_evaluations(const OptimizeState& state, double seconds) {
           : "";
   const std::string stopped =
       state.stopped > 0 ? fmt::format(", {} more stopped early, with a mesh", state.stopped) : "";
-  fmt::print("evaluations    {} in {:.0f} s{}{}{}{}\n", state.evaluations, seconds, outpaced,
-             stopped, describe_failures(state),
-             state.interrupted      ? "; interrupted"
-             : state.out_of_time    ? "; out of time"
-             : state.target_reached ? "; target reached"
-             : state.stagnated      ? "; no better mesh for long"
-                                    : "");
+  facts.add_passing("evaluations", "{} in {:.0f} s{}{}{}{}", state.evaluations, seconds, outpaced,
+                    stopped, describe_failures(state),
+                    state.interrupted      ? "; interrupted"
+                    : state.out_of_time    ? "; out of time"
+                    : state.target_reached ? "; target reached"
+                    : state.stagnated      ? "; no better mesh for long"
+                                           : "");
 }
 
 // Prints when there were how many triangles: of many steps the first, the last and some between.
-void print_course(const std::vector<FewerTriangles>& course) {
+void print_course(Facts& facts, const std::vector<FewerTriangles>& course) {
   constexpr std::size_t kMost = 6;
   if (course.empty()) return;
   std::string text;
@@ -101,27 +98,28 @@ void print_course(const std::vector<FewerTriangles>& course) {
     text += fmt::format("{}{}{} after {}", i > 0 ? ", " : "", grouped(triangles),
                         i > 0 ? "" : " triangles", minutes(seconds));
   }
-  fmt::print("course         {}\n", text);
+  facts.add_passing("course", "{}", text);
 }
 
-void print_polish(const OptimizeState& state, std::size_t triangles) {
+void print_polish(Facts& facts, const OptimizeState& state, std::size_t triangles) {
   if (!state.polished) return;
-  fmt::print("polished       {}\n",
-             triangles < *state.polished
-                 ? grouped(*state.polished) + " triangles before the best were decimated deep" +
-                       (state.polish_stopped ? ", as far as the time allowed" : "")
-                 : "the best decimated deep have no fewer triangles");
+  facts.add("polished", "{}",
+            triangles < *state.polished
+                ? grouped(*state.polished) + " triangles before the best were decimated deep" +
+                      (state.polish_stopped ? ", as far as the time allowed" : "")
+                : "the best decimated deep have no fewer triangles");
 }
 
 // Prints shares of the workers' time.
-void print_shares(const OptimizeState& state, double all) {
+void print_shares(Facts& facts, const OptimizeState& state, double all) {
   if (!(state.stages.sum() > 0) || !(all > 0)) return;
   const auto percent = [all](double part) { return 100 * part / all; };
-  fmt::print(
-      "time           reconstruction {:.0f}%, holes and far points {:.0f}%, decimation {:.0f}%, "
-      "distance to the reference {:.1f}%; e_max {:.2f}%\n",
-      percent(state.stages.reconstruct), percent(state.stages.prepare),
-      percent(state.stages.decimate), percent(state.stages.check), percent(state.measuring));
+  facts.add_passing("time",
+                    "reconstruction {:.0f}%, holes and far points {:.0f}%, decimation {:.0f}%, "
+                    "distance to the reference {:.1f}%; e_max {:.2f}%",
+                    percent(state.stages.reconstruct), percent(state.stages.prepare),
+                    percent(state.stages.decimate), percent(state.stages.check),
+                    percent(state.measuring));
 }
 
 }  // namespace
@@ -135,22 +133,35 @@ std::string describe_failures(const OptimizeState& state) {
   return text;
 }
 
-void print(const SearchOutcome& o) {
-  o.feasible ? print_feasible(o) : print_infeasible(o);
+void print(Facts& facts, const SearchOutcome& o) {
+  o.feasible ? print_feasible(facts, o) : print_infeasible(facts, o);
   const ProvenMesh& proven = o.result.proven;
-  print_excluded(proven.points, o.excludable);
-  fmt::print("worst point    {}\n", proven.kernel.worst_point);
+  print_excluded(facts, proven.points, o.excludable);
+  facts.add("worst point", "{}", proven.kernel.worst_point);
   if (!o.is_reference) {
-    fmt::print("reconstruction {} triangles, {} points left unmeshed\n",
-               grouped(o.shown.reconstruction_triangles), grouped(o.shown.unmeshed_points));
+    facts.add("reconstruction", "{} triangles, {} points left unmeshed",
+              grouped(o.shown.reconstruction_triangles), grouped(o.shown.unmeshed_points));
   }
-  fmt::print("kernel         e_max^2 bits 0x{:08x}\n", proven.kernel.squared_bits);
-  print_evaluations(o.state, o.seconds);
-  print_course(o.state.course);
-  print_polish(o.state, o.shown.triangles);
-  print_shares(o.state, o.seconds * o.settings.jobs);
-  fmt::print("device {:<7} {}\n", o.options.common.device, describe_counters(o.counters));
-  if (o.board) print_prediction(*o.board, *o.counters, *o.cpu_seconds);
+  facts.add("kernel", "e_max^2 bits 0x{:08x}", proven.kernel.squared_bits);
+  print_evaluations(facts, o.state, o.seconds);
+  print_course(facts, o.state.course);
+  print_polish(facts, o.state, o.shown.triangles);
+  print_shares(facts, o.state, o.seconds * o.settings.jobs);
+  facts.add_passing("device " + o.options.common.device, "{}", describe_counters(o.counters));
+  if (o.board) print_prediction(facts, *o.board, *o.counters, *o.cpu_seconds);
+}
+
+std::vector<ReportEvaluation> evaluations_of(const RunLog& log) {
+  std::vector<ReportEvaluation> list;
+  std::uint64_t index = 0;
+  for (const auto& [candidate, e] : log.evaluations()) {
+    // Those of the end are counted on: their own indices are far beyond the others.
+    index = candidate < kPolishIndex ? candidate : list.empty() ? 0 : index + 1;
+    const bool failed = !e.failure.empty();
+    list.push_back({index, e.seconds, failed ? std::nullopt : std::optional(e.triangles),
+                    !failed && e.violation() <= 0});
+  }
+  return list;
 }
 
 ResultReport report_of(const SearchOutcome& o) {
@@ -168,6 +179,8 @@ ResultReport report_of(const SearchOutcome& o) {
   report.counters = o.counters;
   report.board = o.board;
   report.cpu_seconds = o.cpu_seconds;
+  report.page = o.options.common.report.report;
+  report.picture = o.options.common.report.picture;
   report.two_sided = o.settings.epsilon_back.has_value();
   return report;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "host/app/certified_result.h"
 #include "host/app/commands.h"
+#include "host/app/facts.h"
 #include "host/device/device_address.h"
 #include "host/optimize/optimize.h"
 
@@ -29,7 +31,10 @@ struct SearchOutcome {
 // ", 3 failed (crashed); last: ...", or nothing.
 std::string describe_failures(const OptimizeState& state);
 
-void print(const SearchOutcome& outcome);
+void print(Facts& facts, const SearchOutcome& outcome);
+
+// The evaluations of a run's log, in the order of their candidates, those of the end last.
+std::vector<ReportEvaluation> evaluations_of(const RunLog& log);
 
 // The content of --json.
 ResultReport report_of(const SearchOutcome& outcome);

@@ -21,13 +21,17 @@ std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
       throw Error("--max-error: " + mesh.text + " is given twice");
     }
   }
-  for (ToleratedMesh& mesh : meshes) {
-    std::string label = mesh.text;
-    if (mesh.tolerance.percent) label.replace(label.size() - 1, 1, "pct");
-    mesh.output.replace_filename(output.stem().string() + "-" + label +
-                                 output.extension().string());
-  }
+  for (ToleratedMesh& mesh : meshes) mesh.output = named_for(output, mesh);
   return meshes;
+}
+
+std::string named_for(const std::filesystem::path& file, const ToleratedMesh& mesh) {
+  if (file.empty()) return "";
+  std::string label = mesh.text;
+  if (mesh.tolerance.percent) label.replace(label.size() - 1, 1, "pct");
+  std::filesystem::path named = file;
+  named.replace_filename(file.stem().string() + "-" + label + file.extension().string());
+  return named.string();
 }
 
 }  // namespace emax

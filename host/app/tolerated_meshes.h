@@ -20,4 +20,7 @@ struct ToleratedMesh {
 std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
                                             const std::filesystem::path& output);
 
+// Another file of this tolerance, named in the same way. An empty path stays empty.
+std::string named_for(const std::filesystem::path& file, const ToleratedMesh& mesh);
+
 }  // namespace emax

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <string_view>
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
 #include "host/app/reference_text.h"
+#include "host/app/report_output.h"
 #include "host/files/atomic_file.h"
+#include "host/files/input_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
 #include "host/parameters/decimation_bound.h"
@@ -53,6 +57,7 @@ class Verification {
  public:
   explicit Verification(const VerifyOptions& options)
       : path_(options.certificate), certificate_(read_certificate(path_)) {
+    if (!options.report.report.empty()) certificate_text_ = read_input(path_).bytes;
     mesh_path_ = locate(options.mesh, certificate_.mesh_file, "mesh", path_, false);
     cloud_path_ = locate(options.cloud, certificate_.cloud_file, "cloud", path_, true);
     if (certificate_.reference) {
@@ -61,76 +66,149 @@ class Verification {
     }
   }
 
-  // Throws Error if `json` is one of the files that are read.
-  void require_apart(const std::string& json) const {
-    check_distinct({json}, {path_, mesh_path_, cloud_path_, reference_path_});
+  // Throws Error if an output is one of the files that are read.
+  void require_apart(const VerifyOptions& options) const {
+    check_distinct({options.json, options.report.report, options.report.picture},
+                   {path_, mesh_path_, cloud_path_, reference_path_});
   }
 
   // The JSON of the results of run().
-  std::string json_text() const {
+  std::string json_text(const ReportOptions& report) const {
     return to_json_text({.certificate_file = path_.string(),
                          .mesh_file = mesh_path_.string(),
                          .cloud_file = cloud_path_.string(),
                          .reference_file = reference_path_.string(),
+                         .page = report.report,
+                         .picture = report.picture,
                          .certificate = &certificate_,
                          .e_max = e_max_,
                          .reasons = reasons_});
   }
 
   bool run() {
-    require(sha256_of_file(mesh_path_) == certificate_.mesh_sha256,
-            fmt::format("{} is not the mesh that was certified (SHA-256)", mesh_path_.string()));
-    require(sha256_of_file(cloud_path_) == certificate_.cloud_sha256,
-            fmt::format("{} is not the cloud that was certified (SHA-256)", cloud_path_.string()));
-    if (certificate_.reference) {
-      require(sha256_of_file(reference_path_) == certificate_.reference->sha256,
-              fmt::format("{} is not the reference that was certified (SHA-256)",
-                          reference_path_.string()));
+    check_files();
+    if (reasons_.empty()) {
+      read();
+      check_sizes();
     }
-    if (!reasons_.empty()) return report();
-
-    const TriangleMesh mesh = read_mesh(mesh_path_);
-    const Scan scan = certificate_.vertices_of_mesh
-                          ? vertices_of(cloud_path_, read_mesh(cloud_path_))
-                          : read_scan(cloud_path_, certificate_.reading);
-    require_resolution(scan, certificate_.epsilon);
-    require(mesh.triangles.size() == certificate_.triangles &&
-                mesh.vertices.size() == certificate_.vertices,
-            fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",
-                        mesh.triangles.size(), mesh.vertices.size(), certificate_.triangles,
-                        certificate_.vertices));
-    const auto excluded = in_cloud(certificate_.error.excluded, scan.cloud);
-    std::vector<std::uint32_t> sorted = excluded;
-    std::ranges::sort(sorted);
-    require(sorted.empty() || sorted.back() < scan.cloud.points.size(),
-            "the certificate excludes a point that the cloud does not have");
-    require(std::ranges::adjacent_find(sorted) == sorted.end(),
-            "the certificate excludes a point twice");
-    require(sorted.size() < scan.cloud.points.size(), "the certificate excludes every point");
-    if (!reasons_.empty()) return report();
-    check_error(mesh, scan, excluded);
-    check_kernel(mesh, scan, excluded);
-    if (certificate_.reference) check_reference(mesh, scan, excluded);
-    const MeshValidity validity = check_mesh(mesh.view());
-    require(validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
-            "the mesh's validity differs");
-    check_topology("the mesh", certificate_.topology, mesh);
-    const Normalization transform = normalization_of(scan.cloud.points);
-    require(transform.origin == certificate_.transform.origin &&
-                transform.scale == certificate_.transform.scale,
-            "the certificate's transform is not that of the cloud");
+    if (reasons_.empty()) check_claims();
     return report();
   }
 
+  void write_report_of(const ReportOptions& wanted, double seconds) {
+    if (!wanted.any()) return;
+    if (!scan_) read();  // other files than those that were certified are shown as they are
+    if (!excluded_are_known_) excluded_.clear();
+    ReportData report =
+        measured_report(wanted, *scan_, mesh_.view(), excluded_, certificate_.epsilon);
+    const DeviationStatistics& s = report.measured.statistics;
+    report.command = "verify";
+    report.title = path_.filename().string();
+    if (!certificate_.unit.empty()) report.unit = certificate_.unit;
+    report.within = reasons_.empty();
+    report.verdict = verdict();
+    report.e_max = e_max_.value_or(std::max(std::abs(s.min), std::abs(s.max)));
+    if (certificate_.reference) report.back = certificate_.reference->mesh_to_reference;
+    report.provenance = inputs_;
+    report.certificate = {path_.filename().string(), certificate_text_,
+                          "emax verify " + shell_word(path_.string())};
+    report.checks = checks_;
+    report.times.push_back({"verification", seconds});
+    Facts facts;
+    write_report(wanted, std::move(report), facts);
+  }
+
  private:
-  void require(bool holds, std::string otherwise) {
-    if (!holds) reasons_.push_back(std::move(otherwise));
+  // Adds to the reasons if the claim does not hold. Claims of one name are one check of the report.
+  void require(std::string_view claim, bool holds, std::string otherwise) {
+    if (checks_.empty() || checks_.back().claim != claim) {
+      checks_.push_back({std::string(claim), true, "as certified"});
+    }
+    if (holds) return;
+    ReportCheck& check = checks_.back();
+    check.text = (check.holds ? "" : check.text + "; ") + otherwise;
+    check.holds = false;
+    reasons_.push_back(std::move(otherwise));
+  }
+
+  // What is said of the last claim if it holds.
+  void say(std::string text) {
+    if (checks_.back().holds) checks_.back().text = std::move(text);
+  }
+
+  void check_files() {
+    const auto check = [&](const char* name, const std::filesystem::path& file,
+                           const std::string& claimed) {
+      inputs_.push_back(report_input(name, file, sha256_of_file(file)));
+      require("files", inputs_.back().sha256 == claimed,
+              fmt::format("{} is not the {} that was certified (SHA-256)", file.string(), name));
+    };
+    check("mesh", mesh_path_, certificate_.mesh_sha256);
+    check("cloud", cloud_path_, certificate_.cloud_sha256);
+    if (certificate_.reference) check("reference", reference_path_, certificate_.reference->sha256);
+    say("the SHA-256 of each is the one in the certificate");
+  }
+
+  void read() {
+    mesh_ = read_mesh(mesh_path_);
+    scan_ = certificate_.vertices_of_mesh ? vertices_of(cloud_path_, read_mesh(cloud_path_))
+                                          : read_scan(cloud_path_, certificate_.reading);
+    require_resolution(*scan_, certificate_.epsilon);
+  }
+
+  void check_sizes() {
+    require("sizes",
+            mesh_.triangles.size() == certificate_.triangles &&
+                mesh_.vertices.size() == certificate_.vertices,
+            fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",
+                        mesh_.triangles.size(), mesh_.vertices.size(), certificate_.triangles,
+                        certificate_.vertices));
+    excluded_ = in_cloud(certificate_.error.excluded, scan_->cloud);
+    std::vector<std::uint32_t> sorted = excluded_;
+    std::ranges::sort(sorted);
+    const bool exist = sorted.empty() || sorted.back() < scan_->cloud.points.size();
+    const bool once = std::ranges::adjacent_find(sorted) == sorted.end();
+    const bool leave_some = sorted.size() < scan_->cloud.points.size();
+    require("sizes", exist, "the certificate excludes a point that the cloud does not have");
+    require("sizes", once, "the certificate excludes a point twice");
+    require("sizes", leave_some, "the certificate excludes every point");
+    excluded_are_known_ = exist && once && leave_some;
+    say(fmt::format("{} triangles, {} points, {} of them excluded", grouped(certificate_.triangles),
+                    grouped(scan_->cloud.points.size()), grouped(excluded_.size())));
+  }
+
+  void check_claims() {
+    check_error(mesh_, *scan_, excluded_);
+    check_kernel(mesh_, *scan_, excluded_);
+    if (certificate_.reference) check_reference(mesh_, *scan_, excluded_);
+    const MeshValidity validity = check_mesh(mesh_.view());
+    require("validity",
+            validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
+            "the mesh's validity differs");
+    say(describe(validity));
+    check_topology("the mesh", certificate_.topology, mesh_);
+    const Normalization transform = normalization_of(scan_->cloud.points);
+    require("transform",
+            transform.origin == certificate_.transform.origin &&
+                transform.scale == certificate_.transform.scale,
+            "the certificate's transform is not that of the cloud");
+    say("the cloud's own");
+  }
+
+  std::string verdict() const {
+    if (!reasons_.empty()) return "The certificate does not hold: " + reasons_.front() + ".";
+    std::string length = fmt::format("{:.9g}", certificate_.epsilon);
+    if (!certificate_.unit.empty()) length += " " + certificate_.unit;
+    return fmt::format("The certificate holds: every {}point lies within {} of the mesh.",
+                       certificate_.error.excluded.empty() ? "" : "kept ", length);
   }
 
   void check_topology(const char* what, const MeshTopology& claimed, const TriangleMesh& mesh) {
     const MeshTopology found = topology_of(mesh.view());
-    require(claimed == found, fmt::format("the certificate claims {} for {}, which has {}",
-                                          describe(claimed), what, describe(found)));
+    require(std::string("topology of ") + what, claimed == found,
+            fmt::format("the certificate claims {} for {}, which has {}", describe(claimed), what,
+                        describe(found)));
+    say(describe(found));
   }
 
   void check_error(const TriangleMesh& mesh, const Scan& scan,
@@ -139,58 +217,64 @@ class Verification {
         certify(scan.cloud.points, mesh.view(), excluded, processor_threads());
     const CertifiedError& claimed = certificate_.error;
     require(
-        error.within(certificate_.epsilon),
+        "points", error.within(certificate_.epsilon),
         fmt::format("e_max is {:.9g}, more than {:.9g}", error.e_max_upper, certificate_.epsilon));
     // Another build may round the last bit differently, but a claim below the exact value is false.
-    require(claimed.e_max_upper >= error.e_max_lower && claimed.e_max_upper <= certificate_.epsilon,
+    require("points",
+            claimed.e_max_upper >= error.e_max_lower && claimed.e_max_upper <= certificate_.epsilon,
             fmt::format("the certificate claims e_max {:.9g}, but it is {:.9g}",
                         claimed.e_max_upper, error.e_max_upper));
-    require(claimed.points == error.points,
+    require("points", claimed.points == error.points,
             fmt::format("the certificate counts {} points, but {} are kept", claimed.points,
                         error.points));
     for (std::size_t i = 0; i < excluded.size(); ++i) {
       require(
-          agree(claimed.excluded_distances[i], error.excluded_distances[i]),
+          "points", agree(claimed.excluded_distances[i], error.excluded_distances[i]),
           fmt::format(
               "the certificate claims {:.9g} for the distance of the excluded point {}, which is "
               "{:.9g}",
               claimed.excluded_distances[i], claimed.excluded[i], error.excluded_distances[i]));
     }
-    require(agree(claimed.e_max_upper_all, error.e_max_upper_all),
+    require("points", agree(claimed.e_max_upper_all, error.e_max_upper_all),
             fmt::format("the certificate claims e_max {:.9g} over all points, but it is {:.9g}",
                         claimed.e_max_upper_all, error.e_max_upper_all));
     e_max_ = error.e_max_upper;
+    say(fmt::format("every {}point lies within {:.9g} of the mesh: e_max {:.9g}",
+                    excluded.empty() ? "" : "kept ", certificate_.epsilon, *e_max_));
   }
 
   void check_kernel(const TriangleMesh& mesh, const Scan& scan,
                     std::span<const std::uint32_t> excluded) {
     const EmaxResult worst = kernel_error(scan, mesh.view(), excluded);
-    require(worst.squared_bits == certificate_.kernel.squared_bits &&
+    require("kernel",
+            worst.squared_bits == certificate_.kernel.squared_bits &&
                 worst.worst_point == certificate_.kernel.worst_point,
             fmt::format("the kernel gives 0x{:08x} at point {}, not 0x{:08x} at point {}",
                         worst.squared_bits, worst.worst_point, certificate_.kernel.squared_bits,
                         certificate_.kernel.worst_point));
+    say(fmt::format("e_max^2 bits 0x{:08x} at point {}", worst.squared_bits, worst.worst_point));
   }
 
   void check_reference(const TriangleMesh& mesh, const Scan& scan,
                        std::span<const std::uint32_t> excluded) {
     const ReferenceBound& claimed = *certificate_.reference;
     const TriangleMesh reference = read_mesh(reference_path_);
-    require(reference.triangles.size() == claimed.triangles,
+    require("size of the reference", reference.triangles.size() == claimed.triangles,
             fmt::format("the reference has {} triangles, not {}", reference.triangles.size(),
                         claimed.triangles));
     const auto check = [&](const char* what, MeshView from, const TriangleMesh& to, double claim,
                            double limit) {
-      require(claim >= 0 && claim <= limit,
+      require(what, claim >= 0 && claim <= limit,
               fmt::format("the certificate claims {:.9g} for {}, not within 0 and {:.9g}", claim,
                           what, limit));
       if (!(claim >= 0)) return;
       const SurfaceDistance found = decided_distance(from, ExactMesh(to.view()), claim);
       // A claim that holds may stay undecided because of roundings.
       require(
-          found.lower <= claim && found.within(limit),
+          what, found.lower <= claim && found.within(limit),
           fmt::format("the certificate claims {:.9g} for {}, which lies within {:.9g} and {:.9g}",
                       claim, what, found.lower, found.upper));
+      say(fmt::format("at most {:.9g}, {:.9g} is allowed", claim, limit));
     };
     check("the distance of the mesh to the reference", mesh.view(), reference,
           claimed.mesh_to_reference, claimed.epsilon_back);
@@ -200,11 +284,13 @@ class Verification {
     const CertifiedError own =
         certify(scan.cloud.points, reference.view(), excluded, processor_threads());
     require(
+        "the distance of the points to the reference",
         claimed.points_to_reference >= own.e_max_lower,
         fmt::format(
             "the certificate claims {:.9g} for the distance of the points to the reference, which "
             "is {:.9g}",
             claimed.points_to_reference, own.e_max_upper));
+    say(fmt::format("at most {:.9g}", claimed.points_to_reference));
   }
 
   bool report() const {
@@ -244,7 +330,14 @@ class Verification {
 
   std::filesystem::path path_;
   Certificate certificate_;
+  std::string certificate_text_;
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
+  TriangleMesh mesh_;
+  std::optional<Scan> scan_;             // read with the mesh
+  std::vector<std::uint32_t> excluded_;  // indices of the cloud
+  bool excluded_are_known_ = false;
+  std::vector<ReportInput> inputs_;
+  std::vector<ReportCheck> checks_;
   std::optional<double> e_max_;
   std::vector<std::string> reasons_;
 };
@@ -253,10 +346,16 @@ class Verification {
 
 int run_verify(const VerifyOptions& options) {
   if (!options.json.empty()) check_output(options.json, kJsonEndings);
+  check_report_outputs(options.report);
+  const auto begun = std::chrono::steady_clock::now();
   Verification verification(options);
-  verification.require_apart(options.json);
+  verification.require_apart(options);
   const bool holds = verification.run();
-  if (json_is_wanted(options.json)) write_json(options.json, verification.json_text());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+  verification.write_report_of(options.report, took.count());
+  if (json_is_wanted(options.json)) {
+    write_json(options.json, verification.json_text(options.report));
+  }
   return holds ? kExitOk : kExitNo;
 }
 

@@ -43,7 +43,9 @@ std::string to_json_text(const ResultReport& r) {
       {"lost_attributes", or_null(r.lost_attributes)},
       {"reference", r.reference ? to_json(*r.reference) : Json()},
       {"predicted", Json()},
-      {"errors", r.errors ? to_json(*r.errors) : Json()}};
+      {"errors", r.errors ? to_json(*r.errors) : Json()},
+      {"report", r.page.empty() ? Json() : Json(r.page)},
+      {"picture", r.picture.empty() ? Json() : Json(r.picture)}};
   if (r.board && r.counters && r.counters->cycles) {
     const DeviceCounters& c = *r.counters;
     json["predicted"] = {

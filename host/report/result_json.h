@@ -42,6 +42,7 @@ struct ResultReport {
   std::optional<ErrorReport> errors;  // with a surface, the bound is two-sided
   bool two_sided = false;
   std::optional<ReferenceBound> reference;  // of a two-sided bound that holds
+  std::string page, picture;                // files of --report and --picture; empty: none
 };
 
 std::string to_json_text(const ResultReport& report);

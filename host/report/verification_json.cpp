@@ -19,7 +19,9 @@ std::string to_json_text(const VerificationReport& r) {
                      {"epsilon", c.epsilon},
                      {"e_max", r.e_max ? Json(*r.e_max) : Json()},
                      {"topology", to_json(c.topology)},
-                     {"reference", c.reference ? to_json(*c.reference) : Json()}};
+                     {"reference", c.reference ? to_json(*c.reference) : Json()},
+                     {"report", r.page.empty() ? Json() : Json(r.page)},
+                     {"picture", r.picture.empty() ? Json() : Json(r.picture)}};
   return json.dump(2) + "\n";
 }
 
