@@ -16,15 +16,16 @@ constexpr std::array<Colour, 9> kViridis = {{{68, 1, 84},
                                              {92, 200, 99},
                                              {170, 220, 50},
                                              {253, 231, 37}}};
-constexpr std::array<Colour, 9> kCoolToWarm = {{{59, 76, 192},
-                                                {98, 130, 234},
-                                                {141, 176, 254},
-                                                {184, 208, 249},
-                                                {221, 221, 221},
-                                                {245, 196, 173},
-                                                {244, 154, 123},
-                                                {222, 96, 77},
-                                                {180, 4, 38}}};
+constexpr std::array<Colour, 9> kBlueToRed = {{{31, 78, 156},
+                                               {63, 127, 193},
+                                               {127, 178, 217},
+                                               {188, 213, 228},
+                                               {222, 220, 214},
+                                               {236, 195, 169},
+                                               {223, 143, 110},
+                                               {196, 82, 74},
+                                               {150, 28, 44}}};
+constexpr Colour kAbove = {255, 176, 0}, kBelow = {180, 75, 224}, kFar = {240, 80, 45};
 
 // Between equally spaced colours.
 Colour between(std::span<const Colour> map, double position) {
@@ -43,6 +44,11 @@ Colour between(std::span<const Colour> map, double position) {
 
 Colour viridis(double position) { return between(kViridis, position); }
 
-Colour cool_to_warm(double position) { return between(kCoolToWarm, (position + 1) / 2); }
+Colour deviation_colour(double deviation, double reach, bool is_signed) {
+  const double share = deviation / reach;
+  if (!is_signed) return share > 1 ? kFar : viridis(share);
+  if (share > 1) return kAbove;
+  return share < -1 ? kBelow : between(kBlueToRed, (share + 1) / 2);
+}
 
 }  // namespace emax

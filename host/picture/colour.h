@@ -10,8 +10,10 @@ using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
 // The perceptually uniform map "viridis" from dark blue at 0 to yellow at 1 and beyond.
 Colour viridis(double position);
 
-// Moreland's "cool to warm" (2009), which eyes of every kind tell apart: blue at -1 and beyond,
-// light grey at 0, red at 1 and beyond.
-Colour cool_to_warm(double position);
+// The colours of deviations, in pictures as on the page of a report
+// (host/report/page/src/scale.js): from blue at -reach by way of light grey to red at reach, or
+// viridis where deviations have no sign. What lies beyond has a colour that the scale does not
+// have.
+Colour deviation_colour(double deviation, double reach, bool is_signed);
 
 }  // namespace emax

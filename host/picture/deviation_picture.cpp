@@ -5,11 +5,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "host/geometry/bounds.h"
 #include "host/picture/png_file.h"
 #include "host/picture/raster.h"
 #include "host/picture/stroke_text.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/parallel.h"
 
 namespace emax {
@@ -104,7 +106,11 @@ class Drawing {
     const std::array<Point, 3> v = scene_.mesh.corners(triangle);
     const auto a = camera_.see(v[0]), b = camera_.see(v[1]), c = camera_.see(v[2]);
     if (!a || !b || !c) return std::nullopt;
-    return std::array{*a, *b, *c};
+    std::array corners{*a, *b, *c};
+    if (EMAX_FAULT(kPictureWithoutDepth)) {
+      for (Seen& corner : corners) corner.nearness = 1;
+    }
+    return corners;
   }
 
   // How light a triangle is, and whether its outer side is seen.
@@ -151,37 +157,63 @@ class Drawing {
   }
 
   Colour colour_of(double deviation) const {
-    const double share = deviation / scene_.reach;
-    return scene_.is_signed ? cool_to_warm(share) : viridis(share);
+    return deviation_colour(deviation, scene_.reach, scene_.is_signed);
   }
 
+  static Eigen::Vector2d pixel(double x, double y) { return {kSamples * x, kSamples * y}; }
+
   void draw_legend(Raster& raster) const {
-    const auto pixel = [](double x, double y) {
-      return Eigen::Vector2d(kSamples * x, kSamples * y);
-    };
     const Layout& l = layout_;
     const double from = scene_.is_signed ? -scene_.reach : 0;
     const double height = l.legend_bottom - l.legend_top;
-    const Eigen::Vector2d upper = pixel(l.legend_left, l.legend_top);
-    const Eigen::Vector2d lower = pixel(l.legend_left + l.legend_width, l.legend_bottom);
+    const auto value_at = [&](double y) {
+      return from + (l.legend_bottom - y) / height * (scene_.reach - from);
+    };
+    draw_box(raster, l.legend_top, l.legend_bottom, [&](double y) { return value_at(y); });
+    // What lies beyond has a box of its own.
+    const auto beyond = [&](auto compare, double end) {
+      return std::ranges::any_of(scene_.deviations, [&](double d) { return compare(d, end); });
+    };
+    const double gap = 0.4 * l.text_height, box = 0.9 * l.text_height;
+    if (beyond(std::greater<>(), scene_.reach)) {
+      draw_box(raster, l.legend_top - gap - box, l.legend_top - gap,
+               [&](double) { return 2 * scene_.reach; });
+    }
+    if (beyond(std::less<>(), -scene_.reach)) {
+      draw_box(raster, l.legend_bottom + gap, l.legend_bottom + gap + box,
+               [&](double) { return -2 * scene_.reach; });
+    }
+    constexpr int kTicks = 4;
+    for (int i = 0; i <= kTicks; ++i) {
+      const double y = l.legend_bottom - height * i / kTicks;
+      draw_tick(raster, y, value_at(y));
+    }
+    draw_text(
+        raster, scene_.unit,
+        pixel(l.legend_left + l.legend_width + l.text_height, l.legend_top - 2.4 * l.text_height),
+        kSamples * l.text_height, kInk);
+  }
+
+  // A box of the legend, coloured by the deviation at each row.
+  template <class Deviation>
+  void draw_box(Raster& raster, double top, double bottom, const Deviation& deviation) const {
+    const Eigen::Vector2d upper = pixel(layout_.legend_left, top);
+    const Eigen::Vector2d lower = pixel(layout_.legend_left + layout_.legend_width, bottom);
     raster.for_each_in(upper.x(), lower.x(), upper.y(), lower.y(),
                        [&](double, double y, Sample& sample) {
-                         const double share = (lower.y() - y) / (kSamples * height);
-                         sample.colour = colour_of(from + share * (scene_.reach - from));
+                         sample.colour = colour_of(deviation(y / kSamples));
                        });
-    constexpr int kTicks = 4;
-    const double right = l.legend_left + l.legend_width;
-    for (int i = 0; i <= kTicks; ++i) {
-      const double share = static_cast<double>(i) / kTicks;
-      const double y = l.legend_bottom - share * height;
-      const double value = (1 - share) * from + share * scene_.reach;
-      raster.line(pixel(right, y), pixel(right + 0.4 * l.text_height, y), 0.5 * kSamples, kInk);
-      const std::string text = scene_.is_signed && value > 0 ? fmt::format("+{:.3g}", value)
-                                                             : fmt::format("{:.3g}", value);
-      draw_text(raster, text, pixel(right + l.text_height, y), kSamples * l.text_height, kInk);
-    }
-    draw_text(raster, scene_.unit, pixel(right + l.text_height, l.legend_top - 2.2 * l.text_height),
-              kSamples * l.text_height, kInk);
+  }
+
+  void draw_tick(Raster& raster, double y, double value) const {
+    const double right = layout_.legend_left + layout_.legend_width;
+    const double height = layout_.text_height;
+    raster.line(pixel(right, y), pixel(right + 0.4 * height, y), 0.5 * kSamples, kInk);
+    // Roundings of the ends are not printed.
+    const double clean = std::abs(value) < 1e-9 * scene_.reach ? 0 : value;
+    const std::string text =
+        fmt::format("{}{:.3g}", scene_.is_signed && clean > 0 ? "+" : "", clean);
+    draw_text(raster, text, pixel(right + height, y), kSamples * height, kInk);
   }
 
   const DeviationScene& scene_;

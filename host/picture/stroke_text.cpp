@@ -6,8 +6,9 @@
 namespace emax {
 namespace {
 
-constexpr double kHeight = 6;   // of digits, on the grid of the strokes
-constexpr double kAdvance = 6;  // from a character to the next
+constexpr double kHeight = 6;     // of digits, on the grid of the strokes
+constexpr double kAdvance = 5.6;  // from a character to the next
+constexpr double kAdvanceOfPoint = 3;
 constexpr double kRadius = 0.4;
 
 // Corners of strokes as pairs of digits: x from 0 to 4, y from the top, 0, to the line, 6. A blank
@@ -23,7 +24,7 @@ constexpr std::pair<char, std::string_view> kStrokes[] = {
     {'7', "00 40 16"},
     {'8', "10 30 41 42 33 13 02 01 10|13 04 05 16 36 45 44 33"},
     {'9', "16 36 45 41 30 10 01 02 13 43"},
-    {'.', "26 26"},
+    {'.', "06 06"},
     {'-', "13 33"},
     {'+', "03 43|21 25"},
     {'c', "43 32 12 03 05 16 36 45"},
@@ -45,24 +46,21 @@ std::string_view strokes_of(char c) {
 
 }  // namespace
 
-double text_width(std::string_view text, double height) {
-  return static_cast<double>(text.size()) * kAdvance * height / kHeight;
-}
-
 void draw_text(Raster& raster, std::string_view text, const Eigen::Vector2d& at, double height,
                const Colour& colour) {
   const double scale = height / kHeight;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::string_view strokes = strokes_of(text[i]);
+  double left = 0;
+  for (const char c : text) {
+    const std::string_view strokes = strokes_of(c);
     std::optional<Eigen::Vector2d> from;
     for (std::size_t k = 0; k + 1 < strokes.size(); k += 3) {
-      const Eigen::Vector2d corner(kAdvance * static_cast<double>(i) + strokes[k] - '0',
-                                   strokes[k + 1] - '0' - kHeight / 2);
+      const Eigen::Vector2d corner(left + strokes[k] - '0', strokes[k + 1] - '0' - kHeight / 2);
       const Eigen::Vector2d to = at + scale * corner;
       if (from) raster.line(*from, to, kRadius * scale, colour);
       const bool ends = k + 2 < strokes.size() && strokes[k + 2] == '|';
       from = ends ? std::nullopt : std::optional(to);
     }
+    left += c == '.' ? kAdvanceOfPoint : kAdvance;
   }
 }
 

@@ -13,7 +13,4 @@ namespace emax {
 void draw_text(Raster& raster, std::string_view text, const Eigen::Vector2d& at, double height,
                const Colour& colour);
 
-// The width of a text in samples.
-double text_width(std::string_view text, double height);
-
 }  // namespace emax

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double kLastStep = 65535;
 constexpr double kClipped = 32767;
-// Deviations are told apart up to so many times the reach of the legend. What lies beyond is shown
-// as just as far.
-constexpr double kReaches = 64;
+// A screen shows no finer numbers, and finer ones would not compress: of deviations and places, as
+// a share of the reach of the legend, and of places also as a share of the width.
+constexpr double kDeviationShare = 1.0 / 2000, kPlaceShare = 1.0 / 16;
+constexpr double kWidthShare = 1.0 / 16384;
 // Coordinates of vertices are rounded to that share of the greatest extent, so that their last
 // bytes are 0.
 constexpr double kVertexSteps = 1 << 19;
@@ -95,17 +96,17 @@ ReportGeometry report_geometry(std::span<const Point> cloud, std::span<const std
   ReportGeometry geometry;
   geometry.points = shown.size();
   geometry.triangles = mesh.triangles.size();
-  double greatest = 0;
-  for (const std::uint32_t i : shown) {
-    greatest = std::max(greatest, std::abs(deviations.of_points[i]));
-  }
-  geometry.deviation_step = std::clamp(greatest, reach, kReaches * reach) / (kClipped - 1);
+  geometry.deviation_step = kDeviationShare * reach;
   double width = 0;
   if (!cloud.empty()) {
     const Bounds box = bounds_of(cloud);
     geometry.origin = box.lower;
-    geometry.step = (box.upper - box.lower) / kLastStep;
     width = box.width();
+    const double enough = std::min(kPlaceShare * reach, kWidthShare * width);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double extent = box.upper[k] - box.lower[k];
+      geometry.step[k] = extent > 0 ? std::max(extent / kLastStep, enough) : 0;
+    }
   }
   append_points(geometry, cloud, shown, deviations.of_points);
   append_mesh(geometry, mesh, width, deviations.of_triangles);

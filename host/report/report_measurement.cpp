@@ -10,7 +10,7 @@ namespace emax {
 namespace {
 
 // In a page the picture takes the place of a view that cannot be shown.
-constexpr PictureSize kPagePicture{800, 600}, kPicture{1600, 1200};
+constexpr PictureSize kPagePicture{640, 480}, kPicture{1600, 1200};
 
 class Measurement {
  public:

@@ -24,8 +24,9 @@ enum class Fault {
   kKeepsInvalid,   // points that a file marks as invalid are kept
   kSkipsCrc,       // a CRC is not compared
   // In reports.
-  kSideOfOneTriangle,  // the side of a mesh is taken from the nearest triangle's normal alone
-  kReportUnescaped,    // text of a report may end its element
+  kSideOfOneTriangle,    // the side of a mesh is taken from the nearest triangle's normal alone
+  kPictureWithoutDepth,  // what is drawn first hides what is nearer
+  kReportUnescaped,      // text of a report may end its element
 };
 
 #ifdef EMAX_DELIBERATE_FAULTS

@@ -6,22 +6,11 @@
 
 #include "host/files/cloud_file.h"
 #include "host/files/mesh_file.h"
+#include "host/picture/colour.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax {
 namespace {
-
-double luminance(const Colour& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
-
-TEST(ErrorPly, ColoursRunFromDarkBlueToYellowAndBrightenThroughout) {
-  EXPECT_EQ(viridis(0), (Colour{68, 1, 84}));
-  EXPECT_EQ(viridis(0.5), (Colour{33, 144, 141}));
-  EXPECT_EQ(viridis(1), (Colour{253, 231, 37}));
-  EXPECT_EQ(viridis(7), viridis(1));
-  for (double x = 0; x < 1; x += 1.0 / 64) {
-    EXPECT_LT(luminance(viridis(x)), luminance(viridis(x + 1.0 / 64))) << x;
-  }
-}
 
 TEST(ErrorPly, IsReadBackWithDistancesAndColours) {
   const test::TemporaryFolder folder;
