@@ -25,8 +25,9 @@ constexpr double kEdgeRadius = 0.4;  // pixels
 // Edges appear where triangles are higher than the first number of pixels, in full from the second.
 constexpr double kEdgesFrom = 3, kEdgesFull = 9;
 constexpr double kEdgeStrength = 0.8;
-// Points cover about this part of the mesh, with discs of a radius between these pixels.
-constexpr double kCover = 0.45, kLeastRadius = 0.75, kMostRadius = 2.6;
+// The discs of all points together have about so many times the area of the mesh, with a radius
+// between these pixels of a picture of 600 rows.
+constexpr double kCover = 1.2, kLeastRadius = 0.75, kMostRadius = 2.6;
 constexpr double kNearMesh = 0.1;  // of its width: so far the points have a place in the picture
 
 Colour mix(const Colour& a, const Colour& b, double share) {
@@ -47,7 +48,7 @@ struct Layout {
 Layout layout_of(PictureSize size) {
   const double height = size.height, unit = height / 600;
   return {.margin = 24 * unit,
-          .legend_left = size.width - 112 * unit,
+          .legend_left = size.width - 130 * unit,
           .legend_width = 18 * unit,
           .legend_top = 0.2 * height,
           .legend_bottom = 0.8 * height,
@@ -99,7 +100,8 @@ class Drawing {
     }
     const auto points = static_cast<double>(std::max<std::size_t>(scene_.points.size(), 1));
     const double fitting = std::sqrt(kCover * area / points / 3.14) / kSamples;
-    return kSamples * std::clamp(fitting, kLeastRadius, kMostRadius) * size_.height / 600;
+    const double unit = size_.height / 600.0;
+    return kSamples * std::clamp(fitting, kLeastRadius * unit, kMostRadius * unit);
   }
 
   std::optional<std::array<Seen, 3>> seen(std::size_t triangle) const {
@@ -212,7 +214,7 @@ class Drawing {
     // Roundings of the ends are not printed.
     const double clean = std::abs(value) < 1e-9 * scene_.reach ? 0 : value;
     const std::string text =
-        fmt::format("{}{:.3g}", scene_.is_signed && clean > 0 ? "+" : "", clean);
+        fmt::format("{}{:.2g}", scene_.is_signed && clean > 0 ? "+" : "", clean);
     draw_text(raster, text, pixel(right + height, y), kSamples * height, kInk);
   }
 

@@ -65,8 +65,8 @@ TEST(DeviationPicture, ShowsTheSidesInTheirColours) {
   for (std::uint32_t y = 60; y < 240; ++y) {
     for (std::uint32_t x = 40; x < 300; ++x) {
       const Colour& c = picture.pixels[std::size_t{y} * picture.width + x];
-      if (c[0] > c[2] + 60) ++(x < 162 ? red : wrong);
-      if (c[2] > c[0] + 60) ++(x > 158 ? blue : wrong);
+      if (c[0] > c[2] + 60) ++(x < 171 ? red : wrong);
+      if (c[2] > c[0] + 60) ++(x > 164 ? blue : wrong);
     }
   }
   EXPECT_GT(red, 5000u);
@@ -78,13 +78,13 @@ TEST(DeviationPicture, HasALegendWithNumbers) {
   Wall wall;
   const DeviationScene scene = wall.scene();
   const Picture picture = read(deviation_picture(scene, View{}, kSize, 1));
-  const double bar = (400 - 112 * 0.5 + 9 * 0.5) / 400;
+  const double bar = (400 - 130 * 0.5 + 9 * 0.5) / 400;
   const Colour top = picture.at(bar, 0.21), bottom = picture.at(bar, 0.79);
   EXPECT_GT(top[0], top[2] + 60);
   EXPECT_GT(bottom[2], bottom[0] + 60);
   std::size_t ink = 0;  // right of the bar
   for (std::uint32_t y = 0; y < 300; ++y) {
-    for (std::uint32_t x = 368; x < 400; ++x) {
+    for (std::uint32_t x = 350; x < 400; ++x) {
       ink += picture.pixels[std::size_t{y} * 400 + x][0] < 128 ? 1 : 0;
     }
   }
