@@ -43,7 +43,7 @@ install(FILES sw_model/model/arithmetic_probe.h sw_model/model/emax_model.h
 install(DIRECTORY hls/rtl DESTINATION ${CMAKE_INSTALL_DATADIR}/emax
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f")
 file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
-install(FILES LICENSE ${documents} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE ${documents} docs/user/report.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A manual page for emax and one for each command, of the program's own --help and of docs/user/.
 if(EMAX_MAN)

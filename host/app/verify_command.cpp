@@ -122,7 +122,7 @@ class Verification {
   // Adds to the reasons if the claim does not hold. Claims of one name are one check of the report.
   void require(std::string_view claim, bool holds, std::string otherwise) {
     if (checks_.empty() || checks_.back().claim != claim) {
-      checks_.push_back({std::string(claim), true, "as certified"});
+      checks_.push_back({std::string(claim), true, ""});
     }
     if (holds) return;
     ReportCheck& check = checks_.back();
@@ -131,7 +131,7 @@ class Verification {
     reasons_.push_back(std::move(otherwise));
   }
 
-  // What is said of the last claim if it holds.
+  // The sentence of the report for the last claim, if it holds.
   void say(std::string text) {
     if (checks_.back().holds) checks_.back().text = std::move(text);
   }
@@ -146,7 +146,7 @@ class Verification {
     check("mesh", mesh_path_, certificate_.mesh_sha256);
     check("cloud", cloud_path_, certificate_.cloud_sha256);
     if (certificate_.reference) check("reference", reference_path_, certificate_.reference->sha256);
-    say("the SHA-256 of each is the one in the certificate");
+    say("the files are those that were certified (SHA-256)");
   }
 
   void read() {
@@ -173,8 +173,9 @@ class Verification {
     require("sizes", once, "the certificate excludes a point twice");
     require("sizes", leave_some, "the certificate excludes every point");
     excluded_are_known_ = exist && once && leave_some;
-    say(fmt::format("{} triangles, {} points, {} of them excluded", grouped(certificate_.triangles),
-                    grouped(scan_->cloud.points.size()), grouped(excluded_.size())));
+    say(fmt::format("the mesh has {} triangles, the cloud {} points, {} of them excluded",
+                    grouped(certificate_.triangles), grouped(scan_->cloud.points.size()),
+                    excluded_.empty() ? "none" : grouped(excluded_.size())));
   }
 
   void check_claims() {
@@ -185,14 +186,14 @@ class Verification {
     require("validity",
             validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");
-    say(describe(validity));
+    say("the mesh is " + describe(validity));
     check_topology("the mesh", certificate_.topology, mesh_);
     const Normalization transform = normalization_of(scan_->cloud.points);
     require("transform",
             transform.origin == certificate_.transform.origin &&
                 transform.scale == certificate_.transform.scale,
             "the certificate's transform is not that of the cloud");
-    say("the cloud's own");
+    say("the certificate's transform is that of the cloud");
   }
 
   std::string verdict() const {
@@ -208,7 +209,7 @@ class Verification {
     require(std::string("topology of ") + what, claimed == found,
             fmt::format("the certificate claims {} for {}, which has {}", describe(claimed), what,
                         describe(found)));
-    say(describe(found));
+    say(fmt::format("{} has {}", what, describe(found)));
   }
 
   void check_error(const TriangleMesh& mesh, const Scan& scan,
@@ -252,7 +253,8 @@ class Verification {
             fmt::format("the kernel gives 0x{:08x} at point {}, not 0x{:08x} at point {}",
                         worst.squared_bits, worst.worst_point, certificate_.kernel.squared_bits,
                         certificate_.kernel.worst_point));
-    say(fmt::format("e_max^2 bits 0x{:08x} at point {}", worst.squared_bits, worst.worst_point));
+    say(fmt::format("the kernel gives e_max^2 bits 0x{:08x} at point {}", worst.squared_bits,
+                    worst.worst_point));
   }
 
   void check_reference(const TriangleMesh& mesh, const Scan& scan,
@@ -262,6 +264,7 @@ class Verification {
     require("size of the reference", reference.triangles.size() == claimed.triangles,
             fmt::format("the reference has {} triangles, not {}", reference.triangles.size(),
                         claimed.triangles));
+    say(fmt::format("the reference has {} triangles", grouped(claimed.triangles)));
     const auto check = [&](const char* what, MeshView from, const TriangleMesh& to, double claim,
                            double limit) {
       require(what, claim >= 0 && claim <= limit,
@@ -274,7 +277,7 @@ class Verification {
           what, found.lower <= claim && found.within(limit),
           fmt::format("the certificate claims {:.9g} for {}, which lies within {:.9g} and {:.9g}",
                       claim, what, found.lower, found.upper));
-      say(fmt::format("at most {:.9g}, {:.9g} is allowed", claim, limit));
+      say(fmt::format("{} is at most {:.9g}, {:.9g} is allowed", what, claim, limit));
     };
     check("the distance of the mesh to the reference", mesh.view(), reference,
           claimed.mesh_to_reference, claimed.epsilon_back);
@@ -290,7 +293,8 @@ class Verification {
             "the certificate claims {:.9g} for the distance of the points to the reference, which "
             "is {:.9g}",
             claimed.points_to_reference, own.e_max_upper));
-    say(fmt::format("at most {:.9g}", claimed.points_to_reference));
+    say(fmt::format("the distance of the points to the reference is at most {:.9g}",
+                    claimed.points_to_reference));
   }
 
   bool report() const {
