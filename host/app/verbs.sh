@@ -15,12 +15,15 @@ verb_demo() {
   rm -rf "$out"
   mkdir -p "$out"
   timed optimize "$emax" optimize "$cloud" --max-error 0.321% -o "$mesh" --seed 1 \
-    --json "$out/optimize.json"
+    --json "$out/optimize.json" --report "$out/bunny.html" --picture "$out/bunny.png"
   for device in cpu sim; do
     timed "error on $device" "$emax" error "$cloud" "$mesh" --device $device \
       --json "$out/$device.json"
   done
   timed verify "$emax" verify "$mesh.certificate.json" --cloud "$cloud"
+
+  timed "optimize building" "$emax" optimize data/building.ply --max-error 0.5% --effort quick \
+    -o "$out/building.ply" --report "$out/building.html" --picture "$out/building.png"
 
   local cpu_bits sim_bits
   cpu_bits=$(json_value "$out/cpu.json" e_max_squared_bits)
@@ -35,6 +38,8 @@ evaluations     $(json_value "$out/optimize.json" evaluations)
 device sim      $(json_value "$out/sim.json" blocks) blocks, $(json_value "$out/sim.json" pairs) pairs, $(json_value "$out/sim.json" cycles) cycles
 e_max² bits     $cpu_bits on cpu, $sim_bits on sim
 certificate     $mesh.certificate.json, verified
+reports         $out/bunny.html, $out/building.html: open them in a browser
+pictures        $out/bunny.png, $out/building.png
 TEXT
   if [ -z "$cpu_bits" ] || [ "$cpu_bits" != "$sim_bits" ]; then
     fail "cpu and sim differ in e_max²"

@@ -16,9 +16,9 @@ constexpr double kClipped = 32767;
 // a share of the reach of the legend, and of places also as a share of the width.
 constexpr double kDeviationShare = 1.0 / 2000, kPlaceShare = 1.0 / 16;
 constexpr double kWidthShare = 1.0 / 16384;
-// Coordinates of vertices are rounded to that share of the greatest extent, so that their last
-// bytes are 0.
-constexpr double kVertexSteps = 1 << 19;
+// Vertices are that much finer than the places of points. Their step is a power of two, so that the
+// last bits of their coordinates are 0.
+constexpr double kVertexShare = 1.0 / 4;
 
 template <class Value>
 void append(std::string& bytes, Value value) {
@@ -26,12 +26,12 @@ void append(std::string& bytes, Value value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Of 24 bits the 8 last become 0: the colour of a triangle needs no more.
+// Of 24 bits the 12 last become 0: the colour of a triangle needs no more.
 float coarse(float value) {
   if (!std::isfinite(value)) return value;
   int exponent = 0;
   const float mantissa = std::frexp(value, &exponent);
-  return std::ldexp(std::round(std::ldexp(mantissa, 16)), exponent - 16);
+  return std::ldexp(std::round(std::ldexp(mantissa, 12)), exponent - 12);
 }
 
 void append_points(ReportGeometry& geometry, std::span<const Point> cloud,
@@ -49,7 +49,7 @@ void append_points(ReportGeometry& geometry, std::span<const Point> cloud,
   }
 }
 
-void append_mesh(ReportGeometry& geometry, MeshView mesh, double width,
+void append_mesh(ReportGeometry& geometry, MeshView mesh, double enough,
                  std::span<const float> deviations) {
   constexpr std::uint32_t kUnused = ~0u;
   std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused), order;
@@ -61,7 +61,7 @@ void append_mesh(ReportGeometry& geometry, MeshView mesh, double width,
     }
   }
   geometry.vertices = order.size();
-  const double step = width / kVertexSteps;
+  const double step = enough > 0 ? std::exp2(std::floor(std::log2(kVertexShare * enough))) : 0;
   for (Eigen::Index k = 0; k < 3; ++k) {
     for (const std::uint32_t v : order) {
       const double at = mesh.vertices[v][k] - geometry.origin[k];
@@ -97,19 +97,18 @@ ReportGeometry report_geometry(std::span<const Point> cloud, std::span<const std
   geometry.points = shown.size();
   geometry.triangles = mesh.triangles.size();
   geometry.deviation_step = kDeviationShare * reach;
-  double width = 0;
+  double enough = 0;  // for a place
   if (!cloud.empty()) {
     const Bounds box = bounds_of(cloud);
     geometry.origin = box.lower;
-    width = box.width();
-    const double enough = std::min(kPlaceShare * reach, kWidthShare * width);
+    enough = std::min(kPlaceShare * reach, kWidthShare * box.width());
     for (Eigen::Index k = 0; k < 3; ++k) {
       const double extent = box.upper[k] - box.lower[k];
       geometry.step[k] = extent > 0 ? std::max(extent / kLastStep, enough) : 0;
     }
   }
   append_points(geometry, cloud, shown, deviations.of_points);
-  append_mesh(geometry, mesh, width, deviations.of_triangles);
+  append_mesh(geometry, mesh, enough, deviations.of_triangles);
   return geometry;
 }
 
