@@ -22,7 +22,7 @@ verb_demo() {
   done
   timed verify "$emax" verify "$mesh.certificate.json" --cloud "$cloud"
 
-  timed "optimize building" "$emax" optimize data/building.ply --max-error 0.5% --effort quick \
+  timed "optimize building" "$emax" optimize data/building.ply --max-error 0.5% --effort quick --time 120 \
     -o "$out/building.ply" --report "$out/building.html" --picture "$out/building.png"
 
   local cpu_bits sim_bits
