@@ -18,6 +18,9 @@ void print_fit(Facts& facts, const ReferenceFit& fit, double epsilon) {
     facts.add(taken ? "surface" : "not taken", "{}: {}", tried.chain.method,
               tried.failure.empty() ? describe(tried) : tried.failure);
   }
+  if (fit.made_of < fit.tried.front().points) {
+    fmt::print("made of        {} points, evenly spread; measured by all\n", grouped(fit.made_of));
+  }
   std::vector<std::string> mended;
   const auto say = [&](std::size_t count, const char* one, const char* many, const char* then) {
     if (count > 0) mended.push_back(grouped(count) + (count == 1 ? one : many) + then);

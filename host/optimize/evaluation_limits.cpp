@@ -20,6 +20,22 @@ constexpr std::array<std::uint64_t, 3> kNormalBudget = {40, 16, 60}, kQuickBudge
 constexpr std::uint64_t kDeepTimes = 4;
 constexpr std::size_t kManyPoints = 100'000;
 constexpr std::uint64_t kLeastShare = 5;  // of the budget remains, one in so many
+// With one reference: about the processor's seconds of a decimation from the surface of a point, of
+// all decimations of a run, and how many of the normal ones a deep one takes.
+constexpr double kSecondsPerPoint = 0.8e-3, kSeconds = 1200, kDeepDecimations = 1.6;
+constexpr std::size_t kManyPolished = 4, kFewPolished = 2;
+
+double decimation_seconds(std::size_t points) {
+  const std::size_t made_of = is_thinned(points) ? kReferencePoints : points;
+  return kSecondsPerPoint * static_cast<double>(made_of);
+}
+
+std::uint64_t budget_from_one_reference(std::size_t points) {
+  const auto most = static_cast<double>(kNormalBudget[1]);
+  const double polishing = kDeepDecimations * static_cast<double>(polished_candidates(points));
+  const double decimations = kSeconds / decimation_seconds(std::max<std::size_t>(points, 1));
+  return static_cast<std::uint64_t>(std::clamp(decimations - polishing, 2.0, most));
+}
 
 std::uint64_t memory_for_workers() {
   const std::uint64_t memory = usable_memory();
@@ -27,6 +43,12 @@ std::uint64_t memory_for_workers() {
 }
 
 }  // namespace
+
+bool is_thinned(std::size_t points) { return 2 * points > 3 * kReferencePoints; }
+
+std::size_t polished_candidates(std::size_t points) {
+  return points > kManyPoints ? kFewPolished : kManyPolished;
+}
 
 std::uint64_t usable_memory(const std::filesystem::path& group_limit) {
   const auto machine = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
@@ -50,7 +72,9 @@ std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace
   const auto which = static_cast<std::size_t>(space);
   if (effort == SearchEffort::kQuick) return kQuickBudget[which];
   std::uint64_t normal = kNormalBudget[which];
-  if (points > kManyPoints) {
+  if (space == SearchSpace::kOneReference) {
+    normal = budget_from_one_reference(points);
+  } else if (points > kManyPoints) {
     normal = std::max(normal / kLeastShare, normal * kManyPoints / points);
   }
   normal = configured.value_or(normal);

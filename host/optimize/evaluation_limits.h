@@ -26,8 +26,19 @@ enum class SearchEffort { kQuick, kNormal, kDeep };
 // keep the bound at all, as with Schroeder's parameters, so that one evaluation is not enough.
 enum class SearchSpace { kSurfaces, kOneReference, kDecimations };
 
+// The reference surface of kFitMethod is first made of this many points where a cloud has more than
+// half as many again.
+inline constexpr std::size_t kReferencePoints = 160'000;
+bool is_thinned(std::size_t points);
+
+// How many of the best candidates are decimated deep in the end: 4, of large clouds 2. What that
+// gains differs from one to the next.
+std::size_t polished_candidates(std::size_t points);
+
 // How many evaluations a search makes unless it is told. `configured`: what a configuration says is
-// normal; without one it is fewer for more than 100,000 points, down to a fifth.
+// normal. Without one, a search from one reference makes from 16 down to 2, so that with the deep
+// decimations it takes about ten minutes on two cores; the others make fewer for more than 100,000
+// points, down to a fifth.
 std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace space,
                             std::optional<std::uint64_t> configured);
 

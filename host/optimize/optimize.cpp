@@ -17,8 +17,6 @@ constexpr int kPolishTimes = 10;  // as long as an evaluation may the deep decim
 // So many of the longest decimations is it expected to take: 1.3 to 1.6, and up to 3 where the
 // reference is rough (decision 0020).
 constexpr double kPolishDecimations = 3;
-// So many of the best are decimated deep: what that gains differs from one to the next.
-constexpr std::size_t kPolished = 4;
 // One evaluation in so many has no rival, so that the search also knows how candidates rank that
 // will not be the best.
 constexpr std::uint64_t kWithoutRival = 4;
@@ -113,7 +111,7 @@ class Run {
   double polish_seconds() const {
     constexpr double kShare = 0.25;
     if (!polishes() || std::isinf(seconds_)) return 0;
-    return std::min(kShare * seconds_, expected_polish_seconds(kPolished));
+    return std::min(kShare * seconds_, expected_polish_seconds(polished_candidates(cloud_.size())));
   }
 
   bool polishes() const { return settings_.polish && takes_bound(settings_.decimator); }
@@ -455,7 +453,8 @@ class Run {
   // Keeps the best candidates.
   void rank(const LoggedEvaluation& e) {
     ranking_.insert_or_assign({e.triangles, e.index}, e.genes);
-    if (ranking_.size() > kPolished) ranking_.erase(std::prev(ranking_.end()));
+    if (ranking_.size() > polished_candidates(cloud_.size()))
+      ranking_.erase(std::prev(ranking_.end()));
   }
 
   // The folder keeps the mesh of the best alone; one that is the best by a result out of order may

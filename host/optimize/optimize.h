@@ -32,6 +32,7 @@ struct OptimizeSettings {
   std::optional<double> epsilon_back;
   DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings
   bool closed = false;    // the reference of kFitMethod has its holes closed, close_surface()
+  std::size_t reference_points = kReferencePoints;  // that kFitMethod first makes it of
   Config config;
   ParameterValues fitted;  // values to begin with where the configuration has the standard ones
   std::uint64_t seed = 1;

@@ -10,6 +10,7 @@
 #include "host/geometry/bounds.h"
 #include "host/geometry/disjoint_sets.h"
 #include "host/geometry/mesh_topology.h"
+#include "host/geometry/thinning.h"
 #include "host/parameters/descriptions.h"
 #include "host/surface/close_holes.h"
 #include "host/surface/cracks.h"
@@ -27,6 +28,7 @@ constexpr double kFew = 0.002;             // share of the points that a good su
 constexpr double kMany = 0.02;             // and one that calls for another,
 constexpr double kSlack = 1.5;             // beyond so many times what noise explains
 constexpr std::size_t kMeasured = 50'000;  // points whose distance is looked at
+constexpr std::size_t kRefined = 4;        // times as many points after a part was not enough
 
 constexpr std::string_view kLastMethod = Poisson::kName;  // where the others have faults
 
@@ -70,11 +72,23 @@ std::size_t small_pieces(const TriangleMesh& mesh) {
       areas, [&](double area) { return area > 0 && area < kPieceOfArea * all; }));
 }
 
+// The share of the points that noise alone puts where points are joined.
+double explained_by_noise(const TriedSurface& tried, const ScanEstimate& scan, double epsilon) {
+  return std::erfc(joined_beyond(tried.within_half, epsilon) / scan.noise / std::numbers::sqrt2);
+}
+
 class Fit {
  public:
-  Fit(std::span<const Point> cloud, double epsilon, const OptimizeSettings& settings)
-      : cloud_(cloud), epsilon_(epsilon), settings_(settings) {
-    fit_.scan = estimate_scan(cloud);
+  // `cloud` is what surfaces are made of, a part of `all`.
+  Fit(std::span<const Point> cloud, std::span<const Point> all, double epsilon,
+      const ScanEstimate& scan, const OptimizeSettings& settings)
+      : cloud_(cloud),
+        all_(all),
+        epsilon_(epsilon),
+        settings_(settings),
+        scan_(cloud.size() < all.size() ? estimate_scan(cloud) : scan) {
+    fit_.scan = scan;
+    fit_.made_of = cloud.size();
   }
 
   ReferenceFit run() {
@@ -107,13 +121,13 @@ class Fit {
     if (settings_.method == kAutoMethod) return {reconstruction_methods().front().name};
     if (settings_.method != kFitMethod) return {settings_.method};
     std::vector<std::string> both = {std::string(Gp3::kName), std::string(Imls::kName)};
-    if (fit_.scan.noise > kClean * fit_.scan.spacing) std::ranges::reverse(both);
+    if (scan_.noise > kClean * scan_.spacing) std::ranges::reverse(both);
     return both;
   }
 
   void submit(WorkerPool& pool, const std::string& method) {
     TriedSurface tried;
-    tried.chain = fitted_chain(method, fit_.scan, bounds_of(cloud_).width());
+    tried.chain = fitted_chain(method, scan_, bounds_of(cloud_).width());
     // The surface as it comes: what is done to it is to be known here.
     ChainSettings raw = tried.chain;
     raw.parameters.set(Fill::kMethod, Fill::Method::kNone);
@@ -160,10 +174,8 @@ class Fit {
 
   bool is_faulty(const TriedSurface& tried) const {
     // Joined points that noise explains speak for no other surface.
-    const double deviations = joined_beyond(tried.within_half, epsilon_) / fit_.scan.noise;
-    const double explained = std::erfc(deviations / std::numbers::sqrt2);
     return !tried.failure.empty() || tried.cracks + tried.pieces > 0 ||
-           tried.joined > kMany + kSlack * explained;
+           tried.joined > kMany + kSlack * explained_by_noise(tried, fit_.scan, epsilon_);
   }
 
   bool good(const TriedSurface& tried) const {
@@ -181,7 +193,7 @@ class Fit {
                                       : "; take another --method, or --bound one-sided");
       return {};
     }
-    const double crack = kCrackSpacings * fit_.scan.spacing;
+    const double crack = kCrackSpacings * scan_.spacing;
     CrackFreeSurface surface =
         crack_free_surface(std::move(std::get<ChainResult>(outcome).mesh), cloud_, epsilon_ / 2,
                            kFill, crack, interpolates(tried.chain));
@@ -201,10 +213,10 @@ class Fit {
 
   void measure(const TriangleMesh& mesh, TriedSurface& tried) const {
     const ExactMesh exact(mesh.view());
-    const std::size_t step = (cloud_.size() + kMeasured - 1) / kMeasured;
+    const std::size_t step = (all_.size() + kMeasured - 1) / kMeasured;
     std::vector<double> distances;
-    for (std::size_t i = 0; i < cloud_.size(); i += step) {
-      distances.push_back(exact.nearest(cloud_[i], epsilon_ / 2).distance.upper);
+    for (std::size_t i = 0; i < all_.size(); i += step) {
+      distances.push_back(exact.nearest(all_[i], epsilon_ / 2).distance.upper);
       if (settings_.interrupted()) throw Interrupted{};
     }
     const auto share_beyond = [&](double most) {
@@ -213,14 +225,15 @@ class Fit {
     };
     tried.within_half = 1 - share_beyond(epsilon_ / 2);
     tried.joined = share_beyond(joined_beyond(tried.within_half, epsilon_));
-    tried.points = cloud_.size();
+    tried.points = all_.size();
     // What interpolates the points has their noise.
-    if (interpolates(tried.chain)) tried.roughness = fit_.scan.noise / epsilon_;
+    if (interpolates(tried.chain)) tried.roughness = scan_.noise / epsilon_;
   }
 
-  std::span<const Point> cloud_;
+  std::span<const Point> cloud_, all_;
   double epsilon_;
   const OptimizeSettings& settings_;
+  ScanEstimate scan_;  // of cloud_
   ReferenceFit fit_;
   std::vector<std::optional<Completed>> completed_;  // of what is tried
   std::vector<CrackFreeSurface> surfaces_;
@@ -260,9 +273,25 @@ std::string describe(const TriedSurface& tried) {
       tried.pieces > 0 ? ", " + count(tried.pieces, "small piece") : "", 100 * tried.within_half);
 }
 
+// Whether so few points are far from the surface that more points would hardly make a better one.
+static bool holds_enough(const ReferenceFit& fit, double epsilon) {
+  return fit.best().joined <= kFew + kSlack * explained_by_noise(fit.best(), fit.scan, epsilon);
+}
+
 ReferenceFit fit_reference(std::span<const Point> cloud, double epsilon,
                            const OptimizeSettings& settings) {
-  return Fit(cloud, epsilon, settings).run();
+  const ScanEstimate scan = estimate_scan(cloud);
+  if (settings.method == kFitMethod && scan.spacing > 0) {
+    for (std::size_t n = settings.reference_points; 2 * cloud.size() > 3 * n; n *= kRefined) {
+      std::vector<Point> part;
+      for (const std::uint32_t i : thinned(cloud, thinning_radius(scan.spacing, cloud.size(), n))) {
+        part.push_back(cloud[i]);
+      }
+      ReferenceFit fit = Fit(part, cloud, epsilon, scan, settings).run();
+      if (holds_enough(fit, epsilon)) return fit;
+    }
+  }
+  return Fit(cloud, cloud, epsilon, scan, settings).run();
 }
 
 }  // namespace emax

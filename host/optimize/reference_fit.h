@@ -44,6 +44,7 @@ double joined_beyond(double within_half, double epsilon);
 
 struct ReferenceFit {
   ScanEstimate scan;
+  std::size_t made_of = 0;  // points
   std::vector<TriedSurface> tried;
   std::size_t chosen = 0;  // of these
   CrackFreeSurface surface;
@@ -66,6 +67,10 @@ struct ReferenceFit {
 // the points must also be closed for that, as its borders may be cracks too wide to be told from
 // holes by themselves. Poisson's method is tried where both have faults or are far
 // from many points.
+//
+// Of more than 1.5 times `settings.reference_points` kFitMethod takes that many, evenly spread, and
+// four times as many where that leaves more points far from the surface than noise explains. The
+// surface is measured by all points.
 //
 // Reconstruction runs in workers, the rest here. A pure function of its arguments, for any number
 // of jobs. Throws Error where no surface can be made, and Interrupted.

@@ -17,7 +17,16 @@ TEST(SearchBudget, FollowsEffortAndPoints) {
   EXPECT_GT(search_budget(kQuick, 1'000, kDecimations, {}), 1u);
   EXPECT_EQ(search_budget(kNormal, 1'000, kOneReference, 77), 77u);
   EXPECT_EQ(search_budget(kDeep, 1'000'000, kOneReference, 77), 308u);
-  for (const SearchSpace space : {kSurfaces, kOneReference, kDecimations}) {
+  // From one reference: ten minutes on two cores, and no more for more points than it is made of.
+  EXPECT_EQ(search_budget(kNormal, 3, kOneReference, {}), 16u);
+  EXPECT_EQ(search_budget(kNormal, 40'000, kOneReference, {}), 16u);
+  EXPECT_EQ(search_budget(kDeep, 40'000, kOneReference, {}), 64u);
+  const std::uint64_t large = search_budget(kNormal, 240'000, kOneReference, {});
+  EXPECT_GE(large, 2u);
+  EXPECT_LT(large, search_budget(kNormal, 120'000, kOneReference, {}));
+  EXPECT_GE(search_budget(kNormal, 10'000'000, kOneReference, {}), large);
+  EXPECT_LT(polished_candidates(10'000'000), polished_candidates(40'000));
+  for (const SearchSpace space : {kSurfaces, kDecimations}) {
     const std::uint64_t normal = search_budget(kNormal, 100'000, space, {});
     EXPECT_EQ(search_budget(kNormal, 3, space, {}), normal);
     EXPECT_EQ(search_budget(kDeep, 3, space, {}), 4 * normal);

@@ -90,6 +90,20 @@ TEST(ReferenceFit, SmoothsANoisyScan) {
   EXPECT_EQ(made.fit.best().chain.method, "imls");
 }
 
+TEST(ReferenceFit, IsMadeOfAPartOfManyPointsWhereThatIsEnough) {
+  const ScanOfShape scan = scan_of_shape({.shape = "torus"});
+  const std::size_t points = scan.points.size();
+  OptimizeSettings settings = settings_for(kFitMethod);
+  settings.reference_points = points / 4;
+  const ReferenceFit part = fit_reference(scan.points, 4 * kEpsilon, settings);
+  EXPECT_LT(part.made_of, points / 2);
+  EXPECT_GT(part.made_of, points / 8);
+  EXPECT_EQ(part.best().points, points);
+  EXPECT_EQ(topology_of(part.surface.mesh.view()), topology_of(scan.surface.view()));
+  EXPECT_GT(part.best().within_half, 0.99);
+  EXPECT_EQ(fit_reference(scan.points, kEpsilon / 100, settings).made_of, points);
+}
+
 TEST(ReferenceFit, TakesTheMethodThatIsNamed) {
   const ScanOfShape scan = scan_of_shape({.shape = "sphere"});
   for (const char* method : {"gp3", "poisson", "imls"}) {
