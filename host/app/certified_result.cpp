@@ -37,11 +37,16 @@ Certificate certificate_of(const CertifiedResult& result, const std::filesystem:
 
 }  // namespace
 
+std::string certificate_text(const CertifiedResult& result, const std::filesystem::path& mesh,
+                             std::string mesh_sha256) {
+  return to_json_text(certificate_of(result, mesh, std::move(mesh_sha256)));
+}
+
 WrittenResult write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
                            ReferenceFile* reference) {
   std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh));
   const std::string mesh_sha256 = sha256(bytes);
-  std::string certificate = to_json_text(certificate_of(result, mesh, mesh_sha256));
+  std::string certificate = certificate_text(result, mesh, mesh_sha256);
   std::vector<OutputFile> files;
   if (reference != nullptr && reference->unwritten() != nullptr) {
     files.push_back(*reference->unwritten());

@@ -45,6 +45,10 @@ struct WrittenResult {
   std::string certificate;  // its text
 };
 
+// The certificate of the result in a file of this name and SHA-256.
+std::string certificate_text(const CertifiedResult& result, const std::filesystem::path& mesh,
+                             std::string mesh_sha256);
+
 // Writes the mesh, the certificate and, unless it exists already, the reference: all of them or
 // none. `reference` is nullptr for a one-sided bound. Throws Error if they cannot be written.
 WrittenResult write_result(const std::filesystem::path& mesh, const CertifiedResult& result,

@@ -9,6 +9,7 @@
 #include "host/app/given_reference.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/proven_decimation.h"
 #include "host/app/reference_text.h"
 #include "host/app/report_output.h"
 #include "host/app/tolerated_meshes.h"
@@ -94,7 +95,7 @@ class DecimateCommand {
     progress_.finish();
     print_task(facts_);
     progress_.begin("making the reference surface", joining_seconds(scan_.cloud.points.size()));
-    choose_kept();
+    kept_ = choose_kept(scan_, given_.view(), epsilon_, excludable());
     make_reference();
     settings_.decimation.interrupted = [&] { return progress_.out_of_time() || was_interrupted(); };
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
@@ -104,18 +105,9 @@ class DecimateCommand {
   }
 
  private:
-  void choose_kept() {
-    outliers_ = farthest_beyond();
-    for (std::uint32_t i = 0; i < scan_.cloud.points.size(); ++i) {
-      if (std::ranges::binary_search(outliers_, i)) continue;
-      kept_.push_back(scan_.cloud.points[i]);
-      kept_index_.push_back(i);
-    }
-  }
-
   // Makes the reference and the file that holds it.
   void make_reference() {
-    reference_ = emax::make_reference(given_, kept_, epsilon_ / 2,
+    reference_ = emax::make_reference(given_, kept_.points, epsilon_ / 2,
                                       {.repair = options_.repair, .closed = options_.closed},
                                       was_interrupted);
     if (was_interrupted()) throw Interrupted{};
@@ -139,14 +131,8 @@ class DecimateCommand {
   }
 
   int run_once() {
-    progress_.begin("assigning the points", joining_seconds(kept_.size()));
-    result_ = decimate_certified(reference_.surface.mesh, kept_, settings_);
-    if (!outliers_.empty()) {
-      std::vector<std::uint32_t> excluded = outliers_;
-      for (const std::uint32_t i : result_.points.excluded) excluded.push_back(kept_index_[i]);
-      std::ranges::sort(excluded);
-      result_.points = certify(scan_.cloud.points, result_.mesh.view(), excluded);
-    }
+    progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
+    result_ = decimate_scan(reference_.surface.mesh, scan_, kept_, settings_);
     judge();
     progress_.finish();
     feasible_ ? print_result(facts_) : refuse(facts_);
@@ -163,14 +149,14 @@ class DecimateCommand {
 
   // A mesh for each bound, the smallest first, from one sequence of collapses.
   int run_sequence() {
-    DecimationSequence sequence(reference_.surface.mesh, kept_);
+    DecimationSequence sequence(reference_.surface.mesh, kept_.points);
     std::vector<CurveRow> curve;
     std::vector<MadeReport> reports;
     for (const ToleratedMesh& bound : bounds_) {
       set_bound(bound);
-      progress_.begin("assigning the points", joining_seconds(kept_.size()));
+      progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
       result_ = decimate_certified(
-          reference_.surface.mesh, kept_, settings_,
+          reference_.surface.mesh, kept_.points, settings_,
           [&](const DecimationSettings& settings) { return sequence.cut(settings); });
       judge();
       progress_.finish();
@@ -228,8 +214,8 @@ class DecimateCommand {
 
   // Proves the decimator's result, and writes it if it keeps the bounds.
   void judge() {
-    progress_.begin("certifying the result", certifying_seconds(kept_.size()));
-    prove();
+    progress_.begin("certifying the result", certifying_seconds(kept_.points.size()));
+    proven_ = proofs_of(result_, scan_);
     feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     if (feasible_) write();
   }
@@ -243,23 +229,6 @@ class DecimateCommand {
   std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
   // Vertices of removed triangles are not part of the remaining surface.
   bool may_leave_out_own_vertices() const { return own_cloud_ && reference_.surface.dropped > 0; }
-  // The points to exclude, ascending: the farthest beyond the tolerance, up to the permitted
-  // number.
-  std::vector<std::uint32_t> farthest_beyond() const {
-    if (excludable() == 0) return {};
-    const ExactMesh exact(given_.view());
-    std::vector<std::pair<double, std::uint32_t>> beyond;
-    for (std::uint32_t i = 0; i < scan_.cloud.points.size(); ++i) {
-      const double distance = exact.distance(scan_.cloud.points[i]).upper;
-      if (distance > epsilon_) beyond.emplace_back(-distance, i);
-    }
-    std::ranges::sort(beyond);
-    beyond.resize(std::min(beyond.size(), excludable()));
-    std::vector<std::uint32_t> points;
-    for (const auto& [distance, i] : beyond) points.push_back(i);
-    std::ranges::sort(points);
-    return points;
-  }
   double percent(double length) const { return 100 * length / scan_.width; }
 
   std::filesystem::path reference_file() const {
@@ -297,41 +266,18 @@ class DecimateCommand {
 
   void write() {
     if (file_) {
-      proven_.reference = bound();
+      proven_.reference = bound_of(result_, epsilon_back(), *file_);
       proven_.reference_path = file_->path();
     }
     written_ = write_result(output_, result(), file_ ? &*file_ : nullptr);
   }
 
-  // Collects the decimator's proofs in the form of the certificate.
-  void prove() {
-    proven_ = {};
-    proven_.validity = result_.validity;
-    proven_.topology = topology_of(result_.mesh.view());
-    proven_.points = result_.points;
-    proven_.kernel = kernel_error(scan_, result_.mesh.view(), result_.points.excluded);
-  }
-
-  ReferenceBound bound() {
-    ReferenceBound bound;
-    bound.epsilon_back = epsilon_back();
-    bound.mesh_to_reference = result_.mesh_to_reference->upper;
-    bound.reference_to_mesh = result_.reference_to_mesh->upper;
-    file_->describe(bound, result_.points.excluded);
-    return bound;
-  }
-
   CertifiedResult result() const {
-    CertifiedResult result = {.cloud = {scan_, cloud_sha256_, options_.reading, own_cloud_},
-                              .epsilon = epsilon_,
-                              .mesh = result_.mesh,
-                              .proven = proven_,
-                              .chain = {"none", std::string(Bounded::kName), {}}};
-    ParameterValues& values = result.chain.parameters;
-    values.set(Bounded::kEffort, static_cast<int>(settings_.decimation.effort));
-    values.set(Bounded::kFeatureAngle, settings_.decimation.feature_angle);
-    if (options_.objective == "hoppe") values.set(Bounded::kHoppe, true);
-    return result;
+    return {.cloud = {scan_, cloud_sha256_, options_.reading, own_cloud_},
+            .epsilon = epsilon_,
+            .mesh = result_.mesh,
+            .proven = proven_,
+            .chain = chain_of(settings_.decimation)};
   }
 
   void print_result(Facts& facts) const {
@@ -409,9 +355,7 @@ class DecimateCommand {
   double epsilon_ = 0;
   CertifiedDecimationSettings settings_;
   MeshFormat format_ = MeshFormat::kPly;
-  std::vector<std::uint32_t> outliers_;    // points that are excluded from the start, ascending
-  std::vector<Point> kept_;                // the other points
-  std::vector<std::uint32_t> kept_index_;  // indices of the kept points in the cloud
+  KeptPoints kept_;
   GivenReference reference_;
   std::optional<ReferenceFile> file_;  // of a two-sided bound
   CertifiedDecimation result_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "host/app/checked_claims.h"
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
@@ -66,6 +67,13 @@ class Verification {
     }
   }
 
+  // Of a certificate whose mesh, cloud and reference are at hand.
+  Verification(const Certificate& certificate, const TriangleMesh& mesh, const Scan& scan,
+               const TriangleMesh* reference)
+      : certificate_(certificate), mesh_(mesh), scan_(scan) {
+    if (reference != nullptr) reference_ = *reference;
+  }
+
   // Throws Error if an output is one of the files that are read.
   void require_apart(const VerifyOptions& options) const {
     check_distinct({options.json, options.report.report, options.report.picture},
@@ -85,14 +93,28 @@ class Verification {
                          .reasons = reasons_});
   }
 
-  bool run() {
+  CheckedClaims run() {
     check_files();
-    if (reasons_.empty()) {
-      read();
-      check_sizes();
-    }
+    if (!reasons_.empty()) return {reasons_, e_max_};
+    read();
+    return check();
+  }
+
+  // Recomputes the claims.
+  CheckedClaims check() {
+    check_sizes();
     if (reasons_.empty()) check_claims();
-    return report();
+    return {reasons_, e_max_};
+  }
+
+  // Prints the answer.
+  bool report() const {
+    if (reasons_.empty()) {
+      print_what_holds();
+      return true;
+    }
+    for (const std::string& reason : reasons_) fmt::print("no: {}\n", reason);
+    return false;
   }
 
   void write_report_of(const ReportOptions& wanted, double seconds) {
@@ -153,10 +175,11 @@ class Verification {
     mesh_ = read_mesh(mesh_path_);
     scan_ = certificate_.vertices_of_mesh ? vertices_of(cloud_path_, read_mesh(cloud_path_))
                                           : read_scan(cloud_path_, certificate_.reading);
-    require_resolution(*scan_, certificate_.epsilon);
+    if (certificate_.reference) reference_ = read_mesh(reference_path_);
   }
 
   void check_sizes() {
+    require_resolution(*scan_, certificate_.epsilon);
     require("sizes",
             mesh_.triangles.size() == certificate_.triangles &&
                 mesh_.vertices.size() == certificate_.vertices,
@@ -260,7 +283,7 @@ class Verification {
   void check_reference(const TriangleMesh& mesh, const Scan& scan,
                        std::span<const std::uint32_t> excluded) {
     const ReferenceBound& claimed = *certificate_.reference;
-    const TriangleMesh reference = read_mesh(reference_path_);
+    const TriangleMesh& reference = reference_;
     require("size of the reference", reference.triangles.size() == claimed.triangles,
             fmt::format("the reference has {} triangles, not {}", reference.triangles.size(),
                         claimed.triangles));
@@ -297,47 +320,42 @@ class Verification {
                     claimed.points_to_reference));
   }
 
-  bool report() const {
-    if (reasons_.empty()) {
-      const CertifiedError& error = certificate_.error;
-      fmt::print("yes: every {}point of {} lies within {:.9g} of {} (e_max {:.9g}, {} triangles)\n",
-                 error.excluded.empty() ? "" : "kept ", cloud_path_.string(), certificate_.epsilon,
-                 mesh_path_.string(), *e_max_, grouped(certificate_.triangles));
-      if (!error.excluded.empty()) {
-        fmt::print("     {} of its {} points are excluded, the farthest at {:.9g}\n",
-                   grouped(error.excluded.size()), grouped(error.points + error.excluded.size()),
-                   std::ranges::max(error.excluded_distances));
-      }
-      if (certificate_.reference) {
-        const ReferenceBound& reference = *certificate_.reference;
-        fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
-                   mesh_path_.string(), reference.epsilon_back, reference_path_.string(),
-                   reference.mesh_to_reference);
-        if (reference.reference_to_mesh <= certificate_.epsilon) {
-          fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
-                     reference_path_.string(), certificate_.epsilon, mesh_path_.string(),
-                     reference.reference_to_mesh);
-        } else {
-          fmt::print("     all of {} lies within {:.9g} of {}, which the certificate leaves open\n",
-                     reference_path_.string(), reference.reference_to_mesh, mesh_path_.string());
-        }
-      }
-      fmt::print("yes: {} has {}\n", mesh_path_.string(),
-                 describe(certificate_.topology,
-                          certificate_.reference ? std::optional(certificate_.reference->topology)
-                                                 : std::nullopt));
-      return true;
+  void print_what_holds() const {
+    const CertifiedError& error = certificate_.error;
+    fmt::print("yes: every {}point of {} lies within {:.9g} of {} (e_max {:.9g}, {} triangles)\n",
+               error.excluded.empty() ? "" : "kept ", cloud_path_.string(), certificate_.epsilon,
+               mesh_path_.string(), *e_max_, grouped(certificate_.triangles));
+    if (!error.excluded.empty()) {
+      fmt::print("     {} of its {} points are excluded, the farthest at {:.9g}\n",
+                 grouped(error.excluded.size()), grouped(error.points + error.excluded.size()),
+                 std::ranges::max(error.excluded_distances));
     }
-    for (const std::string& reason : reasons_) fmt::print("no: {}\n", reason);
-    return false;
+    if (certificate_.reference) {
+      const ReferenceBound& reference = *certificate_.reference;
+      fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
+                 mesh_path_.string(), reference.epsilon_back, reference_path_.string(),
+                 reference.mesh_to_reference);
+      if (reference.reference_to_mesh <= certificate_.epsilon) {
+        fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
+                   reference_path_.string(), certificate_.epsilon, mesh_path_.string(),
+                   reference.reference_to_mesh);
+      } else {
+        fmt::print("     all of {} lies within {:.9g} of {}, which the certificate leaves open\n",
+                   reference_path_.string(), reference.reference_to_mesh, mesh_path_.string());
+      }
+    }
+    fmt::print("yes: {} has {}\n", mesh_path_.string(),
+               describe(certificate_.topology,
+                        certificate_.reference ? std::optional(certificate_.reference->topology)
+                                               : std::nullopt));
   }
 
   std::filesystem::path path_;
   Certificate certificate_;
   std::string certificate_text_;
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
-  TriangleMesh mesh_;
-  std::optional<Scan> scan_;             // read with the mesh
+  TriangleMesh mesh_, reference_;
+  std::optional<Scan> scan_;             // read with the meshes
   std::vector<std::uint32_t> excluded_;  // indices of the cloud
   bool excluded_are_known_ = false;
   std::vector<ReportInput> inputs_;
@@ -348,13 +366,23 @@ class Verification {
 
 }  // namespace
 
+CheckedClaims check_files(const VerifyOptions& options) {
+  return Verification(options).run();
+}
+
+CheckedClaims check_claims(const Certificate& certificate, const TriangleMesh& mesh,
+                           const Scan& scan, const TriangleMesh* reference) {
+  return Verification(certificate, mesh, scan, reference).check();
+}
+
 int run_verify(const VerifyOptions& options) {
   if (!options.json.empty()) check_output(options.json, kJsonEndings);
   check_report_outputs(options.report);
   const auto begun = std::chrono::steady_clock::now();
   Verification verification(options);
   verification.require_apart(options);
-  const bool holds = verification.run();
+  verification.run();
+  const bool holds = verification.report();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
   verification.write_report_of(options.report, took.count());
   if (json_is_wanted(options.json)) {

@@ -139,16 +139,19 @@ std::string to_json_text(const Certificate& c) {
   return json.dump(2) + "\n";
 }
 
-Certificate read_certificate(const std::filesystem::path& path) {
-  const InputFile file = read_input(path);
+Certificate parse_certificate(std::string_view text, const std::string& name) {
   try {
-    return parse(Json::parse(file.bytes));
+    return parse(Json::parse(text));
   } catch (const Error& error) {
-    throw Error(path.string() + ": " + error.what());
+    throw Error(name + ": " + error.what());
   } catch (const nlohmann::json::exception&) {
-    throw Error(path.string() +
+    throw Error(name +
                 ": is not a certificate; name the .certificate.json beside a mesh made by emax");
   }
+}
+
+Certificate read_certificate(const std::filesystem::path& path) {
+  return parse_certificate(read_input(path).bytes, path.string());
 }
 
 }  // namespace emax

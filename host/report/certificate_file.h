@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host/files/cloud_file.h"
 #include "host/geometry/mesh_topology.h"
@@ -54,7 +55,8 @@ std::filesystem::path reference_path(const std::filesystem::path& mesh);
 
 std::string to_json_text(const Certificate& certificate);
 
-// Throws Error naming the file if it is not a certificate that this program can check.
+// Throw Error naming the file if it is not a certificate that this program can check.
+Certificate parse_certificate(std::string_view text, const std::string& name);
 Certificate read_certificate(const std::filesystem::path& path);
 
 }  // namespace emax

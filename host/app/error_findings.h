@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/app/scan.h"
+#include "host/measure/error_constraint.h"
+#include "host/report/result_json.h"
+
+namespace emax {
+
+// The reference that a mesh is measured against: a surface, or a cloud as triangles of no size.
+struct ErrorReference {
+  std::string name;
+  // kScan: the cloud that is measured; kCloud: another cloud.
+  enum class Kind { kScan, kCloud, kSurface } kind;
+  TriangleMesh mesh;
+};
+ErrorReference cloud_reference(std::string name, ErrorReference::Kind kind,
+                               std::vector<Point> points);
+
+// What is asked of a mesh.
+struct ErrorQuestion {
+  std::optional<Tolerance> tolerance;  // in the scan's unit
+  double excluded_share = 0;
+  std::vector<double> quantiles;  // percent; empty: the usual ones
+  std::size_t worst = 5;
+  bool brute_force = false;
+  Evaluator* device = nullptr;  // nullptr: this processor
+  std::function<bool()> interrupted;
+};
+
+// All results for the mesh. Indices of points are the file's.
+struct ErrorFindings {
+  std::optional<Tolerance> tolerance;
+  MeasuredError measured = {};
+  double seconds = 0;
+  CertifiedError certified;
+  MeshValidity validity;
+  MeshTopology topology;
+  Normalization transform;
+  std::size_t excludable = 0;
+  std::vector<double> distances;  // of every point of the scan
+  ErrorReport errors;
+
+  std::optional<MeshTopology> reference_topology() const {
+    return errors.reference ? errors.reference->topology : std::nullopt;
+  }
+  // Names the parts that are farther than the tolerance; empty if it is kept.
+  std::string_view exceeding() const;
+  bool feasible() const { return errors.limit && exceeding().empty(); }
+};
+
+// `mesh` has no vertex without a triangle. `measured`, if given, is called once the kernel has
+// measured the mesh. Throws Error as ErrorConstraint and require_resolution() do, and Interrupted.
+ErrorFindings find_errors(
+    const TriangleMesh& mesh, const Scan& scan, const std::optional<ErrorReference>& reference,
+    const ErrorQuestion& question,
+    const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured = nullptr);
+
+// The JSON of the findings, without what a device adds.
+ResultReport report_of(const ErrorFindings& findings, const TriangleMesh& mesh, const Scan& scan);
+
+}  // namespace emax

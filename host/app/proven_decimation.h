@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/app/certified_result.h"
+#include "host/decimate/certified_decimation.h"
+
+namespace emax {
+
+// The points of a scan that a decimation has to keep to, and those that it may leave out.
+struct KeptPoints {
+  std::vector<std::uint32_t> outliers;  // left out from the start, ascending
+  std::vector<Point> points;            // the others
+  std::vector<std::uint32_t> index;     // of these in the cloud
+};
+
+// Leaves out the points farthest beyond `epsilon` from the mesh, at most `excludable` of them.
+KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable);
+
+// Decimates the reference under the bounds of `settings`, and certifies every point of the scan.
+CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,
+                                  const KeptPoints& kept,
+                                  const CertifiedDecimationSettings& settings);
+
+// The decimator's proofs in the form of the certificate, without those for the reference.
+ProvenMesh proofs_of(const CertifiedDecimation& made, const Scan& scan);
+
+// The proofs for the reference of a two-sided bound, whose file is `file`.
+ReferenceBound bound_of(const CertifiedDecimation& made, double epsilon_back, ReferenceFile& file);
+
+// What the certificate says of how the mesh was found.
+ChainSettings chain_of(const DecimationSettings& settings);
+
+}  // namespace emax
