@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Union
+from typing import Any, TypeGuard, Union
 
 import numpy as np
 
@@ -49,7 +49,7 @@ def faces_of(value: Any, name: str) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
-def is_path(value: Any) -> bool:
+def is_path(value: Any) -> TypeGuard[Path]:
     return isinstance(value, (str, os.PathLike))
 
 
@@ -91,9 +91,9 @@ def given_cloud(cloud: CloudLike, name: str = "cloud", skip_invalid: bool = Fals
         return cloud
     if is_path(cloud):
         return _core.cloud_of_file(os.fspath(cloud), skip_invalid)
-    for points in ("points", "vertices"):
-        if hasattr(cloud, points):
-            cloud = getattr(cloud, points)
+    for rows in ("points", "vertices"):
+        if hasattr(cloud, rows):
+            cloud = getattr(cloud, rows)
             break
     points = np.asarray(cloud)
     if skip_invalid and points.ndim == 2 and points.dtype.kind == "f":

@@ -32,7 +32,7 @@ def error(
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
     >>> cloud = [[0, 0, 0.25], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]]
     >>> found = emax.error(cloud, square, max_error=0.3)
-    >>> found.e_max, found.worst_point, found.kept
+    >>> round(found.e_max, 9), found.worst_point, found.kept
     (0.5, 3, False)
     >>> found.distances
     array([0.25, 0.  , 0.  , 0.5 ])
@@ -48,13 +48,12 @@ def error(
     found, stopped_by = _core.error(
         given_cloud(cloud, skip_invalid=skip_invalid), given_mesh(mesh), length_text(max_error, "max_error"),
         two_sided, surface, points, [float(q) for q in quantiles], worst, share_text(exclude_outliers))
-    if found is None:
-        return outcome(None, stopped_by)
-    report = json.loads(found.json)
+    errors = outcome(found, stopped_by)
+    report = json.loads(errors.json)
     back = report["errors"]["mesh_to_reference"]
-    return outcome(ErrorReport(
+    return ErrorReport(
         e_max=report["e_max"], back=back and back["upper"], worst_point=report["worst_point"],
-        distances=found.distances, kept=report["feasible"], exceeding=found.exceeding, report=report), stopped_by)
+        distances=errors.distances, kept=report["feasible"], exceeding=errors.exceeding, report=report)
 
 
 def verify(
@@ -79,7 +78,7 @@ def verify(
     >>> emax.verify(made, mesh=(moved, made.faces), cloud=tetrahedron).holds
     False
     """
-    if is_path(certificate):
+    if isinstance(certificate, (str, os.PathLike)):
         named = [mesh, cloud, reference]
         if not all(name is None or is_path(name) for name in named):
             raise ValueError("certificate: the checksums of files need files; give json.load(...) of it "

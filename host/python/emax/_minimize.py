@@ -173,6 +173,10 @@ def minimize(
             [list(map(float, start)) for start in starts], budget, seed, jobs, search.stopped)
     except KeyboardInterrupt as interrupt:
         raise Interrupted(search.best) from interrupt
+    except _core.Error:  # the callback ended the search before its first result was taken
+        if not search.ended or search.best is None:
+            raise
+        x, value, evaluated, violation = search.best.x, search.best.fun, True, search.best.constr_violation
     violation = max(violation, 0.0) if evaluated else np.inf
     feasible = bool(evaluated and violation == 0)
     status = 99 if search.ended else 0 if feasible else 1

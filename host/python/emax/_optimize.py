@@ -112,10 +112,10 @@ def optimize(
                  "--method", method, "--decimator", decimator,
                  "--exclude-outliers", share_text(exclude_outliers)]
         options = {"--budget": budget, "--jobs": jobs, "--time": time, "--unit": unit, "--bound": bound,
-                   "--target-triangles": target_triangles, "--stagnation": stagnation, "--config": config}
-        for option, value in options.items():
-            if value is not None:
-                words += [option, os.fspath(value) if option == "--config" else str(value)]
+                   "--target-triangles": target_triangles, "--stagnation": stagnation}
+        words += [word for option, value in options.items() if value is not None
+                  for word in (option, str(value))]
+        words += [] if config is None else ["--config", os.fspath(config)]
         words += ["--closed"] * closed + ["--skip-invalid"] * skip_invalid
         if polish is not None:
             words.append("--polish" if polish else "--no-polish")

@@ -6,7 +6,7 @@ import json
 import os
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -60,14 +60,14 @@ class Surface:
 
     def to_open3d(self) -> Any:
         """The mesh as an ``open3d.geometry.TriangleMesh``."""
-        import open3d
+        import open3d  # type: ignore[import-not-found]
 
         return open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(self.vertices),
                                             open3d.utility.Vector3iVector(self.faces.astype(np.int32)))
 
     def to_pyvista(self) -> Any:
         """The mesh as a ``pyvista.PolyData``."""
-        import pyvista
+        import pyvista  # type: ignore[import-not-found]
 
         corners = np.full((len(self.faces), 1), 3, dtype=np.int64)
         return pyvista.PolyData(np.array(self.vertices),
@@ -167,10 +167,14 @@ class Verification:
         return self.holds
 
 
-def outcome(made: Any, stopped_by: BaseException | None) -> Any:
+Made = TypeVar("Made")
+
+
+def outcome(made: Made | None, stopped_by: BaseException | None) -> Made:
     """The result, or the exception that ended the work. A callback's StopIteration only ends it."""
     if isinstance(stopped_by, KeyboardInterrupt):
         raise Interrupted(made) from stopped_by
     if stopped_by is not None and not (isinstance(stopped_by, StopIteration) and made is not None):
         raise stopped_by
+    assert made is not None
     return made

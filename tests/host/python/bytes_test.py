@@ -35,7 +35,7 @@ def test_decimate_a_file(mesh_file, by_command, tmp_path, options, words):
 
 
 def test_decimate_a_mesh_to_a_cloud(mesh_file, by_command, tmp_path):
-    rows = wave(23)[0] + [0, 0, 0.003]
+    rows = wave(12)[0] + [0, 0, 0.003]
     cloud = tmp_path / "cloud.xyz"
     cloud.write_text("".join(" ".join(repr(float(c)) for c in row) + "\n" for row in rows))
     command("decimate", mesh_file, "--cloud", cloud, "--max-error", "0.5%", "-o", "small.obj", folder=by_command)
@@ -72,8 +72,8 @@ def test_error(mesh_file, by_command, two_sided):
 
 
 def test_optimize(by_command, tmp_path):
-    turns = np.arange(1200) * 2.399963
-    z = 1 - (2 * np.arange(1200) + 1) / 1200
+    turns = np.arange(700) * 2.399963
+    z = 1 - (2 * np.arange(700) + 1) / 700
     ball = np.column_stack([np.cos(turns) * np.sqrt(1 - z * z), np.sin(turns) * np.sqrt(1 - z * z), z])
     cloud = tmp_path / "ball.xyz"
     cloud.write_text("".join(" ".join(repr(float(c)) for c in row) + "\n" for row in ball))

@@ -16,7 +16,7 @@ def interrupt_after(seconds):
 
 
 def test_ctrl_c_in_a_long_decimate_gives_the_best_so_far():
-    large = wave(300)
+    large = wave(150)
     interrupt_after(1.5)
     begun = time.monotonic()
     with pytest.raises(emax.Interrupted) as caught:
@@ -46,7 +46,7 @@ def test_ctrl_c_in_optimize_gives_the_best_so_far():
 
 
 def test_a_callback_may_end_the_work():
-    large = wave(200)
+    large = wave(90)
 
     def enough(news):
         raise StopIteration
@@ -76,7 +76,7 @@ def test_the_gil_is_released(mesh):
     made = [None, None]
 
     def work(i):
-        made[i] = emax.decimate(wave(120), 0.001, threads=1)
+        made[i] = emax.decimate(wave(50), 0.001, threads=1)
 
     workers = [threading.Thread(target=work, args=(i,)) for i in range(2)]
     begun = time.monotonic()
