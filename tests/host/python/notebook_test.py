@@ -1,0 +1,59 @@
+"""The cells of the notebook print what it shows, and so does the page of the package.
+
+With WRITE as an argument the outputs are written into the notebook anew.
+"""
+
+import contextlib
+import io
+import json
+import os
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+NOTEBOOK = ROOT / "docs/examples/python.ipynb"
+
+
+def printed(source, names):
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        exec(source, names)
+    return out.getvalue()
+
+
+def outputs(notebook):
+    names = {}
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            yield cell, printed("".join(cell["source"]), names)
+
+
+def test_the_notebook(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    checked = 0
+    for cell, text in outputs(json.loads(NOTEBOOK.read_text())):
+        assert "".join(cell["outputs"][0]["text"]) == text
+        checked += 1
+    assert checked == 4
+
+
+def test_the_page(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "data").symlink_to(ROOT / "data")
+    (tmp_path / "build").mkdir()
+    page = (ROOT / "docs/user/python.md").read_text()
+    examples = re.findall(r"```python\n(.*?)```\n\n```\n(.*?)```", page, re.DOTALL)
+    names = {}
+    for source, shown in examples:
+        assert printed(source, names) == shown
+    assert len(examples) == 2
+
+
+if __name__ == "__main__" and "WRITE" in sys.argv:
+    os.chdir(ROOT)
+    book = json.loads(NOTEBOOK.read_text())
+    for count, (cell, text) in enumerate(outputs(book), 1):
+        cell["execution_count"] = count
+        cell["outputs"] = [{"name": "stdout", "output_type": "stream", "text": text.splitlines(True)}]
+    NOTEBOOK.write_text(json.dumps(book, indent=1, ensure_ascii=False) + "\n")
