@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/files/mesh_file.h"
+#include "host/files/scan_folder.h"
 #include "host/files/sha256.h"
 
 namespace emax {
@@ -15,7 +16,7 @@ Certificate certificate_of(const CertifiedResult& result, const std::filesystem:
   Certificate certificate;
   certificate.mesh_file = mesh.filename().string();
   certificate.mesh_sha256 = std::move(mesh_sha256);
-  certificate.cloud_file = scan.path.filename().string();
+  certificate.cloud_file = name_of_input(scan.path);
   certificate.cloud_sha256 = result.cloud.sha256;
   certificate.reading = result.cloud.reading;
   certificate.vertices_of_mesh = result.cloud.vertices_of_mesh;
@@ -44,7 +45,7 @@ std::string certificate_text(const CertifiedResult& result, const std::filesyste
 
 WrittenResult write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
                            ReferenceFile* reference) {
-  std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh));
+  std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh), {.unit = result.cloud.scan.unit});
   const std::string mesh_sha256 = sha256(bytes);
   std::string certificate = certificate_text(result, mesh, mesh_sha256);
   std::vector<OutputFile> files;

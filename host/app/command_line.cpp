@@ -10,10 +10,21 @@
 #include "host/app/option_checks.h"
 #include "host/config/config.h"
 #include "host/device/device_address.h"
+#include "host/files/mesh_file.h"
 #include "host/parameters/descriptions.h"
 
 namespace emax {
 namespace {
+
+std::string mesh_help() { return fmt::format("mesh: {}", fmt::join(mesh_endings(), " ")); }
+
+std::string input_help(std::string_view what, std::string_view endings) {
+  return fmt::format("{}: {}, also with .gz or .zst behind; - for standard input", what, endings);
+}
+
+std::string mesh_input_help() {
+  return input_help("mesh", fmt::format("{}", fmt::join(mesh_endings(), " ")));
+}
 
 void add_json(CLI::App& command, std::string& json) {
   command.add_option("--json", json,
@@ -90,7 +101,8 @@ void add_points_and_json(CLI::App& command, std::string& excluded_share, CloudRe
 void add_common(CLI::App& command, CommonOptions& options) {
   command
       .add_option("CLOUD", options.cloud,
-                  fmt::format("point cloud: {}", fmt::join(cloud_endings(), " ")))
+                  input_help("point cloud", fmt::format("{}", fmt::join(cloud_endings(), " "))) +
+                      "; or a folder of them")
       ->required();
   command
       .add_option("--device", options.device, "device that evaluates the kernel: " + device_help())
@@ -140,7 +152,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
       "tolerance: N in the cloud's unit, N% of its width, or 0.5mm; without it the command "
       "only says which one suits the scan");
   add_level(command, optimize.level);
-  command.add_option("-o,--output", optimize.output, "mesh: .ply .obj .stl .off (required)");
+  command.add_option("-o,--output", optimize.output, mesh_help() + " (required)");
   add_chain(command, optimize.method, optimize.decimator);
   std::vector<std::string> one_sided = names_of_decimators(false);
   one_sided.emplace_back(kAutoDecimator);
@@ -222,7 +234,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   auto& decimate = line.decimate;
   CLI::App& command = *app.add_subcommand(
       "decimate", "reduce a mesh to as few triangles as a certified bound allows");
-  command.add_option("MESH", decimate.mesh, "mesh: .ply .obj .stl .off")->required();
+  command.add_option("MESH", decimate.mesh, mesh_input_help())->required();
   command.add_option(
       "--cloud", decimate.cloud,
       "point cloud whose points have to lie within the tolerance of the result (default: "
@@ -242,7 +254,7 @@ void add_decimate(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command.add_option("--back-error", decimate.back_error,
                      "how far the result may be from MESH, N or N% (default: --max-error)");
-  command.add_option("-o,--output", decimate.output, "mesh: .ply .obj .stl .off")->required();
+  command.add_option("-o,--output", decimate.output, mesh_help())->required();
   command
       .add_option("--effort", decimate.effort,
                   "how long to look for fewer triangles: quick only collapses edges, normal also "
@@ -302,7 +314,7 @@ void add_error(CLI::App& app, CommandLine& line) {
   CLI::App& command =
       *app.add_subcommand("error", "measure and certify the maximum error of a mesh");
   add_common(command, error.common);
-  command.add_option("MESH", error.mesh, "mesh: .ply .obj .stl .off")->required();
+  command.add_option("MESH", error.mesh, mesh_input_help())->required();
   command.add_option("--max-error", error.max_error,
                      "tolerance, N or N%: the output counts the points that are farther; exit "
                      "code 2 when the tolerance is exceeded");
@@ -380,7 +392,9 @@ void add_info(CLI::App& app, CommandLine& line) {
       "info", "say what a file of a cloud or a mesh holds, and which tolerance suits it");
   command
       .add_option("FILE", info.file,
-                  fmt::format("cloud or mesh: {} .stl", fmt::join(cloud_endings(), " ")))
+                  input_help("cloud or mesh",
+                             fmt::format("{} .stl .dxf", fmt::join(cloud_endings(), " "))) +
+                      "; or a folder of clouds")
       ->required();
   add_reading(command, info.reading);
   add_json(command, info.json);

@@ -59,6 +59,7 @@ class DecimateCommand {
                      {options.mesh, options.cloud});
     }
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
+    for (const ToleratedMesh& bound : bounds_) check_not_among_scans(bound.output, options.cloud);
     progress_.begin("reading", reading_seconds(options.mesh) +
                                    (own_cloud_ ? 0 : reading_seconds(options.cloud)));
     MeshFile file = read_mesh_file(options.mesh);
@@ -66,12 +67,14 @@ class DecimateCommand {
     lost_attributes_ = std::move(file.attributes);
     scan_ =
         own_cloud_ ? vertices_of(options.mesh, given_) : read_scan(options.cloud, options.reading);
+    if (own_cloud_) scan_.unit = file.unit;
     if (!options.unit.empty()) scan_.unit = unit_named(options.unit);
+    if (!own_cloud_) require_unit_of(scan_, options.mesh, file.unit);
     drop_unused_vertices(given_.vertices, given_.triangles);
     // The checksums are those of the files as they were read: files may change while the decimation
     // runs.
-    mesh_sha256_ = sha256_of_file(options.mesh);
-    cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_file(scan_.path);
+    mesh_sha256_ = sha256_of_input(options.mesh);
+    cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_input(scan_.path);
     if (back) back_ = below_width(*back, "--back-error", scan_);
     for (ToleratedMesh& bound : bounds_) bound.tolerance = bound.tolerance.in_unit_of(scan_.unit);
     // All tolerances have the same reference, which is made for the smallest.
@@ -87,6 +90,7 @@ class DecimateCommand {
       settings_.decimation.objective = DecimationSettings::Objective::kHoppe;
     }
     format_ = mesh_format(options.output);
+    require_unit(scan_.unit, format_, options.output);
     settings_.storage = storage_of(format_);
     require_storable(given_, format_, std::min(epsilon_, epsilon_back()), options.output);
   }

@@ -49,7 +49,9 @@ ErrorReference read_reference(const ErrorOptions& options, const Scan& scan) {
     return cloud_reference(scan.path.string(), ErrorReference::Kind::kScan, scan.cloud.points);
   }
   if (is_surface(options.reference)) {
-    return {options.reference, ErrorReference::Kind::kSurface, read_mesh(options.reference)};
+    MeshFile file = read_mesh_file(options.reference);
+    require_unit_of(scan, options.reference, file.unit);
+    return {options.reference, ErrorReference::Kind::kSurface, std::move(file.mesh)};
   }
   PointCloud cloud = read_cloud(options.reference, {options.common.reading.skip_invalid});
   return cloud_reference(options.reference, ErrorReference::Kind::kCloud, std::move(cloud.points));
@@ -129,7 +131,7 @@ std::vector<ReportInput> inputs_of(const ErrorOptions& options) {
   std::vector<ReportInput> inputs;
   if (options.common.report.report.empty()) return inputs;
   const auto add = [&](const char* name, const std::string& file) {
-    if (!file.empty()) inputs.push_back(report_input(name, file, sha256_of_file(file)));
+    if (!file.empty()) inputs.push_back(report_input(name, file, sha256_of_input(file)));
   };
   add("cloud", options.common.cloud);
   add("mesh", options.mesh);
@@ -162,9 +164,11 @@ int run_error(const ErrorOptions& options) {
   question.excluded_share = parse_share(options.common.excluded_share);
   question.tolerance = given_tolerance(options.max_error, options.level);
   check_outputs(options);
-  TriangleMesh mesh = read_mesh(options.mesh);
+  MeshFile file = read_mesh_file(options.mesh);
+  TriangleMesh& mesh = file.mesh;
   drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
   const Scan scan = read_scan(options.common.cloud, options.common.reading, options.common.unit);
+  require_unit_of(scan, options.mesh, file.unit);
   if (question.tolerance) question.tolerance = question.tolerance->in_unit_of(scan.unit);
   std::optional<ErrorReference> reference;
   if (options.two_sided) reference = read_reference(options, scan);

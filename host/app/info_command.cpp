@@ -10,6 +10,7 @@
 #include "host/files/atomic_file.h"
 #include "host/files/cloud_file.h"
 #include "host/files/mesh_file.h"
+#include "host/files/scan_folder.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/scan_estimate.h"
@@ -40,6 +41,7 @@ Contents read(const InfoOptions& options) {
     }
     contents.mesh = read_mesh_file(options.file);
     contents.cloud.points = contents.mesh->mesh.vertices;
+    contents.cloud.unit = contents.mesh->unit;
     contents.validity = check_mesh(contents.mesh->mesh.view());
     contents.topology = topology_of(contents.mesh->mesh.view());
   } else {
@@ -51,8 +53,7 @@ Contents read(const InfoOptions& options) {
 }
 
 void print(const InfoOptions& options, const Contents& c) {
-  fmt::print("file           {}, {} bytes\n", options.file,
-             grouped(std::filesystem::file_size(options.file)));
+  fmt::print("file           {}, {} bytes\n", options.file, grouped(bytes_of_input(options.file)));
   if (c.mesh) {
     fmt::print("mesh           {} triangles, {} vertices; {}\n",
                grouped(c.mesh->mesh.triangles.size()), grouped(c.cloud.points.size()),
@@ -72,12 +73,12 @@ void print(const InfoOptions& options, const Contents& c) {
       for (const ScanPart& scan : c.cloud.scans) names.push_back(scan.name);
       fmt::print("scans          {}: {}\n", names.size(), fmt::join(names, ", "));
     }
-    if (c.cloud.unit) fmt::print("unit           {}\n", c.cloud.unit->name);
     if (c.cloud.resolution > 0) {
       fmt::print("resolution     stored within {:.3g}: enough for --max-error {:.3g} and more\n",
                  c.cloud.resolution, c.cloud.resolution / kResolutionShare);
     }
   }
+  if (c.cloud.unit) fmt::print("unit           {}\n", c.cloud.unit->name);
   const Point size = c.bounds.upper - c.bounds.lower;
   fmt::print("extent         {:.6g} x {:.6g} x {:.6g}, from ({:.6g}, {:.6g}, {:.6g})\n", size.x(),
              size.y(), size.z(), c.bounds.lower.x(), c.bounds.lower.y(), c.bounds.lower.z());

@@ -17,6 +17,7 @@
 #include "host/app/search_settings.h"
 #include "host/app/standard_streams.h"
 #include "host/files/atomic_file.h"
+#include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
 #include "host/files/tolerance.h"
 #include "host/geometry/scan_estimate.h"
@@ -63,6 +64,7 @@ class OptimizeCommand {
                     two_sided ? reference_path(options.output) : "", options.common.json,
                     report.report, report.picture},
                    {options.common.cloud, options.config});
+    check_not_among_scans(options.output, options.common.cloud);
     const std::string folder = options.resume.empty() ? options.output + ".run" : options.resume;
     check_outside({options.output, certificate_path(options.output), options.common.json,
                    report.report, report.picture},
@@ -71,9 +73,10 @@ class OptimizeCommand {
     settings_.seconds_left = [this] { return seconds_left() - writing_seconds_; };
     phase_.begin("reading the cloud", reading_seconds(options.common.cloud));
     scan_ = read_scan(options.common.cloud, options.common.reading, options.common.unit);
-    cloud_sha256_ = sha256_of_file(scan_.path);
+    cloud_sha256_ = sha256_of_input(scan_.path);
     phase_.end();
     reading_ended_ = Clock::now();
+    require_unit(scan_.unit, mesh_format(options.output), options.output);
     epsilon_ = below_width(*given, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);

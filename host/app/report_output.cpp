@@ -7,6 +7,7 @@
 
 #include "host/app/scan.h"
 #include "host/files/atomic_file.h"
+#include "host/files/scan_folder.h"
 #include "host/files/tolerance.h"
 #include "host/report/report_page.h"
 #include "sw_model/base/parallel.h"
@@ -130,7 +131,7 @@ ReportData report_of_result(const ReportOptions& wanted, const CertifiedResult& 
 }
 
 ReportInput report_input(std::string name, const std::filesystem::path& file, std::string sha256) {
-  return {std::move(name), file.filename().string(), std::move(sha256)};
+  return {std::move(name), name_of_input(file), std::move(sha256)};
 }
 
 std::string shell_word(const std::string& text) {

@@ -11,6 +11,7 @@
 #include "host/files/cloud_file.h"
 #include "host/files/input_file.h"
 #include "host/files/mesh_file.h"
+#include "host/files/spooled_input.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/exact_predicates.h"
 #include "host/geometry/merge_vertices.h"
@@ -27,6 +28,14 @@ Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& readin
   check_cloud(scan.cloud, path.string());
   scan.width = bounds_of(scan.cloud.points).width();
   return scan;
+}
+
+void require_unit_of(const Scan& scan, const std::filesystem::path& file,
+                     const std::optional<Unit>& unit) {
+  if (!unit || !scan.unit || unit == scan.unit) return;
+  throw Error(fmt::format("{}: is in {}, but {} is in {}; convert one of them{}", file.string(),
+                          unit->name, scan.path.string(), scan.unit->name,
+                          scan.cloud.unit ? "" : ", or leave --unit out to compare the numbers"));
 }
 
 std::string describe(const Scan& scan) {
@@ -59,7 +68,8 @@ Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh) {
 }
 
 bool is_surface(const std::filesystem::path& path) {
-  const std::string ending = lower_case_ending(path);
+  if (std::filesystem::is_directory(path)) return false;
+  const std::string ending = format_ending(path);
   const auto among = [&](std::span<const std::string_view> endings) {
     return std::ranges::find(endings, ending) != endings.end();
   };
@@ -108,7 +118,20 @@ double below_width(const Tolerance& tolerance, std::string_view option, const Sc
                   option, length, scan.path.string(), scan.width));
 }
 
+void check_not_among_scans(const std::filesystem::path& output,
+                           const std::filesystem::path& cloud) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(cloud)) return;
+  const fs::path folder = fs::absolute(output).parent_path();
+  if (!fs::is_directory(folder) || !fs::equivalent(folder, cloud)) return;
+  throw Error(fmt::format("{}: lies among the scans of {}; name an output outside of it",
+                          output.string(), cloud.string()));
+}
+
 void check_mesh_outputs(const std::filesystem::path& mesh, bool with_reference) {
+  if (mesh == kStandardInput) {
+    throw Error("-o -: the certificate lies beside the mesh, so the mesh needs a file; name one");
+  }
   check_output(mesh, mesh_endings());
   check_output(certificate_path(mesh), kJsonEndings);
   if (with_reference) check_output(reference_path(mesh), mesh_endings());

@@ -51,6 +51,11 @@ Scan vertices_of(const std::filesystem::path& path, const TriangleMesh& mesh);
 Scan read_scan(const std::filesystem::path& path, const CloudReadOptions& reading,
                std::string_view unit = {});
 
+// Throws Error if a file states a unit for its mesh, and the scan's numbers are known to be in
+// another.
+void require_unit_of(const Scan& scan, const std::filesystem::path& file,
+                     const std::optional<Unit>& unit);
+
 // What a command prints of its scan: "scan.ply: 1,234 points, width 5 m", and which unit was taken
 // in place of the file's.
 std::string describe(const Scan& scan);
@@ -81,6 +86,9 @@ double below_width(const Tolerance& tolerance, std::string_view option, const Sc
 
 // Calls check_output for the mesh, the certificate and, if there may be one, the reference.
 void check_mesh_outputs(const std::filesystem::path& mesh, bool with_reference);
+
+// Throws Error if `output` would lie in the folder of scans that is read, and become one of them.
+void check_not_among_scans(const std::filesystem::path& output, const std::filesystem::path& cloud);
 
 // "N" or "N%" of the points, 0 <= N < 1 (100%). Throws Error.
 double parse_share(std::string_view text);

@@ -15,6 +15,7 @@
 #include "host/files/input_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
+#include "host/files/spooled_input.h"
 #include "host/parameters/decimation_bound.h"
 #include "host/report/certificate_file.h"
 #include "host/report/verification_json.h"
@@ -29,6 +30,10 @@ namespace {
 std::filesystem::path locate(const std::string& named, const std::string& file, const char* option,
                              const std::filesystem::path& certificate, bool also_here) {
   if (!named.empty()) return named;
+  if (file == kStandardInput) {
+    throw Error(fmt::format("{}: was made from standard input; name a file of the same with --{}",
+                            certificate.string(), option));
+  }
   std::filesystem::path beside = certificate.parent_path() / file;
   if (std::filesystem::exists(beside)) return beside;
   if (also_here && std::filesystem::exists(file)) return file;
@@ -161,7 +166,7 @@ class Verification {
   void check_files() {
     const auto check = [&](const char* name, const std::filesystem::path& file,
                            const std::string& claimed) {
-      inputs_.push_back(report_input(name, file, sha256_of_file(file)));
+      inputs_.push_back(report_input(name, file, sha256_of_input(file)));
       require("files", inputs_.back().sha256 == claimed,
               fmt::format("{} is not the {} that was certified (SHA-256)", file.string(), name));
     };
@@ -332,9 +337,8 @@ class Verification {
     }
     if (certificate_.reference) {
       const ReferenceBound& reference = *certificate_.reference;
-      fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
-                 mesh_path_.string(), reference.epsilon_back, reference_path_.string(),
-                 reference.mesh_to_reference);
+      fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n", mesh_path_.string(),
+                 reference.epsilon_back, reference_path_.string(), reference.mesh_to_reference);
       if (reference.reference_to_mesh <= certificate_.epsilon) {
         fmt::print("yes: all of {} lies within {:.9g} of {} (at most {:.9g})\n",
                    reference_path_.string(), certificate_.epsilon, mesh_path_.string(),
@@ -345,9 +349,9 @@ class Verification {
       }
     }
     fmt::print("yes: {} has {}\n", mesh_path_.string(),
-               describe(certificate_.topology,
-                        certificate_.reference ? std::optional(certificate_.reference->topology)
-                                               : std::nullopt));
+               describe(certificate_.topology, certificate_.reference
+                                                   ? std::optional(certificate_.reference->topology)
+                                                   : std::nullopt));
   }
 
   std::filesystem::path path_;
@@ -366,9 +370,7 @@ class Verification {
 
 }  // namespace
 
-CheckedClaims check_files(const VerifyOptions& options) {
-  return Verification(options).run();
-}
+CheckedClaims check_files(const VerifyOptions& options) { return Verification(options).run(); }
 
 CheckedClaims check_claims(const Certificate& certificate, const TriangleMesh& mesh,
                            const Scan& scan, const TriangleMesh* reference) {

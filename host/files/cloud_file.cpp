@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/files/file_content.h"
+#include "host/files/scan_folder.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -16,25 +17,28 @@ namespace {
 using Reader = FileContent (*)(const InputFile&);
 using StreamReader = FileContent (*)(const InputStream&, const CloudReadOptions&);
 
-constexpr std::array<std::string_view, 12> kEndings{".ply", ".pcd", ".xyz", ".asc", ".txt", ".pts",
-                                                    ".obj", ".off", ".las", ".laz", ".e57", ".ptx"};
+constexpr std::array<std::string_view, 14> kEndings{".ply", ".pcd", ".xyz", ".asc", ".txt",
+                                                    ".pts", ".obj", ".off", ".las", ".laz",
+                                                    ".e57", ".ptx", ".glb", ".3mf"};
 // Those of the other endings.
 constexpr std::array<std::pair<std::string_view, StreamReader>, 3> kStreamReaders{
     {{".las", read_las}, {".laz", read_las}, {".e57", read_e57}}};
-constexpr std::array<std::pair<std::string_view, Reader>, 9> kReaders{{{".ply", read_ply},
-                                                                       {".pcd", read_pcd},
-                                                                       {".xyz", read_xyz},
-                                                                       {".asc", read_xyz},
-                                                                       {".txt", read_xyz},
-                                                                       {".pts", read_pts},
-                                                                       {".obj", read_obj},
-                                                                       {".off", read_off},
-                                                                       {".ptx", read_ptx}}};
+constexpr std::array<std::pair<std::string_view, Reader>, 11> kReaders{{{".ply", read_ply},
+                                                                        {".pcd", read_pcd},
+                                                                        {".xyz", read_xyz},
+                                                                        {".asc", read_xyz},
+                                                                        {".txt", read_xyz},
+                                                                        {".pts", read_pts},
+                                                                        {".obj", read_obj},
+                                                                        {".off", read_off},
+                                                                        {".glb", read_glb},
+                                                                        {".3mf", read_threemf},
+                                                                        {".ptx", read_ptx}}};
 
 constexpr auto kEndingOf = [](const auto& reader) { return reader.first; };
 
 FileContent read_content(const std::filesystem::path& path, const CloudReadOptions& options) {
-  const std::string ending = lower_case_ending(path);
+  const std::string ending = format_ending(path);
   const auto of_stream = std::ranges::find(kStreamReaders, ending, kEndingOf);
   if (of_stream != kStreamReaders.end()) {
     const InputStream input(path);
@@ -95,6 +99,7 @@ std::string describe(const std::vector<LeftOut>& left_out) {
 }
 
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options) {
+  if (std::filesystem::is_directory(path)) return read_scan_folder(path, options);
   const NamedInput input{path.string()};
   FileContent content = read_content(path, options);
   if (!options.left_out_classes.empty() && !content.has_classes) {

@@ -22,7 +22,8 @@ struct CloudReadOptions {
   bool operator==(const CloudReadOptions&) const = default;
 };
 
-// The endings that read_cloud knows: .ply .pcd .xyz .asc .txt .pts .obj .off .las .laz .e57 .ptx.
+// The endings that read_cloud knows: .ply .pcd .xyz .asc .txt .pts .obj .off .las .laz .e57 .ptx
+// .glb .3mf.
 std::span<const std::string_view> cloud_endings();
 
 // Reads a cloud by the ending of `path`. Coordinates are those of the file to the last bit: text is
@@ -31,7 +32,8 @@ std::span<const std::string_view> cloud_endings();
 // are estimated. Throws Error where the file does not keep exactly to its format. Nothing is
 // guessed, nothing missing is filled in, and nothing is allocated for a count that the file cannot
 // hold. Points that a file marks as invalid or empty are left out and counted. The poses of scans
-// are applied. LAS, LAZ and E57 files are read in pieces.
+// are applied. LAS, LAZ and E57 files are read in pieces. A folder is read as one cloud
+// (scan_folder.h); `path` may be compressed or standard input as InputStream's may.
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options = {});
 
 // "120 empty cells, 3 not finite"

@@ -44,6 +44,8 @@ struct FileContent {
   std::optional<Unit> unit;
   double resolution = 0;
   bool has_classes = false;  // the format gives each point a class
+  // A mesh is read with vertices of equal coordinates merged.
+  bool repeats_vertices = false;
 
   void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
     if (first_invalid.empty() && !point.allFinite()) {
@@ -137,6 +139,11 @@ FileContent read_ply(const InputFile& input);  // ascii, binary little and big e
 FileContent read_off(const InputFile& input);  // [C][N]OFF
 FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are ignored
 FileContent read_stl(const InputFile& input);  // ascii, binary; equal vertices merged
+// glTF 2.0 binary: the triangles and points of its scene, with the transforms of the nodes applied.
+FileContent read_glb(const InputFile& input);
+// What is built of a 3MF package (core and production specification), with all transforms applied.
+FileContent read_threemf(const InputFile& input);
+FileContent read_dxf(const InputFile& input);  // ascii; the 3DFACEs
 FileContent read_pcd(const InputFile& input);  // ascii, binary, binary_compressed
 // Columns: x y z, then any others (intensity, colour, normal in any order), as many in every row.
 // The first three columns after x y z that hold a unit vector in every row are the normal. Columns

@@ -9,8 +9,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "host/files/number_text.h"
+#include "host/files/spooled_input.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -33,6 +35,8 @@ std::string_view ending_by_content(std::string_view bytes) {
   if (bytes.starts_with("LASF") && bytes.size() > kPointFormat) {
     return (static_cast<unsigned char>(bytes[kPointFormat]) & 0x80) != 0 ? ".laz" : ".las";
   }
+  if (bytes.starts_with("glTF")) return ".glb";
+  if (bytes.starts_with("PK\3\4")) return ".3mf";
   const std::string_view first_line = trimmed(bytes.substr(0, bytes.find('\n')));
   if (first_line == "ply") return ".ply";
   if (first_line.starts_with("# .PCD") || first_line.starts_with("VERSION ")) return ".pcd";
@@ -42,14 +46,35 @@ std::string_view ending_by_content(std::string_view bytes) {
   return {};
 }
 
-constexpr std::string_view kCheckDisk = "check its permissions and the disk";
-
-std::string unreadable(int error) {
-  return fmt::format("cannot be read ({})", std::strerror(error));
+// As ending_by_content(), but for all formats that can be told apart; .xyz if it is none of these.
+std::string_view ending_shown_by(std::string_view head, std::uint64_t size) {
+  const std::string_view known = ending_by_content(head);
+  if (!known.empty()) return known;
+  constexpr std::size_t kStlHeader = 84, kStlTriangle = 50;
+  if (head.size() >= kStlHeader) {
+    std::uint32_t triangles = 0;
+    std::memcpy(&triangles, head.data() + kStlHeader - sizeof triangles, sizeof triangles);
+    if (size == kStlHeader + std::uint64_t{triangles} * kStlTriangle) return ".stl";
+  }
+  std::string_view rest = head;
+  while (!rest.empty()) {  // the first line that is not a comment
+    const std::string_view line = trimmed(rest.substr(0, rest.find('\n')));
+    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+    if (line.empty() || line.starts_with('#')) continue;
+    const std::string_view word = line.substr(0, line.find(' '));
+    constexpr std::array<std::string_view, 7> kObj = {"v", "vn",     "vt",    "o",
+                                                      "g", "mtllib", "usemtl"};
+    if (std::ranges::find(kObj, word) != kObj.end()) return ".obj";
+    if (line == "0" && trimmed(rest.substr(0, rest.find('\n'))) == "SECTION") return ".dxf";
+    break;
+  }
+  return ".xyz";
 }
 
+constexpr std::string_view kCheckDisk = "check its permissions and the disk";
+
 [[noreturn]] void fail_to_read(const NamedInput& input, int error) {
-  input.fail(unreadable(error), kCheckDisk);
+  input.fail(fmt::format("cannot be read ({})", std::strerror(error)), kCheckDisk);
 }
 
 }  // namespace
@@ -58,22 +83,39 @@ void NamedInput::fail(std::string_view what, std::string_view remedy) const {
   throw Error(fmt::format("{}: {}; {}", name, what, remedy));
 }
 
-InputStream::InputStream(const std::filesystem::path& path) : NamedInput{path.string()} {
+InputStream::InputStream(const std::filesystem::path& path)
+    : NamedInput{path == kStandardInput ? std::string(kStandardInputInMessages) : path.string()} {
+  if (path == kStandardInput) {
+    descriptor_ = standard_input();
+    size_ = size_of(descriptor_);
+    return;
+  }
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) {
     if (errno == ENOENT || errno == ENOTDIR) fail("no such file", "check the path");
     fail_to_read(*this, errno);
   }
-  struct stat status {};
-  const int failure = fstat(descriptor_, &status) != 0 ? errno : 0;
-  const auto refuse = [&](std::string_view what, std::string_view remedy) {
+  try {
+    size_ = size_of(descriptor_);
+    const Compression compression = compression_of(path);
+    if (compression == Compression::kNone || size_ == 0) return;
+    const int plain = inflated(*this, descriptor_, size_, compression);
+    close(std::exchange(descriptor_, plain));
+    size_ = size_of(plain);
+  } catch (...) {
     close(descriptor_);
-    fail(what, remedy);
-  };
-  if (failure != 0) refuse(unreadable(failure), kCheckDisk);
-  if (S_ISDIR(status.st_mode)) refuse("is a folder", "name a file in it");
-  if (!S_ISREG(status.st_mode)) refuse("is not a regular file", "copy the data into a file");
-  size_ = static_cast<std::uint64_t>(status.st_size);
+    throw;
+  }
+}
+
+std::uint64_t InputStream::size_of(int descriptor) const {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) fail_to_read(*this, errno);
+  if (S_ISDIR(status.st_mode)) fail("is a folder", "name a file in it");
+  if (!S_ISREG(status.st_mode)) {
+    fail("is not a regular file", "copy the data into a file, or give it to standard input as -");
+  }
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 InputStream::~InputStream() { close(descriptor_); }
@@ -103,7 +145,8 @@ InputFile read_input(const std::filesystem::path& path) {
   input.bytes.resize(static_cast<std::size_t>(file.size()) + 1);
   while (true) {
     if (used == input.bytes.size()) input.bytes.resize(2 * used);
-    const ssize_t n = read(file.descriptor(), input.bytes.data() + used, input.bytes.size() - used);
+    const ssize_t n = pread(file.descriptor(), input.bytes.data() + used, input.bytes.size() - used,
+                            static_cast<off_t>(used));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail_to_read(input, errno);
     if (n == 0) break;
@@ -120,6 +163,15 @@ std::string lower_case_ending(const std::filesystem::path& path) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return ending;
+}
+
+std::string format_ending(const std::filesystem::path& path) {
+  if (path == kStandardInput) {
+    const InputStream input(path);
+    return std::string(ending_shown_by(input.head(), input.size()));
+  }
+  const bool is_plain = compression_of(path) == Compression::kNone;
+  return lower_case_ending(is_plain ? path : std::filesystem::path(path).replace_extension());
 }
 
 void check_ending_fits(const NamedInput& input, std::string_view head, std::string_view ending) {

@@ -23,22 +23,26 @@ struct InputFile : NamedInput {
   std::string bytes;
 };
 
-// An open file that is read in pieces, for formats whose points fill gigabytes.
+// An open file that is read in pieces, for formats whose points fill gigabytes. A name that ends in
+// .gz or .zst is that of a compressed file, which is inflated; "-" is standard input
+// (spooled_input.h).
 class InputStream : public NamedInput {
  public:
-  // Throws Error when `path` is missing, empty, not a regular file or cannot be opened.
+  // Throws Error when `path` is missing, not a regular file or cannot be opened.
   explicit InputStream(const std::filesystem::path& path);
   ~InputStream();
   InputStream(const InputStream&) = delete;
   InputStream& operator=(const InputStream&) = delete;
 
-  std::uint64_t size() const { return size_; }  // when it was opened
+  std::uint64_t size() const { return size_; }  // when it was opened, inflated
   int descriptor() const { return descriptor_; }
   // Throws Error when the file ends before.
   void read(std::uint64_t offset, std::span<std::uint8_t> to) const;
   std::string head() const;  // the first bytes, those that tell the format
 
  private:
+  std::uint64_t size_of(int descriptor) const;
+
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };
@@ -52,6 +56,9 @@ InputFile read_input(const std::filesystem::path& path);
 
 // The ending in lower case, with its dot; empty when there is none.
 std::string lower_case_ending(const std::filesystem::path& path);
+// The ending of the format of an input: that before .gz or .zst, and for standard input the one
+// that its content shows, .xyz if it shows none.
+std::string format_ending(const std::filesystem::path& path);
 
 // Throws Error if the content, which begins with `head`, is that of another format than the one of
 // `ending`.

@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <iterator>
 
 #include "host/files/atomic_file.h"
 #include "host/files/file_content.h"
-#include "host/files/number_text.h"
+#include "host/files/mesh_writers.h"
+#include "host/files/threemf_names.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/geometry/polygon_triangulation.h"
 #include "sw_model/base/error.h"
@@ -21,82 +19,28 @@ namespace {
 using Reader = FileContent (*)(const InputFile&);
 
 // In the order of MeshFormat.
-constexpr std::array<std::string_view, 4> kEndings{".ply", ".obj", ".stl", ".off"};
-constexpr std::array<Reader, 4> kReaders{read_ply, read_obj, read_stl, read_off};
+constexpr std::array<std::string_view, 7> kEndings{".ply", ".obj", ".stl", ".off",
+                                                   ".glb", ".3mf", ".dxf"};
+constexpr std::array<Reader, 7> kReaders{read_ply, read_obj,     read_stl, read_off,
+                                         read_glb, read_threemf, read_dxf};
 
-template <class Value>
-void append(std::string& bytes, const Value& value) {
-  static_assert(std::endian::native == std::endian::little);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+std::optional<MeshFormat> format_with(std::string_view ending) {
+  const auto known = std::ranges::find(kEndings, ending);
+  if (known == kEndings.end()) return std::nullopt;
+  return static_cast<MeshFormat>(known - kEndings.begin());
 }
 
-std::string ply_bytes(const TriangleMesh& mesh) {
-  std::string bytes = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\n"
-      "property double y\nproperty double z\nelement face {}\n"
-      "property list uchar int vertex_indices\nend_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
-  bytes.reserve(bytes.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
-  for (const Point& v : mesh.vertices) {
-    for (int k = 0; k < 3; ++k) append(bytes, v[k]);
-  }
-  for (const Triangle& t : mesh.triangles) {
-    append(bytes, std::uint8_t{3});
-    for (const std::uint32_t corner : t) append(bytes, corner);
-  }
-  return bytes;
-}
-
-void append_vertices(std::string& text, const TriangleMesh& mesh, std::string_view before) {
-  for (const Point& v : mesh.vertices) {
-    text += before;
-    for (int k = 0; k < 3; ++k) {
-      append_shortest(text, v[k]);
-      text += k < 2 ? ' ' : '\n';
-    }
-  }
-}
-
-std::string obj_bytes(const TriangleMesh& mesh) {
-  std::string text;
-  append_vertices(text, mesh, "v ");
-  for (const Triangle& t : mesh.triangles) {
-    fmt::format_to(std::back_inserter(text), "f {} {} {}\n", std::uint64_t{t[0]} + 1,
-                   std::uint64_t{t[1]} + 1, std::uint64_t{t[2]} + 1);
-  }
-  return text;
-}
-
-std::string off_bytes(const TriangleMesh& mesh) {
-  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
-  append_vertices(text, mesh, "");
-  for (const Triangle& t : mesh.triangles) {
-    fmt::format_to(std::back_inserter(text), "3 {} {} {}\n", t[0], t[1], t[2]);
-  }
-  return text;
-}
-
-std::string stl_bytes(const TriangleMesh& mesh) {
-  std::string bytes = "binary STL written by emax";
-  bytes.resize(80, ' ');
-  bytes.reserve(84 + 50 * mesh.triangles.size());
-  append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::array<Point, 3> corners = mesh.view().corners(t);
-    const Point normal =
-        (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
-    for (const Point& p : {normal, corners[0], corners[1], corners[2]}) {
-      for (int k = 0; k < 3; ++k) append(bytes, static_cast<float>(p[k]));
-    }
-    append(bytes, std::uint16_t{0});
-  }
-  return bytes;
+[[noreturn]] void fail_at_ending(const std::filesystem::path& path, std::string_view ending) {
+  throw Error(fmt::format("{}: unknown ending \"{}\"; meshes end in {}", path.string(),
+                          printable(ending), fmt::join(kEndings, ", ")));
 }
 
 FileContent read_content(const InputFile& input, const std::filesystem::path& path) {
-  const std::size_t format = static_cast<std::size_t>(mesh_format(path));
-  check_ending_fits(input, input.bytes, kEndings[format]);
-  return kReaders[format](input);
+  const std::string ending = format_ending(path);
+  const std::optional<MeshFormat> format = format_with(ending);
+  if (!format) fail_at_ending(path, ending);
+  check_ending_fits(input, input.bytes, ending);
+  return kReaders[static_cast<std::size_t>(*format)](input);
 }
 
 // Meshes of depth images have a vertex for every pixel, NaN where nothing was seen. Such a vertex
@@ -119,12 +63,9 @@ std::span<const std::string_view> mesh_endings() { return kEndings; }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   const std::string ending = lower_case_ending(path);
-  const auto known = std::ranges::find(kEndings, ending);
-  if (known == kEndings.end()) {
-    throw Error(fmt::format("{}: unknown ending \"{}\"; meshes end in {}", path.string(),
-                            printable(ending), fmt::join(kEndings, ", ")));
-  }
-  return static_cast<MeshFormat>(known - kEndings.begin());
+  const std::optional<MeshFormat> format = format_with(ending);
+  if (!format) fail_at_ending(path, ending);
+  return *format;
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path) { return read_mesh_file(path).mesh; }
@@ -142,43 +83,69 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   for (const auto& [first, count] : content.fans) {
     triangulate(std::span(content.triangles).subspan(first, count), content.vertices);
   }
+  if (content.repeats_vertices) merge_equal_vertices(content.vertices, content.triangles);
   return {{std::move(content.vertices), std::move(content.triangles)},
-          std::move(content.attributes)};
+          std::move(content.attributes),
+          content.unit};
 }
 
 bool holds_triangles(const std::filesystem::path& path) {
   return !read_content(read_input(path), path).triangles.empty();
 }
 
-std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format) {
+std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format, const MeshNotes& notes) {
   switch (format) {
     case MeshFormat::kPly:
-      return ply_bytes(mesh);
+      return ply_bytes(mesh, notes);
     case MeshFormat::kObj:
       return obj_bytes(mesh);
     case MeshFormat::kStl:
       return stl_bytes(mesh);
+    case MeshFormat::kGlb:
+      return glb_bytes(mesh, notes);
+    case MeshFormat::kThreeMf:
+      return threemf_bytes(mesh, notes);
+    case MeshFormat::kDxf:
+      return dxf_bytes(mesh, notes);
     default:
       return off_bytes(mesh);
   }
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  write_atomically(path, mesh_bytes(mesh, mesh_format(path)));
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                const MeshNotes& notes) {
+  require_unit(notes.unit, mesh_format(path), path);
+  write_atomically(path, mesh_bytes(mesh, mesh_format(path), notes));
+}
+
+void require_unit(const std::optional<Unit>& unit, MeshFormat format,
+                  const std::filesystem::path& path) {
+  if (format != MeshFormat::kThreeMf || !unit || threemf_unit(*unit)) return;
+  throw Error(fmt::format("{}: 3MF has no word for the unit {}; write .glb, .dxf or .ply instead",
+                          path.string(), unit->name));
 }
 
 Storage storage_of(MeshFormat format) {
-  return format == MeshFormat::kStl ? Storage::kBinary32 : Storage::kExact;
+  switch (format) {
+    case MeshFormat::kStl:
+      return Storage::kBinary32;
+    case MeshFormat::kGlb:
+      return Storage::kShiftedBinary32;
+    case MeshFormat::kDxf:
+      return Storage::kMerged;
+    default:
+      return Storage::kExact;
+  }
 }
 
 void require_storable(const TriangleMesh& mesh, MeshFormat format, double epsilon,
                       const std::filesystem::path& path) {
   const double displacement = storage_displacement(mesh, storage_of(format));
   if (displacement > epsilon / 100) {
-    throw Error(
-        fmt::format("{}: 32-bit STL would move a vertex by {:.3g}, more than a hundredth of "
-                    "the maximum error {:.6g}; write .ply, .obj or .off instead",
-                    path.string(), displacement, epsilon));
+    throw Error(fmt::format(
+        "{}: the 32 bits of {} would move a vertex by {:.3g}, more than a hundredth of "
+        "the maximum error {:.6g}; write .ply, .obj or .off instead",
+        path.string(), format == MeshFormat::kStl ? "STL" : "GLB", displacement, epsilon));
   }
 }
 

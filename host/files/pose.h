@@ -7,7 +7,8 @@
 
 namespace emax {
 
-// The place and direction of a scanner: a rotation about the origin, then a shift.
+// The place and direction of a scanner: a rotation about the origin, then a shift. For the parts of
+// GLB and 3MF files the matrix may be any.
 struct Pose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Point shift = Point::Zero();
@@ -26,6 +27,11 @@ struct Pose {
   // changes lengths by about half of this share.
   double defect() const;
 };
+
+// First `inner`, then `outer`.
+inline Pose operator*(const Pose& outer, const Pose& inner) {
+  return {outer.rotation * inner.rotation, outer(inner.shift)};
+}
 
 // A pose with a greater defect is refused. Files of six digits stay below.
 inline constexpr double kGreatestDefect = 1e-5;

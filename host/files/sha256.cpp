@@ -1,16 +1,19 @@
 #include "host/files/sha256.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <span>
 #include <stdexcept>
 
+#include "host/files/scan_folder.h"
+#include "host/files/spooled_input.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -52,16 +55,27 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     throw Error(fmt::format("{}: cannot be read ({}); check the path and its permissions",
                             path.string(), std::strerror(errno)));
   };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rbe"),
-                                                             std::fclose);
-  if (!file) fail();
+  const int descriptor =
+      path == kStandardInput ? standard_input() : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail();
   Digest digest;
   std::array<char, 1 << 16> piece;
-  while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), file.get())) {
-    digest.add({piece.data(), n});
+  ssize_t n = 0;
+  for (off_t at = 0; (n = pread(descriptor, piece.data(), piece.size(), at)) != 0;) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) break;
+    digest.add({piece.data(), static_cast<std::size_t>(n)});
+    at += n;
   }
-  if (std::ferror(file.get()) != 0) fail();
+  const int error = errno;
+  close(descriptor);
+  errno = error;
+  if (n < 0) fail();
   return digest.hexadecimal();
+}
+
+std::string sha256_of_input(const std::filesystem::path& path) {
+  return std::filesystem::is_directory(path) ? sha256_of_folder(path) : sha256_of_file(path);
 }
 
 }  // namespace emax

@@ -39,7 +39,7 @@ GivenMesh mesh_of_arrays(PointRows vertices, IndexRows faces) {
 }
 
 GivenMesh mesh_of_file(const std::string& file) {
-  return {read_mesh(file), file, sha256_of_file(file)};
+  return {read_mesh(file), file, sha256_of_input(file)};
 }
 
 GivenCloud cloud_of_array(PointRows points) {
@@ -55,7 +55,7 @@ GivenCloud cloud_of_file(const std::string& file, bool skip_invalid) {
   GivenCloud given;
   given.reading.skip_invalid = skip_invalid;
   given.scan = read_scan(file, given.reading);
-  given.sha256 = sha256_of_file(file);
+  given.sha256 = sha256_of_input(file);
   return given;
 }
 

@@ -18,6 +18,8 @@ FAULT = re.compile(r"^emax_fuzz\((\w+) .*\bFAULT\b", re.MULTILINE)
 FAULT_SECONDS = 60  # a deliberate fault is found long before, on any machine
 # The greatest input, and limits on what a reader may take for it: MB at once and in all, seconds.
 LIMITS = ["-max_len=4096", "-malloc_limit_mb=64", "-rss_limit_mb=1024", "-timeout=20", "-report_slow_units=60"]
+# A frame of Zstandard may ask for a window of 128 MiB.
+LIMITS_OF = {"fuzz_compressed": ["-malloc_limit_mb=160"]}
 
 
 class Failure(Exception):
@@ -37,7 +39,8 @@ class Session:
 
     def __init__(self, program, seconds, options, scratch, fresh=False):
         self.program, self.folder = BUILD / "bin" / program, BUILD / program
-        self.arguments = [f"-max_total_time={seconds}", f"-seed={options.seed}", *LIMITS]
+        self.arguments = [f"-max_total_time={seconds}", f"-seed={options.seed}", *LIMITS,
+                          *LIMITS_OF.get(program, [])]
         self.environment = {**os.environ, "TMPDIR": str(Path(scratch, program))}
         self.log = self.folder / "log"
         shutil.rmtree(self.folder if fresh else self.folder / "seeds", ignore_errors=True)

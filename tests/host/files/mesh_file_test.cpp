@@ -14,7 +14,8 @@
 namespace emax::test {
 namespace {
 
-const std::vector<std::string> kNames{"a.ply", "a.obj", "a.stl", "a.off"};
+const std::vector<std::string> kNames{"a.ply", "a.obj", "a.stl", "a.off",
+                                      "a.glb", "a.3mf", "a.dxf"};
 
 // Equality of values would take -0 for 0.
 void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
@@ -62,7 +63,8 @@ TEST(MeshFile, ReadsBackExactlyWhatAsStoredTells) {
       const TriangleMesh stored = as_stored(mesh, storage_of(format));
       expect_same_bits(read_mesh(folder / name), stored);
       expect_same_bits(as_stored(stored, storage_of(format)), stored);
-      if (format != MeshFormat::kStl) expect_same_bits(stored, mesh);
+      EXPECT_EQ(storage_of(format) == Storage::kBinary32, format == MeshFormat::kStl);
+      if (storage_of(format) == Storage::kExact) expect_same_bits(stored, mesh);
     }
   }
 }
@@ -82,14 +84,15 @@ TEST(MeshFile, StorageDisplacementDecidesWhatMayBeStored) {
   const TriangleMesh mesh{{{10000000.001, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}};
   const double displacement = storage_displacement(mesh, Storage::kBinary32);
   EXPECT_NEAR(displacement, 0.001, 1e-8);
-  for (const MeshFormat exact : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kOff}) {
+  for (const MeshFormat exact : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kOff,
+                                 MeshFormat::kThreeMf, MeshFormat::kDxf}) {
     EXPECT_EQ(storage_displacement(mesh, storage_of(exact)), 0);
     EXPECT_NO_THROW(require_storable(mesh, exact, 1e-300, "out.ply"));
   }
   EXPECT_NO_THROW(require_storable(mesh, MeshFormat::kStl, 101 * displacement, "out.stl"));
   expect_clear(
       message_of([&] { require_storable(mesh, MeshFormat::kStl, 99 * displacement, "out.stl"); }),
-      "out.stl: ", "32-bit STL", ".ply");
+      "out.stl: ", "32 bits of STL", ".ply");
   const TriangleMesh beyond{{{1e39, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}};
   EXPECT_THROW(require_storable(beyond, MeshFormat::kStl, 1e300, "out.stl"), Error);
 }

@@ -1,0 +1,134 @@
+// glTF 2.0 binary (GLB): a chunk of JSON that describes a chunk of vertices and indices.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "host/files/glb_layout.h"
+#include "host/files/mesh_writers.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kTargetVertices = 34962, kTargetIndices = 34963;  // ARRAY_BUFFER and so on
+constexpr int kPoints = 0;                                      // the mode of a primitive
+
+Json xyz(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+// The binary chunk, and in `json` the views and accessors of its parts.
+class Arrays {
+ public:
+  // `count` elements of `type` that `append` adds to the bytes. Returns the accessor's index.
+  template <class Append>
+  std::size_t add(int component, const char* type, std::size_t count, std::optional<int> target,
+                  const Append& append) {
+    const std::size_t begin = bytes.size();
+    append();
+    Json view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}};
+    if (target) view["target"] = *target;
+    views.push_back(std::move(view));
+    accessors.push_back({{"bufferView", views.size() - 1},
+                         {"componentType", component},
+                         {"count", count},
+                         {"type", type}});
+    return accessors.size() - 1;
+  }
+
+  std::string bytes;
+  Json views = Json::array(), accessors = Json::array();
+};
+
+Json primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point& origin,
+                  Arrays& arrays) {
+  Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  const std::size_t vertices = mesh.vertices.size();
+  const std::size_t position = arrays.add(kGltfFloat, "VEC3", vertices, kTargetVertices, [&] {
+    for (const Point& vertex : mesh.vertices) {
+      for (int k = 0; k < 3; ++k) {
+        const volatile float rounded = static_cast<float>(vertex[k] - origin[k]);
+        const float relative = rounded;
+        append_value(arrays.bytes, relative);
+        lower[k] = std::min(lower[k], static_cast<double>(relative));
+        upper[k] = std::max(upper[k], static_cast<double>(relative));
+      }
+    }
+  });
+  arrays.accessors[position]["min"] = xyz(lower);
+  arrays.accessors[position]["max"] = xyz(upper);
+  Json primitive = {{"attributes", {{"POSITION", position}}}, {"material", 0}};
+  if (!notes.deviation.empty()) {
+    primitive["attributes"]["_DEVIATION"] =
+        arrays.add(kGltfFloat, "SCALAR", vertices, kTargetVertices, [&] {
+          for (const float value : notes.deviation) append_value(arrays.bytes, value);
+        });
+  }
+  if (mesh.triangles.empty()) {
+    primitive["mode"] = kPoints;
+    return primitive;
+  }
+  primitive["indices"] =
+      arrays.add(kGltfUint32, "SCALAR", 3 * mesh.triangles.size(), kTargetIndices, [&] {
+        for (const Triangle& t : mesh.triangles) {
+          for (const std::uint32_t corner : t) append_value(arrays.bytes, corner);
+        }
+      });
+  return primitive;
+}
+
+void append_chunk(std::string& bytes, std::uint32_t type, std::string_view content, char filler) {
+  const std::size_t padding = (4 - content.size() % 4) % 4;
+  append_value(bytes, static_cast<std::uint32_t>(content.size() + padding));
+  append_value(bytes, type);
+  bytes += content;
+  bytes.append(padding, filler);
+}
+
+}  // namespace
+
+std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
+  const Point origin = storage_origin(mesh.vertices);
+  Json frame = {{"name", "frame"}, {"matrix", glb_frame(notes.unit)}};
+  frame["children"] = Json::array({1});
+  frame["extras"][kGlbUnitKey] = notes.unit ? Json(notes.unit->name) : Json(nullptr);
+  Json node = {{"name", "mesh"}, {"translation", xyz(origin)}};
+  if (!mesh.vertices.empty()) node["mesh"] = 0;
+  Json json = {{"asset", {{"version", "2.0"}, {"generator", kGlbGenerator}}}, {"scene", 0}};
+  Json scene;
+  scene["nodes"] = Json::array({0});
+  json["scenes"] = Json::array({std::move(scene)});
+  json["nodes"] = Json::array({std::move(frame), std::move(node)});
+  Arrays arrays;
+  if (!mesh.vertices.empty()) {
+    Json whole;
+    whole["primitives"] = Json::array({primitive_of(mesh, notes, origin, arrays)});
+    json["meshes"] = Json::array({std::move(whole)});
+    // Without a material, a mesh is metal that is seen from outside only.
+    json["materials"] =
+        Json::array({{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
+                      {"doubleSided", true}}});
+    json["accessors"] = std::move(arrays.accessors);
+    json["bufferViews"] = std::move(arrays.views);
+    Json buffer;
+    buffer["byteLength"] = arrays.bytes.size();
+    json["buffers"] = Json::array({std::move(buffer)});
+  }
+  std::string bytes(kGlbMagic);
+  append_value(bytes, kGlbVersion);
+  append_value(bytes, std::uint32_t{0});  // the length, once it is known
+  append_chunk(bytes, kGlbJson, json.dump(), ' ');
+  if (!arrays.bytes.empty()) append_chunk(bytes, kGlbBinary, arrays.bytes, '\0');
+  if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(fmt::format("a GLB file of {} bytes cannot be: it holds 4 GiB at most; write .ply",
+                            bytes.size()));
+  }
+  const auto length = static_cast<std::uint32_t>(bytes.size());
+  std::copy_n(reinterpret_cast<const char*>(&length), sizeof length, bytes.begin() + 8);
+  return bytes;
+}
+
+}  // namespace emax

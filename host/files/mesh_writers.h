@@ -1,0 +1,26 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "host/files/mesh_file.h"
+
+namespace emax {
+
+// The bytes of a file, by a function for each format. Indices are within the vertices.
+std::string ply_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
+std::string obj_bytes(const TriangleMesh& mesh);
+std::string stl_bytes(const TriangleMesh& mesh);
+std::string off_bytes(const TriangleMesh& mesh);
+std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
+std::string threemf_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
+std::string dxf_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
+
+template <class Value>
+void append_value(std::string& bytes, const Value& value) {
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace emax

@@ -1,0 +1,216 @@
+#include "host/files/spooled_input.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <zlib.h>
+#include <zstd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "host/files/inflation_limit.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 17;
+
+// A file without a name: it is gone when its descriptor is closed.
+class Spool {
+ public:
+  explicit Spool(const NamedInput& input) : input_(input) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    std::string pattern = (folder / "emax_XXXXXX").string();
+    descriptor_ = mkostemp(pattern.data(), O_CLOEXEC);
+    if (descriptor_ < 0) fail();
+    unlink(pattern.c_str());
+  }
+  ~Spool() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  Spool(const Spool&) = delete;
+  Spool& operator=(const Spool&) = delete;
+
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail();
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+      size_ += static_cast<std::uint64_t>(n);
+    }
+  }
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const { return size_; }
+  int release() { return std::exchange(descriptor_, -1); }
+
+ private:
+  [[noreturn]] void fail() const {
+    input_.fail(fmt::format("cannot be unpacked into {} ({})",
+                            std::filesystem::temp_directory_path().string(), std::strerror(errno)),
+                "make room there, or name another folder by TMPDIR");
+  }
+
+  const NamedInput& input_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+// The next bytes at `offset`, or as they come where that is nothing; 0 at the end.
+std::size_t read_piece(const NamedInput& input, int descriptor, std::optional<std::uint64_t> offset,
+                       std::span<char> to) {
+  while (true) {
+    const ssize_t n = offset ? pread(descriptor, to.data(), to.size(), static_cast<off_t>(*offset))
+                             : read(descriptor, to.data(), to.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0)
+      input.fail(fmt::format("cannot be read ({})", std::strerror(errno)), "check the disk");
+    return static_cast<std::size_t>(n);
+  }
+}
+
+[[noreturn]] void fail_as_damaged(const NamedInput& input, const char* why) {
+  input.fail(fmt::format("its compressed data is damaged ({})", why), kExportAgain);
+}
+
+// Both inflate a piece into `write`, and end() throws Error in the middle of a member or frame.
+class Gunzip {
+ public:
+  explicit Gunzip(const NamedInput& input) : input_(input) {
+    constexpr int kWindowOfGzip = 16 + MAX_WBITS;
+    if (inflateInit2(&stream_, kWindowOfGzip) != Z_OK) throw std::bad_alloc();
+  }
+  ~Gunzip() { inflateEnd(&stream_); }
+  Gunzip(const Gunzip&) = delete;
+  Gunzip& operator=(const Gunzip&) = delete;
+
+  template <class Write>
+  void take(std::span<char> piece, const Write& write) {
+    stream_.next_in = reinterpret_cast<Bytef*>(piece.data());
+    stream_.avail_in = static_cast<uInt>(piece.size());
+    do {
+      if (is_done_) {  // another member follows
+        if (inflateReset(&stream_) != Z_OK) fail_as_damaged(input_, "gzip");
+        is_done_ = false;
+      }
+      stream_.next_out = reinterpret_cast<Bytef*>(out_.data());
+      stream_.avail_out = static_cast<uInt>(out_.size());
+      const int status = inflate(&stream_, Z_NO_FLUSH);
+      if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR) {
+        fail_as_damaged(input_, stream_.msg != nullptr ? stream_.msg : "gzip");
+      }
+      is_done_ = status == Z_STREAM_END;
+      write(std::string_view(out_.data(), out_.size() - stream_.avail_out));
+    } while (stream_.avail_in > 0 || (stream_.avail_out == 0 && !is_done_));
+  }
+  void end() const {
+    if (!is_done_) fail_as_damaged(input_, "it ends too early");
+  }
+
+ private:
+  const NamedInput& input_;
+  z_stream stream_{};
+  bool is_done_ = false;
+  std::array<char, kPieceBytes> out_;
+};
+
+class Unzstd {
+ public:
+  explicit Unzstd(const NamedInput& input)
+      : input_(input), stream_(ZSTD_createDStream(), ZSTD_freeDStream) {
+    if (!stream_) throw std::bad_alloc();
+  }
+
+  template <class Write>
+  void take(std::span<char> piece, const Write& write) {
+    ZSTD_inBuffer in{piece.data(), piece.size(), 0};
+    ZSTD_outBuffer out{out_.data(), out_.size(), 0};
+    do {
+      out.pos = 0;
+      left_ = ZSTD_decompressStream(stream_.get(), &out, &in);
+      if (ZSTD_isError(left_) != 0) fail_as_damaged(input_, ZSTD_getErrorName(left_));
+      write(std::string_view(out_.data(), out.pos));
+    } while (in.pos < in.size || (out.pos == out.size && left_ > 0));
+  }
+  void end() const {
+    if (left_ != 0) fail_as_damaged(input_, "it ends too early");
+  }
+
+ private:
+  const NamedInput& input_;
+  std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream_;
+  std::size_t left_ = 1;  // 0 at the end of a frame
+  std::array<char, kPieceBytes> out_;
+};
+
+template <class Inflater>
+int inflated_by(const NamedInput& input, int descriptor, std::uint64_t size) {
+  Spool spool(input);
+  InflationLimit limit(input, size);
+  const auto inflater = std::make_unique<Inflater>(input);
+  std::vector<char> piece(kPieceBytes);
+  std::uint64_t at = 0;
+  while (const std::size_t n = read_piece(input, descriptor, at, piece)) {
+    inflater->take({piece.data(), n}, [&](std::string_view bytes) {
+      limit.spend(bytes.size());
+      spool.write(bytes);
+    });
+    at += n;
+  }
+  inflater->end();
+  return spool.release();
+}
+
+int copied_standard_input() {
+  const NamedInput input{std::string(kStandardInputInMessages)};
+  Spool spool(input);
+  std::vector<char> piece(kPieceBytes);
+  while (const std::size_t n = read_piece(input, STDIN_FILENO, std::nullopt, piece)) {
+    spool.write({piece.data(), n});
+  }
+  const std::size_t n = read_piece(input, spool.descriptor(), 0, piece);
+  const Compression compression = compression_of_content({piece.data(), n});
+  if (compression == Compression::kNone) return spool.release();
+  return inflated(input, spool.descriptor(), spool.size(), compression);
+}
+
+}  // namespace
+
+Compression compression_of(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  return ending == ".gz"    ? Compression::kGzip
+         : ending == ".zst" ? Compression::kZstandard
+                            : Compression::kNone;
+}
+
+Compression compression_of_content(std::string_view head) {
+  if (head.starts_with("\x1f\x8b")) return Compression::kGzip;
+  if (head.starts_with("\x28\xb5\x2f\xfd")) return Compression::kZstandard;
+  return Compression::kNone;
+}
+
+int inflated(const NamedInput& input, int descriptor, std::uint64_t size, Compression compression) {
+  return compression == Compression::kGzip ? inflated_by<Gunzip>(input, descriptor, size)
+                                           : inflated_by<Unzstd>(input, descriptor, size);
+}
+
+int standard_input() {
+  static const int copy = copied_standard_input();
+  const int descriptor = fcntl(copy, F_DUPFD_CLOEXEC, 0);
+  if (descriptor < 0) {
+    throw Error(fmt::format("{}: cannot be read ({}); give a file", kStandardInputInMessages,
+                            std::strerror(errno)));
+  }
+  return descriptor;
+}
+
+}  // namespace emax
