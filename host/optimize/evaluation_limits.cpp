@@ -44,7 +44,9 @@ std::uint64_t memory_for_workers() {
 
 }  // namespace
 
-bool is_thinned(std::size_t points) { return 2 * points > 3 * kReferencePoints; }
+bool is_thinned(std::size_t points, std::size_t reference_points) {
+  return 2 * points > 3 * reference_points;
+}
 
 std::size_t polished_candidates(std::size_t points) {
   return points > kManyPoints ? kFewPolished : kManyPolished;

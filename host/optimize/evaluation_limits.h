@@ -29,7 +29,7 @@ enum class SearchSpace { kSurfaces, kOneReference, kDecimations };
 // The reference surface of kFitMethod is first made of this many points where a cloud has more than
 // half as many again.
 inline constexpr std::size_t kReferencePoints = 160'000;
-bool is_thinned(std::size_t points);
+bool is_thinned(std::size_t points, std::size_t reference_points = kReferencePoints);
 
 // How many of the best candidates are decimated deep in the end: 4, of large clouds 2. What that
 // gains differs from one to the next.

@@ -239,6 +239,11 @@ class Fit {
   std::vector<CrackFreeSurface> surfaces_;
 };
 
+// Whether so few points are far from the surface that more points would hardly make a better one.
+bool holds_enough(const ReferenceFit& fit, double epsilon) {
+  return fit.best().joined <= kFew + kSlack * explained_by_noise(fit.best(), fit.scan, epsilon);
+}
+
 }  // namespace
 
 // About the triangles that it costs after decimation (docs/decisions/0014): of a point that is
@@ -273,16 +278,11 @@ std::string describe(const TriedSurface& tried) {
       tried.pieces > 0 ? ", " + count(tried.pieces, "small piece") : "", 100 * tried.within_half);
 }
 
-// Whether so few points are far from the surface that more points would hardly make a better one.
-static bool holds_enough(const ReferenceFit& fit, double epsilon) {
-  return fit.best().joined <= kFew + kSlack * explained_by_noise(fit.best(), fit.scan, epsilon);
-}
-
 ReferenceFit fit_reference(std::span<const Point> cloud, double epsilon,
                            const OptimizeSettings& settings) {
   const ScanEstimate scan = estimate_scan(cloud);
   if (settings.method == kFitMethod && scan.spacing > 0) {
-    for (std::size_t n = settings.reference_points; 2 * cloud.size() > 3 * n; n *= kRefined) {
+    for (std::size_t n = settings.reference_points; is_thinned(cloud.size(), n); n *= kRefined) {
       std::vector<Point> part;
       for (const std::uint32_t i : thinned(cloud, thinning_radius(scan.spacing, cloud.size(), n))) {
         part.push_back(cloud[i]);
