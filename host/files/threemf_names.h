@@ -26,6 +26,9 @@ inline std::optional<std::string_view> threemf_unit(const Unit& unit) {
   return std::nullopt;
 }
 
+// The part with the mesh in an archive that emax writes.
+inline constexpr std::string_view kThreeMfModelPart = "3D/3dmodel.model";
+
 inline constexpr std::string_view kThreeMfCore =
     "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 inline constexpr std::string_view kThreeMfModelType =

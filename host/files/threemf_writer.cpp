@@ -13,7 +13,6 @@
 namespace emax {
 namespace {
 
-constexpr std::string_view kModelPart = "3D/3dmodel.model";
 constexpr std::string_view kXml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
 std::string content_types() {
@@ -32,7 +31,7 @@ std::string relationships() {
       "{}<Relationships xmlns=\"{}\">\n"
       "  <Relationship Id=\"model\" Target=\"/{}\" Type=\"{}\"/>\n"
       "</Relationships>\n",
-      kXml, kRelationships, kModelPart, kThreeMfModelType);
+      kXml, kRelationships, kThreeMfModelPart, kThreeMfModelType);
 }
 
 std::string model(const TriangleMesh& mesh, const MeshNotes& notes) {
@@ -72,7 +71,7 @@ std::string threemf_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
   ZipWriter zip;
   zip.add("[Content_Types].xml", content_types());
   zip.add("_rels/.rels", relationships());
-  zip.add(std::string(kModelPart), model(mesh, notes));
+  zip.add(std::string(kThreeMfModelPart), model(mesh, notes));
   return zip.finish();
 }
 

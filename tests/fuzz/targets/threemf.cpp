@@ -1,9 +1,42 @@
+// Archives, and the XML of a model, which is packed: changed bytes of an archive mostly end at the
+// checksum of an entry.
+#include "host/files/threemf_names.h"
+#include "host/files/zip_archive.h"
 #include "tests/fuzz/files.h"
 
 namespace emax::fuzz {
+namespace {
 
-void read(Input input) { read_file(input, ".3mf"); }
+std::string entry(const std::string& archive, const std::string& name) {
+  const InputFile input = {{"seed"}, archive};
+  ZipReader zip(input);
+  std::string bytes;
+  zip.read(name, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
 
-std::vector<std::string> seeds() { return {tetrahedron(".3mf")}; }
+// The seed with this model.
+std::string packed(Input model) {
+  static const std::string seed = tetrahedron(".3mf");
+  ZipWriter zip;
+  for (const std::string name : {"[Content_Types].xml", "_rels/.rels"}) {
+    zip.add(name, entry(seed, name));
+  }
+  zip.add(std::string(kThreeMfModelPart), {model.begin(), model.end()});
+  return zip.finish();
+}
+
+}  // namespace
+
+void read(Input input) {
+  constexpr std::uint8_t kFirstOfZip = 'P';
+  const bool is_archive = !input.empty() && input.front() == kFirstOfZip;
+  read_file(is_archive ? input : bytes_of(packed(input)), ".3mf");
+}
+
+std::vector<std::string> seeds() {
+  const std::string archive = tetrahedron(".3mf");
+  return {archive, entry(archive, std::string(kThreeMfModelPart))};
+}
 
 }  // namespace emax::fuzz
