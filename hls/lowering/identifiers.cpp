@@ -69,10 +69,11 @@ constexpr auto kFixedNames = std::to_array<std::string_view>(
      "SLOT_BITS", "LATENCY", "LAST_READ", "write_enable", "write_slot", "write_record", "slot",
      "datapath", "unused_parts", "unused_probes"});
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 bool is_identifier(std::string_view text) {
   return !text.empty() && !is_digit(text.front()) && std::ranges::all_of(text, is_word);

@@ -8,6 +8,8 @@
 
 namespace emax {
 
+bool is_word(char c);  // a letter, a digit or _
+
 // A letter or _, then letters, digits and _.
 bool is_identifier(std::string_view text);
 

@@ -13,8 +13,6 @@ namespace {
 const std::map<std::string_view, std::vector<std::string>> kFields = {{"Vector3", {"x", "y", "z"}},
                                                                       {"Vector2", {"y", "z"}}};
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
 // The text with comments replaced by blanks, so that offsets stay.
 std::string without_comments(std::string_view text) {
   std::string code(text);

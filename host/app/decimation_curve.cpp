@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "host/app/scan.h"
 #include "host/files/atomic_file.h"
 #include "host/report/curve_svg.h"
+#include "host/report/json_parts.h"
 
 namespace emax {
 
@@ -51,7 +51,6 @@ std::vector<ReportCurvePoint> report_curve(std::span<const CurveRow> curve) {
 
 std::string to_json_text(std::span<const CurveRow> curve, const std::string& mesh,
                          const ReportOptions& report) {
-  using Json = nlohmann::ordered_json;
   const auto file = [](const std::string& name) { return name.empty() ? Json() : Json(name); };
   Json rows = Json::array();
   for (const CurveRow& row : curve) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "host/app/phase_progress.h"
 #include "host/app/progress_style.h"
 #include "host/app/scan.h"
 #include "host/app/standard_streams.h"
+#include "host/report/json_parts.h"
 
 namespace emax {
 namespace {
@@ -72,7 +72,6 @@ std::string Progress::polishing_time(const OptimizeState& state) const {
 }
 
 void Progress::tell(const OptimizeState& state) const {
-  using Json = nlohmann::ordered_json;
   const double left = polishing_ ? polishing_seconds_left(state) : seconds_left(state);
   Json triangles, error;
   if (const auto& shown = state.best ? state.best : state.least_error) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "host/files/append_value.h"
 #include "host/files/glb_layout.h"
 #include "host/files/mesh_writers.h"
 #include "sw_model/base/error.h"
@@ -13,12 +14,12 @@
 namespace emax {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kTargetVertices = 34962, kTargetIndices = 34963;  // ARRAY_BUFFER and so on
 constexpr int kPoints = 0;                                      // the mode of a primitive
 
-Json xyz(const Point& p) { return {p.x(), p.y(), p.z()}; }
+OrderedJson xyz(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 // The binary chunk, and in `json` the views and accessors of its parts.
 class Arrays {
@@ -29,7 +30,7 @@ class Arrays {
                   const Append& append) {
     const std::size_t begin = bytes.size();
     append();
-    Json view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}};
+    OrderedJson view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}};
     if (target) view["target"] = *target;
     views.push_back(std::move(view));
     accessors.push_back({{"bufferView", views.size() - 1},
@@ -40,11 +41,11 @@ class Arrays {
   }
 
   std::string bytes;
-  Json views = Json::array(), accessors = Json::array();
+  OrderedJson views = OrderedJson::array(), accessors = OrderedJson::array();
 };
 
-Json primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point& origin,
-                  Arrays& arrays) {
+OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point& origin,
+                         Arrays& arrays) {
   Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   const std::size_t vertices = mesh.vertices.size();
   const std::size_t position = arrays.add(kGltfFloat, "VEC3", vertices, kTargetVertices, [&] {
@@ -60,7 +61,7 @@ Json primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point&
   });
   arrays.accessors[position]["min"] = xyz(lower);
   arrays.accessors[position]["max"] = xyz(upper);
-  Json primitive = {{"attributes", {{"POSITION", position}}}, {"material", 0}};
+  OrderedJson primitive = {{"attributes", {{"POSITION", position}}}, {"material", 0}};
   if (!notes.deviation.empty()) {
     primitive["attributes"]["_DEVIATION"] =
         arrays.add(kGltfFloat, "SCALAR", vertices, kTargetVertices, [&] {
@@ -92,30 +93,30 @@ void append_chunk(std::string& bytes, std::uint32_t type, std::string_view conte
 
 std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
   const Point origin = storage_origin(mesh.vertices);
-  Json frame = {{"name", "frame"}, {"matrix", glb_frame(notes.unit)}};
-  frame["children"] = Json::array({1});
-  frame["extras"][kGlbUnitKey] = notes.unit ? Json(notes.unit->name) : Json(nullptr);
-  Json node = {{"name", "mesh"}, {"translation", xyz(origin)}};
+  OrderedJson frame = {{"name", "frame"}, {"matrix", glb_frame(notes.unit)}};
+  frame["children"] = OrderedJson::array({1});
+  frame["extras"][kGlbUnitKey] = notes.unit ? OrderedJson(notes.unit->name) : OrderedJson(nullptr);
+  OrderedJson node = {{"name", "mesh"}, {"translation", xyz(origin)}};
   if (!mesh.vertices.empty()) node["mesh"] = 0;
-  Json json = {{"asset", {{"version", "2.0"}, {"generator", kGlbGenerator}}}, {"scene", 0}};
-  Json scene;
-  scene["nodes"] = Json::array({0});
-  json["scenes"] = Json::array({std::move(scene)});
-  json["nodes"] = Json::array({std::move(frame), std::move(node)});
+  OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", kGlbGenerator}}}, {"scene", 0}};
+  OrderedJson scene;
+  scene["nodes"] = OrderedJson::array({0});
+  json["scenes"] = OrderedJson::array({std::move(scene)});
+  json["nodes"] = OrderedJson::array({std::move(frame), std::move(node)});
   Arrays arrays;
   if (!mesh.vertices.empty()) {
-    Json whole;
-    whole["primitives"] = Json::array({primitive_of(mesh, notes, origin, arrays)});
-    json["meshes"] = Json::array({std::move(whole)});
+    OrderedJson whole;
+    whole["primitives"] = OrderedJson::array({primitive_of(mesh, notes, origin, arrays)});
+    json["meshes"] = OrderedJson::array({std::move(whole)});
     // Without a material, a mesh is metal that is seen from outside only.
-    json["materials"] =
-        Json::array({{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
-                      {"doubleSided", true}}});
+    json["materials"] = OrderedJson::array(
+        {{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
+          {"doubleSided", true}}});
     json["accessors"] = std::move(arrays.accessors);
     json["bufferViews"] = std::move(arrays.views);
-    Json buffer;
+    OrderedJson buffer;
     buffer["byteLength"] = arrays.bytes.size();
-    json["buffers"] = Json::array({std::move(buffer)});
+    json["buffers"] = OrderedJson::array({std::move(buffer)});
   }
   std::string bytes(kGlbMagic);
   append_value(bytes, kGlbVersion);

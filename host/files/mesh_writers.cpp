@@ -8,6 +8,7 @@
 #include <array>
 #include <iterator>
 
+#include "host/files/append_value.h"
 #include "host/files/number_text.h"
 
 namespace emax {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -16,11 +15,5 @@ std::string off_bytes(const TriangleMesh& mesh);
 std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
 std::string threemf_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
 std::string dxf_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
-
-template <class Value>
-void append_value(std::string& bytes, const Value& value) {
-  static_assert(std::endian::native == std::endian::little);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 }  // namespace emax

@@ -15,7 +15,7 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kPiece = 4096;  // points
+constexpr std::size_t kPoints = 4096;  // points
 
 bool is_consistently_oriented(MeshView mesh) {
   bool consistent = true;
@@ -60,7 +60,7 @@ Deviations deviations_of(std::span<const Point> cloud, MeshView mesh,
   const ExactMesh exact(mesh);
   const MeshSides sides(mesh);
   const std::vector<std::uint32_t> order = along_morton_curve(cloud);
-  in_pieces(threads, order.size(), kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
+  in_pieces(threads, order.size(), kPoints, [&](std::size_t, std::size_t first, std::size_t last) {
     std::uint32_t near = ~0u;
     for (const std::uint32_t i : std::span(order).subspan(first, last - first)) {
       const ExactMesh::Nearest nearest =

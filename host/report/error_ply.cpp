@@ -2,22 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <string>
 
+#include "host/files/append_value.h"
 #include "host/files/atomic_file.h"
 #include "host/picture/colour.h"
 
 namespace emax {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes written at once
-
-template <class Value>
-void append(std::string& bytes, const Value& value) {
-  static_assert(std::endian::native == std::endian::little);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
+constexpr std::size_t kBuffer = std::size_t{1} << 20;  // bytes written at once
 
 }  // namespace
 
@@ -41,17 +35,17 @@ void write_error_ply(const std::filesystem::path& path, std::span<const Point> p
       bytes.clear();
     };
     for (std::size_t i = 0; i < points.size(); ++i) {
-      for (int k = 0; k < 3; ++k) append(bytes, points[i][k]);
-      append(bytes, distances[i]);
+      for (int k = 0; k < 3; ++k) append_value(bytes, points[i][k]);
+      append_value(bytes, distances[i]);
       for (const std::uint8_t channel : viridis(greatest > 0 ? distances[i] / greatest : 0)) {
-        append(bytes, channel);
+        append_value(bytes, channel);
       }
-      flush(kPiece);
+      flush(kBuffer);
     }
     for (const Triangle& triangle : triangles) {
-      append(bytes, std::uint8_t{3});
-      for (const std::uint32_t corner : triangle) append(bytes, corner);
-      flush(kPiece);
+      append_value(bytes, std::uint8_t{3});
+      for (const std::uint32_t corner : triangle) append_value(bytes, corner);
+      flush(kBuffer);
     }
     flush(0);
   });

@@ -5,8 +5,6 @@
 namespace emax {
 namespace {
 
-Json or_null(const std::optional<std::uint64_t>& value) { return value ? Json(*value) : Json(); }
-
 constexpr std::pair<const char*, std::size_t MeshValidity::*> kValidityCounts[] = {
     {"boundary_edges", &MeshValidity::boundary_edges},
     {"non_manifold_edges", &MeshValidity::non_manifold_edges},

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
@@ -29,6 +30,11 @@ void get_count(const Json& json, T& count) {
     throw nlohmann::json::type_error::create(302, "a count is no whole number", &json);
   }
   json.get_to(count);
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
 }
 
 std::string bits_text(std::uint32_t bits);  // "0x%08x"

@@ -1,10 +1,10 @@
 #include "host/report/report_geometry.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
+#include "host/files/append_value.h"
 #include "host/geometry/bounds.h"
 
 namespace emax {
@@ -20,12 +20,6 @@ constexpr double kWidthShare = 1.0 / 16384;
 // last bits of their coordinates are 0.
 constexpr double kVertexShare = 1.0 / 4;
 
-template <class Value>
-void append(std::string& bytes, Value value) {
-  static_assert(std::endian::native == std::endian::little);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 // Of 24 bits the 12 last become 0: the colour of a triangle needs no more.
 float coarse(float value) {
   if (!std::isfinite(value)) return value;
@@ -40,12 +34,12 @@ void append_points(ReportGeometry& geometry, std::span<const Point> cloud,
     const double step = geometry.step[k];
     for (const std::uint32_t i : shown) {
       const double at = step > 0 ? std::round((cloud[i][k] - geometry.origin[k]) / step) : 0;
-      append(geometry.bytes, static_cast<std::uint16_t>(std::clamp(at, 0.0, kLastStep)));
+      append_value(geometry.bytes, static_cast<std::uint16_t>(std::clamp(at, 0.0, kLastStep)));
     }
   }
   for (const std::uint32_t i : shown) {
     const double at = std::round(deviations[i] / geometry.deviation_step);
-    append(geometry.bytes, static_cast<std::int16_t>(std::clamp(at, -kClipped, kClipped)));
+    append_value(geometry.bytes, static_cast<std::int16_t>(std::clamp(at, -kClipped, kClipped)));
   }
 }
 
@@ -65,13 +59,14 @@ void append_mesh(ReportGeometry& geometry, MeshView mesh, double enough,
   for (Eigen::Index k = 0; k < 3; ++k) {
     for (const std::uint32_t v : order) {
       const double at = mesh.vertices[v][k] - geometry.origin[k];
-      append(geometry.bytes, static_cast<float>(step > 0 ? std::round(at / step) * step : at));
+      append_value(geometry.bytes,
+                   static_cast<float>(step > 0 ? std::round(at / step) * step : at));
     }
   }
   for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) append(geometry.bytes, place[v]);
+    for (const std::uint32_t v : t) append_value(geometry.bytes, place[v]);
   }
-  for (const float d : deviations) append(geometry.bytes, coarse(d));
+  for (const float d : deviations) append_value(geometry.bytes, coarse(d));
 }
 
 }  // namespace

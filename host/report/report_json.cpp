@@ -4,11 +4,6 @@
 namespace emax {
 namespace {
 
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-
 template <class T, class Convert>
 Json array_of(const std::vector<T>& list, const Convert& convert) {
   Json array = Json::array();

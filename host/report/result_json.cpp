@@ -4,14 +4,6 @@
 #include "host/report/json_parts.h"
 
 namespace emax {
-namespace {
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-
-}  // namespace
 
 std::string to_json_text(const ResultReport& r) {
   Json json = {

@@ -9,17 +9,15 @@
 #include "sw_model/base/error.h"
 #include "sw_model/base/flush_mode.h"
 #include "sw_model/certify/matrix_free.h"
+#include "sw_model/certify/rounding.h"
 
 namespace emax {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnit = 0x1p-53;  // the relative error of one rounding
-
 // Non-negative, not all zero: they stand for the point sum(w_i V_i) / sum(w_i) of the triangle.
 using Weights = Eigen::Array3d;
 
-// Relative error below 5 kUnit for any finite argument.
+// Relative error below 5 kUnitRoundoff for any finite argument.
 double norm(const Point& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   const double scale = largest < 0x1p-480 ? 0x1p600 : largest > 0x1p480 ? 0x1p-600 : 1;
@@ -89,16 +87,16 @@ Weights nearest_weights(const std::array<Point, 3>& corners, const std::array<Po
 
 // A bound from above on the square, to compare with squared box distances.
 double squared_up(double value) {
-  return std::nextafter(value * value * (1 + 8 * kUnit), kInfinity);
+  return std::nextafter(value * value * (1 + 8 * kUnitRoundoff), kInfinity);
 }
 
 // At most the squared distance from p to anything in the box.
 double squared_distance_to_box(const Point& p, const Point& low, const Point& high) {
-  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm() * (1 - 8 * kUnit);
+  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm() * (1 - 8 * kUnitRoundoff);
 }
 
 constexpr std::uint32_t kLeafSize = 4;
-constexpr std::size_t kMaxDepth = 64;  // a median split halves 2^32 triangles in 32 levels
+constexpr std::size_t kMostLevels = 64;  // a median split halves 2^32 triangles in 32 levels
 
 DistanceBounds bounds(const Point& p, const std::array<Point, 3>& corners) {
   const std::array<Point, 3> from_p = {corners[0] - p, corners[1] - p, corners[2] - p};
@@ -114,14 +112,15 @@ DistanceBounds bounds(const Point& p, const std::array<Point, 3>& corners) {
   const std::array<double, 3> sizes = {from_p[0].lpNorm<1>(), from_p[1].lpNorm<1>(),
                                        from_p[2].lpNorm<1>()};
   const double spread = w[0] * sizes[0] + w[1] * sizes[1] + w[2] * sizes[2];
-  const double upper = (length + 5 * kUnit * spread) / w.sum() * (1 + 16 * kUnit) + 0x1p-1060;
+  const double upper =
+      (length + 5 * kUnitRoundoff * spread) / w.sum() * (1 + 16 * kUnitRoundoff) + 0x1p-1060;
 
   double lower = 0;
   if (length > 0x1p-900) {
     const Point n = to_nearest / length;
     const double support = std::min({from_p[0].dot(n), from_p[1].dot(n), from_p[2].dot(n)});
-    lower = support * (1 - 16 * kUnit) - 6 * kUnit * std::max({sizes[0], sizes[1], sizes[2]}) -
-            0x1p-1060;
+    lower = support * (1 - 16 * kUnitRoundoff) -
+            6 * kUnitRoundoff * std::max({sizes[0], sizes[1], sizes[2]}) - 0x1p-1060;
   }
   return {std::max(lower, 0.0), std::nextafter(upper, kInfinity)};
 }
@@ -136,10 +135,10 @@ bool is_farther(const Point& p, const std::array<Point, 3>& corners, double uppe
     support = std::min(support, from_p.dot(direction));
     size = std::max(size, from_p.lpNorm<1>());
   }
-  const double least = upper + 8 * kUnit * size;
+  const double least = upper + 8 * kUnitRoundoff * size;
   const double squared = direction.squaredNorm();
   return support > 0 && squared > 0x1p-500 && squared < 0x1p500 && least < 0x1p250 &&
-         support * support > squared * (least * least) * (1 + 64 * kUnit);
+         support * support > squared * (least * least) * (1 + 64 * kUnitRoundoff);
 }
 
 // A point of the triangle, mostly the nearest, by Ericson's formula: weights of b and c, both at
@@ -286,7 +285,8 @@ double ExactMesh::upper_to(const Point& p, std::uint32_t triangle) const {
         squared < kMostPlain) {
       // docs/numerics.md, "The oracle's rounding".
       const double size = std::max({a.lpNorm<1>(), b.lpNorm<1>(), c.lpNorm<1>()});
-      return (std::sqrt(squared) + 6 * kUnit * size) * (1 + 32 * kUnit) * unscale_ + 0x1p-1060;
+      return (std::sqrt(squared) + 6 * kUnitRoundoff * size) * (1 + 32 * kUnitRoundoff) * unscale_ +
+             0x1p-1060;
     }
   }
   return bounds(p, corners).upper;
@@ -313,7 +313,7 @@ std::uint32_t ExactMesh::likely_nearest(const Point& p, std::uint32_t seed) cons
     std::uint32_t node;
     double squared_distance;
   };
-  std::array<Pending, kMaxDepth> stack;
+  std::array<Pending, kMostLevels> stack;
   std::size_t depth = 0;
   std::uint32_t at = 0;
   for (;;) {
@@ -374,7 +374,7 @@ ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32
     std::uint32_t node;
     double squared_distance;
   };
-  std::array<Pending, kMaxDepth> stack;
+  std::array<Pending, kMostLevels> stack;
   std::size_t depth = 0;
   stack[depth++] = {0, 0};
   while (depth > 0) {

@@ -8,13 +8,12 @@
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/flush_mode.h"
 #include "sw_model/certify/matrix_free.h"
+#include "sw_model/certify/rounding.h"
 
 namespace emax {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnit = 0x1p-53;
-constexpr unsigned kMaxDepth = 1000;
+constexpr unsigned kMostCuts = 1000;
 constexpr std::size_t kStepsPerPoll = 1024;
 // A cut leaves at least this part of an edge on either side, and every fourth one halves the
 // piece, so pieces shrink however they are cut.
@@ -71,7 +70,7 @@ class Search {
       }
     }
     // Coordinates of cuts lie between those of vertices.
-    rounding_ = 9 * kUnit * low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff() + 0x1p-1060;
+    rounding_ = 9 * kUnitRoundoff * low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff() + 0x1p-1060;
     finest_ = std::max(options.absolute, 0x1p-30 * (high - low).maxCoeff());
   }
 
@@ -273,7 +272,7 @@ class Search {
   bool is_exact(const Piece& piece, const Corner& worst) const {
     const double roundings =
         worst.distance.upper - worst.distance.lower + (piece.depth + 1) * rounding_;
-    return worst.near == piece.candidate || piece.depth >= kMaxDepth ||
+    return worst.near == piece.candidate || piece.depth >= kMostCuts ||
            (worst.distance.lower >= 0 && piece.bound <= worst.distance.lower + 4 * roundings);
   }
 

@@ -11,6 +11,7 @@
 #include "sw_model/base/error.h"
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/decimation.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
@@ -37,13 +38,6 @@ Verdict verdict(const TriangleMesh& mesh, std::span<const Point> cloud,
   return {certify(cloud, mesh.view(), left_out).within(epsilon),
           surface_distance(mesh.view(), ExactMesh(reference.view()), options).within(epsilon),
           check_mesh(mesh.view()).valid()};
-}
-
-DecimationSettings with(double epsilon, Effort effort = Effort::kRelax) {
-  DecimationSettings settings;
-  settings.epsilon = epsilon;
-  settings.effort = effort;
-  return settings;
 }
 
 std::vector<TriangleMesh> surfaces() {

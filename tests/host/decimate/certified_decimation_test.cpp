@@ -8,7 +8,7 @@
 namespace emax::test {
 namespace {
 
-CertifiedDecimationSettings with(double epsilon, Storage storage = Storage::kExact) {
+CertifiedDecimationSettings certified_with(double epsilon, Storage storage = Storage::kExact) {
   CertifiedDecimationSettings settings;
   settings.decimation.epsilon = epsilon;
   settings.decimation.effort = DecimationSettings::Effort::kCollapse;
@@ -38,7 +38,7 @@ void expect_certified(const CertifiedDecimation& result, const TriangleMesh& ref
 TEST(CertifiedDecimation, BoundsBothSurfacesAsStored) {
   for (const TriangleMesh& mesh : {bumpy(24, 40), sheet(24, 0.3), cube(4)}) {
     for (const Storage storage : {Storage::kExact, Storage::kBinary32}) {
-      const CertifiedDecimationSettings settings = with(0.02, storage);
+      const CertifiedDecimationSettings settings = certified_with(0.02, storage);
       const CertifiedDecimation result = decimate_certified(mesh, mesh.vertices, settings);
       expect_certified(result, mesh, settings);
       EXPECT_LT(result.mesh.triangles.size(), mesh.triangles.size());
@@ -48,7 +48,7 @@ TEST(CertifiedDecimation, BoundsBothSurfacesAsStored) {
 
 // Few vertices far apart: the inside of the reference would be missed between the points.
 TEST(CertifiedDecimation, KeepsWhatLiesBetweenThePointsWithoutRepair) {
-  CertifiedDecimationSettings settings = with(0.02);
+  CertifiedDecimationSettings settings = certified_with(0.02);
   for (const double epsilon : {0.01, 0.02, 0.05, 0.1}) {
     for (const TriangleMesh& mesh : {bumpy(12, 18), sheet(10, 0.4), bumpy(8, 12)}) {
       settings.decimation.epsilon = epsilon;
@@ -69,7 +69,8 @@ TEST(CertifiedDecimation, KeepsASurfaceThatIntersectsItself) {
   const TriangleMesh crossing = joined(bumpy(16, 24), bumpy(16, 24), {0.7, 0.1, 0.2});
   const MeshValidity before = check_mesh(crossing.view());
   ASSERT_GT(before.self_intersections, 20u);
-  const CertifiedDecimation result = decimate_certified(crossing, crossing.vertices, with(0.05));
+  const CertifiedDecimation result =
+      decimate_certified(crossing, crossing.vertices, certified_with(0.05));
   EXPECT_EQ(result.repairs, 0);
   EXPECT_LT(result.mesh.triangles.size(), crossing.triangles.size() / 2);
   EXPECT_LE(result.validity.self_intersections, before.self_intersections);
@@ -82,7 +83,7 @@ TEST(CertifiedDecimationFault, IsNeverHandedOut) {
   const TriangleMesh sheets = joined(sheet(16, 0.4), sheet(16, 0.4), {0, 0, 0.02});
   const TriangleMesh sphere = bumpy(16, 24);
   const auto run = [](const TriangleMesh& mesh, Fault fault, double back = 0.05) {
-    CertifiedDecimationSettings settings = with(0.05);
+    CertifiedDecimationSettings settings = certified_with(0.05);
     settings.decimation.epsilon_back = back;
     const DeliberateFault broken(fault);
     settings.decimation.normal_cosine = -1;
@@ -103,7 +104,7 @@ TEST(CertifiedDecimation, IsCertifiedWhereverItIsInterrupted) {
   const TriangleMesh mesh = bumpy(24, 40);
   for (const int allowed : {0, 5, 20, 60}) {
     int polls = 0;
-    CertifiedDecimationSettings settings = with(0.05);
+    CertifiedDecimationSettings settings = certified_with(0.05);
     settings.decimation.effort = DecimationSettings::Effort::kDeep;
     settings.decimation.interrupted = [&] { return ++polls > allowed; };
     const CertifiedDecimation result = decimate_certified(mesh, mesh.vertices, settings);
@@ -116,7 +117,7 @@ TEST(CertifiedDecimation, NamesThePointsThatTheReferenceMisses) {
   const TriangleMesh mesh = bumpy(16, 24);
   std::vector<Point> cloud = mesh.vertices;
   cloud.push_back({5, 0, 0});
-  CertifiedDecimationSettings settings = with(0.05);
+  CertifiedDecimationSettings settings = certified_with(0.05);
   const CertifiedDecimation result = decimate_certified(mesh, cloud, settings);
   EXPECT_EQ(result.points.excluded,
             std::vector<std::uint32_t>{static_cast<std::uint32_t>(cloud.size() - 1)});

@@ -5,19 +5,13 @@
 #include "host/geometry/mesh_validity.h"
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/decimation.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {
 
 using Effort = DecimationSettings::Effort;
-
-DecimationSettings with(double epsilon, Effort effort = Effort::kRelax) {
-  DecimationSettings settings;
-  settings.epsilon = epsilon;
-  settings.effort = effort;
-  return settings;
-}
 
 void expect_within(const TriangleMesh& mesh, std::span<const Point> cloud,
                    const TriangleMesh& reference, const DecimationSettings& settings) {

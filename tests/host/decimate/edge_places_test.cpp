@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/host/support/decimation.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {
 
-constexpr double kLimit = 0.1;
+constexpr double kPlaceLimit = 0.1;
 
 enum class Surface { kSmooth, kRough, kFaceted, kGrooved };
 
@@ -31,18 +32,9 @@ TriangleMesh surface(Surface kind) {
   return mesh;
 }
 
-// By every triangle.
-double share_of(const Point& p, const TriangleMesh& mesh) {
-  double least = 1e300;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    least = std::min(least, squared_distance(p, mesh.view().corners(t)));
-  }
-  return least / (kLimit * kLimit);
-}
-
 class EdgePlaces : public testing::TestWithParam<Surface> {
  protected:
-  EdgePlaces() : mesh_(surface(GetParam())), back_(mesh_, kLimit) {}
+  EdgePlaces() : mesh_(surface(GetParam())), back_(mesh_, kPlaceLimit) {}
 
   // An edge whose ends are near the surface.
   std::array<EdgeEnd, 2> draw() {
@@ -73,7 +65,7 @@ TEST_P(EdgePlaces, LeaveNothingFarther) {
     for (const EdgePlace& p : places) found = std::max(found, p.sight.share);
     for (int k = 0; k <= kSteps; ++k) {
       const double t = static_cast<double>(k) / kSteps;
-      farthest = std::max(farthest, share_of((1 - t) * from.at + t * to.at, mesh_));
+      farthest = std::max(farthest, share_of((1 - t) * from.at + t * to.at, mesh_, kPlaceLimit));
     }
     if (farthest > 1) continue;  // sights end at twice the limit
     ++within;
@@ -102,7 +94,7 @@ TEST_P(EdgePlaces, AreFewInsideTheEdgeAndInOrder) {
       const Point at = (1 - p.along) * from.at + p.along * to.at;
       if (p.sight.triangle == kNoIndex) continue;
       EXPECT_DOUBLE_EQ(p.sight.share, back_.share_of(at, p.sight.triangle));
-      EXPECT_NEAR(p.sight.share, share_of(at, mesh_), 1e-9);
+      EXPECT_NEAR(p.sight.share, share_of(at, mesh_, kPlaceLimit), 1e-9);
     }
     several += places.size() > 1 ? 1 : 0;
   }

@@ -7,22 +7,14 @@
 
 #include "host/decimate/local_search.h"
 #include "sw_model/base/sort_once.h"
+#include "tests/host/support/decimation.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {
 
-constexpr double kLimit = 0.05;
+constexpr double kSampleLimit = 0.05;
 constexpr int kPower = 4;
-
-// By every triangle of the reference, as a share of the limit squared.
-double share_of(const Point& p, const TriangleMesh& reference) {
-  double least = 1e300;
-  for (std::size_t t = 0; t < reference.triangles.size(); ++t) {
-    least = std::min(least, squared_distance(p, reference.view().corners(t)));
-  }
-  return least / (kLimit * kLimit);
-}
 
 // The greatest share at places spread over the edges at a vertex.
 double greatest_at(std::uint32_t vertex, const Point& position, const EditableMesh& mesh,
@@ -35,7 +27,7 @@ double greatest_at(std::uint32_t vertex, const Point& position, const EditableMe
     for (int i = 1; i < kPlaces; ++i) {
       const Point p =
           position + static_cast<double>(i) / kPlaces * (mesh.position(other) - position);
-      greatest = std::max(greatest, share_of(p, reference));
+      greatest = std::max(greatest, share_of(p, reference, kSampleLimit));
     }
   }
   return greatest;
@@ -46,8 +38,8 @@ class CoarseMesh : public testing::TestWithParam<bool> {
   CoarseMesh()
       : reference_(GetParam() ? bumpy(30, 50) : sheet(40, 0.4)),
         mesh_(GetParam() ? bumpy(14, 22) : sheet(12, 0.4)),
-        back_(reference_, kLimit),
-        state_(mesh_, reference_.vertices, &back_, kLimit * kLimit, {}) {}
+        back_(reference_, kSampleLimit),
+        state_(mesh_, reference_.vertices, &back_, kSampleLimit * kSampleLimit, {}) {}
 
   std::vector<std::uint32_t> slots_at(std::uint32_t vertex) const {
     std::vector<std::uint32_t> slots;
@@ -168,7 +160,7 @@ TEST_P(CoarseMesh, PointsAStepDownTheSlope) {
     samples.take(slots_at(v), triangles_at(v), v);
     const Point at = mesh_.vertices[v];
     const Point direction = random.point(-1, 1).normalized();
-    const double step = 1e-6 * kLimit;
+    const double step = 1e-6 * kSampleLimit;
     const double up = samples.measure(at + step * direction, kPower).sum;
     const double down = samples.measure(at - step * direction, kPower).sum;
     const EdgeSamples::Energy here = samples.measure(at, kPower);
@@ -177,9 +169,9 @@ TEST_P(CoarseMesh, PointsAStepDownTheSlope) {
     Point right = Point::Zero();
     samples.add_to(matrix, right, at, 1, kPower);
     // d/dx of (d^2/L^2)^(p/2), where `right` is the sum of (d^2/L^2)^(p/2 - 1) times the residual.
-    const double slope = -kPower / (kLimit * kLimit) * right.dot(direction);
+    const double slope = -kPower / (kSampleLimit * kSampleLimit) * right.dot(direction);
     const double found = (up - down) / (2 * step);
-    const double tolerance = 0.02 * std::abs(slope) + 0.02 * here.sum / kLimit;
+    const double tolerance = 0.02 * std::abs(slope) + 0.02 * here.sum / kSampleLimit;
     alike += std::abs(found - slope) <= tolerance ? 1 : 0;
     ++compared;
   }
@@ -193,9 +185,9 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, CoarseMesh, testing::Bool(),
 
 TEST(EdgeSamples, NoneWithoutABackBoundOrPlaces) {
   const TriangleMesh mesh = sheet(5, 0.2);
-  const BackBound back(mesh, kLimit);
-  const DecimationState one_sided(mesh, mesh.vertices, nullptr, kLimit * kLimit, {});
-  const DecimationState both(mesh, mesh.vertices, &back, kLimit * kLimit, {});
+  const BackBound back(mesh, kSampleLimit);
+  const DecimationState one_sided(mesh, mesh.vertices, nullptr, kSampleLimit * kSampleLimit, {});
+  const DecimationState both(mesh, mesh.vertices, &back, kSampleLimit * kSampleLimit, {});
   EdgeSamples samples(one_sided), none(both);
   samples.enable(true);
   EXPECT_TRUE(samples.none());

@@ -16,6 +16,7 @@
 #include "testbench/link/faulty_channel.h"
 #include "testbench/link/link_twin.h"
 #include "tests/support/board_work.h"
+#include "tests/support/messages.h"
 
 namespace emax {
 namespace {
@@ -87,15 +88,6 @@ class PlugAndBoard {
   std::thread thread_;
 };
 
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(SerialChannel, CarriesTheLink) {
   PlugAndBoard board;
   LinkDevice device(std::make_unique<SerialChannel>(board.path()));
@@ -138,7 +130,7 @@ TEST(SerialChannel, StaysUnplugged) {
   LinkDevice device(std::make_unique<SerialChannel>(board.path()), {.absence = 300ms});
   board.unplug();
   const auto blocks = test::some_blocks(kWork, 65);
-  EXPECT_EQ(error_of([&] { test::answers_of(device, blocks); }),
+  EXPECT_EQ(test::message_of([&] { test::answers_of(device, blocks); }),
             "device tty:" + board.path() +
                 ": the board has been gone for 0.3 s; plug it in and run again");
 }
@@ -146,15 +138,15 @@ TEST(SerialChannel, StaysUnplugged) {
 TEST(SerialChannel, IsOursAlone) {
   PlugAndBoard board;
   const SerialChannel first(board.path());
-  EXPECT_EQ(error_of([&] { SerialChannel second(board.path()); }),
+  EXPECT_EQ(test::message_of([&] { SerialChannel second(board.path()); }),
             "device tty:" + board.path() + ": " + why_not_opened(EWOULDBLOCK));
 }
 
 TEST(SerialChannel, SaysWhatHindersIt) {
-  EXPECT_EQ(error_of([] { SerialChannel channel("/dev/ttyNONE0"); }),
+  EXPECT_EQ(test::message_of([] { SerialChannel channel("/dev/ttyNONE0"); }),
             "device tty:/dev/ttyNONE0: there is no such port; plug the board in and see `ls "
             "/dev/serial/by-id`");
-  EXPECT_EQ(error_of([] { SerialChannel channel("/dev/null"); }),
+  EXPECT_EQ(test::message_of([] { SerialChannel channel("/dev/null"); }),
             "device tty:/dev/null: this is not a serial port; name one such as /dev/ttyUSB0");
   EXPECT_NE(why_not_opened(EACCES).find("dialout"), std::string::npos);
   EXPECT_NE(why_not_opened(EBUSY).find("another process"), std::string::npos);

@@ -9,6 +9,7 @@
 #include "sw_model/protocol/commands.h"
 #include "sw_model/protocol/cpp_device.h"
 #include "testbench/stimuli/random.h"
+#include "tests/support/messages.h"
 
 namespace emax {
 namespace {
@@ -221,19 +222,10 @@ TEST(XrtDevice, StartsAfreshAfterAHostThatWasKilled) {
   }
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(XrtDevice, GivesUpWithOneClearLine) {
   auto stuck = std::make_unique<SoftwareCard>(7);
   stuck->faults.writes_never_end = true;
-  EXPECT_EQ(error_of([&] { XrtDevice(std::move(stuck), milliseconds{20}); }),
+  EXPECT_EQ(test::message_of([&] { XrtDevice(std::move(stuck), milliseconds{20}); }),
             "device software card: the card does not end its transfers; reset it with `xbutil "
             "reset`");
 
@@ -241,27 +233,29 @@ TEST(XrtDevice, GivesUpWithOneClearLine) {
   SoftwareCard& card = *silent;
   XrtDevice device(std::move(silent), milliseconds{1000});
   card.faults.core_is_silent = true;
-  EXPECT_EQ(error_of([&] { require_compatible(device); }),
+  EXPECT_EQ(test::message_of([&] { require_compatible(device); }),
             "device software card: no answer for 1 s; reset the card with `xbutil reset` and run "
             "again");
 
   Opened idle(std::make_unique<SoftwareCard>(9));
   std::array<Word, 1> word;
-  EXPECT_NE(error_of([&] { idle.device.receive(word); }).find("no command asked for"),
+  EXPECT_NE(test::message_of([&] { idle.device.receive(word); }).find("no command asked for"),
             std::string::npos);
 }
 
 TEST(XrtCard, SaysInOneLineWhyThereIsNone) {
 #ifdef EMAX_XRT
-  EXPECT_NE(error_of([] { open_xrt_card("/nowhere.xclbin"); }).find("there is no file '/nowhere"),
-            std::string::npos);
-  EXPECT_NE(error_of([] { open_xrt_card(__FILE__ "@x"); }).find("not the number of a card"),
+  EXPECT_NE(
+      test::message_of([] { open_xrt_card("/nowhere.xclbin"); }).find("there is no file '/nowhere"),
+      std::string::npos);
+  EXPECT_NE(test::message_of([] { open_xrt_card(__FILE__ "@x"); }).find("not the number of a card"),
             std::string::npos);
   // No test machine is expected to have card 4095.
-  EXPECT_NE(error_of([] { open_xrt_card(__FILE__ "@4095"); }).find("no card answers"),
+  EXPECT_NE(test::message_of([] { open_xrt_card(__FILE__ "@4095"); }).find("no card answers"),
             std::string::npos);
 #else
-  EXPECT_NE(error_of([] { open_xrt_card("x"); }).find("cmake -DEMAX_XRT=ON"), std::string::npos);
+  EXPECT_NE(test::message_of([] { open_xrt_card("x"); }).find("cmake -DEMAX_XRT=ON"),
+            std::string::npos);
 #endif
 }
 
