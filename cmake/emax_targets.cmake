@@ -3,7 +3,24 @@
 # "<folder>/..." through a folder that holds a link to that room alone, so a target sees a room only
 # when it links the room's library.
 
+option(EMAX_UNITY "Compile the sources of a target several at a time, in a third of the time" ON)
+
+# emax_alone(<source>...): sources, from the root, that no others are compiled with: a second program
+# has them in another form, or the compiler warns wrongly where it sees them together.
+function(emax_alone)
+  foreach(source ${ARGN})
+    get_filename_component(folder ${PROJECT_SOURCE_DIR}/${source} DIRECTORY)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} DIRECTORY ${folder}
+      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endforeach()
+endfunction()
+
 function(emax_flags target)
+  # Most of the time goes to the templates of Eigen and GoogleTest, which the sources have in common.
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${EMAX_UNITY} UNITY_BUILD_BATCH_SIZE 10)
+  if(EMAX_UNITY)  # the compiler takes the sources for headers, where this warning would be right
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   # No contraction anywhere: the numeric contract counts every rounding (docs/numerics.md).
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
@@ -125,6 +142,7 @@ function(emax_test name)
   endif()
   set(left_out ${ARG_SLOW})
   if(ARG_FAULTS)
+    emax_alone(${ARG_FAULTS})
     list(TRANSFORM ARG_FAULTS PREPEND ${PROJECT_SOURCE_DIR}/)
     add_library(${name}_broken OBJECT ${ARG_FAULTS})
     emax_flags(${name}_broken)

@@ -10,7 +10,7 @@ namespace emax {
 namespace {
 
 // An option as a shell completes it.
-struct Completed {
+struct CompletedOption {
   std::vector<std::string> names;    // "--method", "-q"
   std::vector<std::string> choices;  // of its value, where there are few
   bool takes_value;
@@ -35,14 +35,14 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
 }
 
-std::vector<Completed> options_of(const CLI::App& command) {
-  std::vector<Completed> options;
+std::vector<CompletedOption> options_of(const CLI::App& command) {
+  std::vector<CompletedOption> options;
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_positional()) continue;
-    Completed completed{{},
-                        choices_of(*option),
-                        option->get_items_expected_max() > 0,
-                        few_words(option->get_description())};
+    CompletedOption completed{{},
+                              choices_of(*option),
+                              option->get_items_expected_max() > 0,
+                              few_words(option->get_description())};
     for (const std::string& name : option->get_lnames()) completed.names.push_back("--" + name);
     for (const std::string& name : option->get_snames()) completed.names.push_back("-" + name);
     options.push_back(std::move(completed));
@@ -50,9 +50,9 @@ std::vector<Completed> options_of(const CLI::App& command) {
   return options;
 }
 
-std::vector<std::string> names_of(const std::vector<Completed>& options) {
+std::vector<std::string> names_of(const std::vector<CompletedOption>& options) {
   std::vector<std::string> names;
-  for (const Completed& option : options) {
+  for (const CompletedOption& option : options) {
     names.insert(names.end(), option.names.begin(), option.names.end());
   }
   return names;
@@ -63,10 +63,10 @@ std::string for_bash(const CLI::App& app) {
   std::string options, choices;
   for (const CLI::App* command : app.get_subcommands({})) {
     first.push_back(command->get_name());
-    const std::vector<Completed> all = options_of(*command);
+    const std::vector<CompletedOption> all = options_of(*command);
     options += fmt::format("    {}) options=\"{}\" ;;\n", command->get_name(),
                            fmt::join(names_of(all), " "));
-    for (const Completed& option : all) {
+    for (const CompletedOption& option : all) {
       if (option.choices.empty()) continue;
       for (const std::string& name : option.names) {
         choices += fmt::format("    \"{} {}\") options=\"{}\" ;;\n", command->get_name(), name,
@@ -103,7 +103,7 @@ std::string for_zsh(const CLI::App& app) {
     commands +=
         fmt::format("      '{}:{}'\n", command->get_name(), few_words(command->get_description()));
     cases += fmt::format("    {})\n      _arguments", command->get_name());
-    for (const Completed& option : options_of(*command)) {
+    for (const CompletedOption& option : options_of(*command)) {
       const std::string value = !option.takes_value ? ""
                                 : option.choices.empty()
                                     ? ":value:_files"
@@ -138,7 +138,7 @@ std::string for_fish(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands({})) {
     script += fmt::format("complete -c emax -f -n __fish_use_subcommand -a {} -d '{}'\n",
                           command->get_name(), few_words(command->get_description()));
-    for (const Completed& option : options_of(*command)) {
+    for (const CompletedOption& option : options_of(*command)) {
       script +=
           fmt::format("complete -c emax -n '__fish_seen_subcommand_from {}'", command->get_name());
       for (const std::string& name : option.names) {

@@ -15,7 +15,7 @@ namespace emax {
 namespace {
 
 constexpr std::chrono::milliseconds kSilence{1500};  // at the beginning of a phase
-constexpr std::chrono::milliseconds kOnTerminal{200};
+constexpr std::chrono::milliseconds kRedraw{200};
 constexpr std::chrono::seconds kElsewhere{10};
 constexpr std::chrono::seconds kAsJson{1};
 
@@ -125,7 +125,7 @@ void PhaseProgress::tell() {
   }
   to_standard_error(terminal_ ? "\r\033[K" + fit_terminal(line()) : line() + "\n");
   open_line_ = terminal_;
-  next_ = Clock::now() + (terminal_ ? Clock::duration(kOnTerminal) : Clock::duration(kElsewhere));
+  next_ = Clock::now() + (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kElsewhere));
 }
 
 void PhaseProgress::speak() {

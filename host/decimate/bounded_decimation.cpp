@@ -16,7 +16,7 @@ namespace emax {
 namespace {
 
 // Roundings of the local tests: a few units in the last place of the coordinates.
-constexpr double kRoundings = 0x1p-46;
+constexpr double kRelativeRoundings = 0x1p-46;
 constexpr double kMargin = 1e-7;
 // Of the extent: twice what surface_distance leaves undecided, so that the certificate of a mesh
 // that comes as near to its limit as it may does not fail.
@@ -103,14 +103,14 @@ struct BoundedDecimator::Prepared {
 
 namespace {
 
-using Coordinates = std::array<double, 3>;
+using Place = std::array<double, 3>;
 
 // The vertices of the reference as points: a point of the cloud where it has one at the same place,
 // else a new point after the cloud's.
 std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<Point>& points) {
-  std::vector<std::pair<Coordinates, std::uint32_t>> places;
+  std::vector<std::pair<Place, std::uint32_t>> places;
   places.reserve(points.size());
-  const auto at = [](const Point& p) { return Coordinates{p[0], p[1], p[2]}; };
+  const auto at = [](const Point& p) { return Place{p[0], p[1], p[2]}; };
   for (std::uint32_t i = 0; i < points.size(); ++i) places.emplace_back(at(points[i]), i);
   std::ranges::sort(places);
   std::vector<std::uint32_t> point_of;
@@ -202,7 +202,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
                                     double reach) const {
   if (start.triangles.empty()) throw Error("the mesh has no triangles to decimate");
   const double roundings =
-      kRoundings * greatest_coordinate({start.vertices, reference_.vertices, cloud_});
+      kRelativeRoundings * greatest_coordinate({start.vertices, reference_.vertices, cloud_});
   const double undecided = kUndecided * bounds_of(reference_.vertices).width();
   const double limit = limit_of(settings.epsilon, roundings, undecided);
   double back_limit = 0;

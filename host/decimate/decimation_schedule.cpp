@@ -21,7 +21,7 @@ constexpr int kHighPower = 16;
 // With this share of the triangles left, nothing else is tried.
 constexpr double kMuch = 0.85;
 constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth reference
-constexpr int kTries = 3;        // of spreading the error
+constexpr int kSpreads = 3;      // of spreading the error
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
@@ -130,7 +130,7 @@ class Schedule {
     std::vector<DecimationPasses::Place> stuck;
     bool within = deep && even_out(ErrorEquidistribution::kLong, stuck);
     // What could not be restored is left as it was, in another try.
-    for (int i = 0; i < kTries && !within && !passes_.stopped() && !race_.lost(); ++i) {
+    for (int i = 0; i < kSpreads && !within && !passes_.stopped() && !race_.lost(); ++i) {
       const std::size_t known = stuck.size();
       if (deep || i > 0) go_back(before, features);
       passes_.hold_around(stuck);

@@ -10,8 +10,8 @@
 namespace emax {
 namespace {
 
-constexpr double kNegligible = 1e-9;    // a weight relative to the greatest
-constexpr std::size_t kMostKnown = 16;  // edges for each triangle, before all are forgotten
+constexpr double kNegligibleWeight = 1e-9;  // a weight relative to the greatest
+constexpr std::size_t kMostKnown = 16;      // edges for each triangle, before all are forgotten
 
 // The edges of triangles, each once and sorted, the lower vertex first.
 void collect(const Triangle& t, std::vector<std::array<std::uint32_t, 2>>& edges) {
@@ -159,7 +159,7 @@ void EdgeSamples::add_to(Eigen::Matrix3d& matrix, Point& right, const Point& pos
   for (const Sample& s : after_) {
     if (s.from != kNoIndex || s.at.sight.triangle == kNoIndex || !(s.at.sight.share > 0)) continue;
     const double importance = power > 2 ? power_of(s.at.sight.share / worst, power - 2) : 1;
-    if (importance < kNegligible) continue;
+    if (importance < kNegligibleWeight) continue;
     const Point residual = state_.back()->toward(place(s, position), s.at.sight.triangle);
     const Point direction = residual.normalized();
     const double weight = 1 - s.at.along;  // of the moving vertex in the place

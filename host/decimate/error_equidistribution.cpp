@@ -23,7 +23,7 @@ constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be
 constexpr double kFewBeyond = 0.02;   // share of the triangles that is left to exact restoration
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
 constexpr int kVainRepairs = 6;                   // in a row
-constexpr int kTries = 2;                         // of the exact limits
+constexpr int kExactTries = 2;                    // of the exact limits
 constexpr int kFirstRestorations = 2;             // rounds without splits
 constexpr double kStuckRadius = 1.5;              // times the longest edge of what is stuck
 // What restoration leaves even has room for fewer: of a mesh within its limits, and at most so many
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> ErrorEquidistribution::beyond_limit() {
 // Loosely, then exactly. What is then left in a shape in which no edit is permitted is given
 // another one under loosened limits. Returns false where it is given up.
 bool ErrorEquidistribution::restore(double most) {
-  for (int i = 0; i < kTries && !passes_.stopped(); ++i) {
+  for (int i = 0; i < kExactTries && !passes_.stopped(); ++i) {
     if (i > 0) state_.loosen(kLessLoosened, kLoosened);
     if (!restore_loosely(most, i == 0 ? kFewBeyond : 0)) return false;
     if (restore_exactly()) return true;

@@ -8,7 +8,7 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kMostPlaces = 24;  // triangles near a point where its insertion is tried
+constexpr std::size_t kMostTriangles = 24;  // triangles near a point where its insertion is tried
 
 class Insertion {
  public:
@@ -48,7 +48,7 @@ class Insertion {
       });
     }
     sort_once(near);
-    if (near.size() > kMostPlaces) near.resize(kMostPlaces);
+    if (near.size() > kMostTriangles) near.resize(kMostTriangles);
     std::vector<std::uint32_t> slots;
     for (const auto& [distance, s] : near) slots.push_back(s);
     return slots;

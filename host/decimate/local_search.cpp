@@ -13,7 +13,7 @@ namespace emax {
 namespace {
 
 // Points with less than this share of the greatest squared distance do not count in a step.
-constexpr double kNegligible = 0.01;
+constexpr double kNegligibleShare = 0.01;
 
 // Shares of the trace of the normal equations. A vertex moves along the surface by steps whose
 // squared slopes are about the limit times the curvature, which more damping would prevent.
@@ -292,7 +292,7 @@ bool LocalSearch::step(const Options& options, double damping, Fit& at) const {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Point right = Point::Zero();
   const double scale = 1 / state_.squared_limit();
-  const double least = options.power > 2 ? kNegligible * at.worst : 0;
+  const double least = options.power > 2 ? kNegligibleShare * at.worst : 0;
   const bool newton = steps_ == Steps::kNewton;
   const double unit = newton ? 1 / at.worst : 1;  // so that high powers do not vanish
   for (std::size_t i = 0; i < guiding_.size(); ++i) {

@@ -14,7 +14,7 @@ namespace emax {
 namespace {
 
 constexpr std::uint32_t kCells = 1024;
-constexpr std::size_t kPiece = 4096;  // vertices or triangles that a thread takes at a time
+constexpr std::size_t kItems = 4096;  // vertices or triangles that a thread takes at a time
 
 // spread_bits() of every value of ten bits.
 constexpr auto kSpread = [] {
@@ -90,19 +90,19 @@ CurveOrder::CurveOrder(MeshView mesh, const Normalization& normalization, std::s
       corners_(std::make_unique_for_overwrite<Triangle[]>(triangle_count_)) {
   const std::span<NormalizedVertex> vertices(vertices_.get(), vertex_count_);
   std::atomic<bool> in_range = true;
-  in_pieces(threads, vertex_count_, kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
+  in_pieces(threads, vertex_count_, kItems, [&](std::size_t, std::size_t first, std::size_t last) {
     if (!normalize(mesh.vertices, normalization, first, last, vertices)) in_range = false;
   });
   if (!in_range) make_records(mesh, normalization);  // names a triangle with such a vertex
 
   const auto memory = std::make_unique_for_overwrite<LeafKey[]>(triangle_count_);
   const std::span<LeafKey> unsorted(memory.get(), triangle_count_);
-  in_pieces(threads, triangle_count_, kPiece,
+  in_pieces(threads, triangle_count_, kItems,
             [&](std::size_t, std::size_t first, std::size_t last) {
               make_codes(vertices, mesh.triangles, first, last, unsorted);
             });
   radix_sort(unsorted, {keys_.get(), triangle_count_});
-  in_pieces(threads, triangle_count_, kPiece,
+  in_pieces(threads, triangle_count_, kItems,
             [&](std::size_t, std::size_t first, std::size_t last) {
               for (std::size_t i = first; i < last; ++i) {
                 corners_[i] = mesh.triangles[keys_[i].triangle];

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSeedStride = 256;     // packets
 constexpr std::size_t kMostRemembered = 16;  // packets
-constexpr std::size_t kPiece = 32;           // supergroups
+constexpr std::size_t kSupergroups = 32;     // supergroups
 constexpr std::size_t kSeedPiece = 16;       // packets
 constexpr std::uint32_t kNeverEnough = std::numeric_limits<std::uint32_t>::max();
 
@@ -57,7 +57,7 @@ SearchJob ErrorEngine::job(const PreparedMesh& mesh, RunningMaximum& worst, std:
 
 void ErrorEngine::in_supergroups(
     const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
-  in_pieces(options_.threads, cloud_.packets().supergroups.size(), kPiece,
+  in_pieces(options_.threads, cloud_.packets().supergroups.size(), kSupergroups,
             [&](std::size_t thread, std::size_t first, std::size_t last) {
               if (thread == 0 && options_.interrupted && options_.interrupted())
                 throw Interrupted{};
@@ -123,12 +123,13 @@ std::optional<EmaxResult> ErrorEngine::violation(const PreparedMesh& mesh,
     target_.search_packets(job(mesh, worst, limit_bits, raised), remembered_);
     if (const auto found = violation_of(worst)) return found;
   }
-  const std::size_t pieces = (cloud_.packets().supergroups.size() + kPiece - 1) / kPiece;
+  const std::size_t pieces =
+      (cloud_.packets().supergroups.size() + kSupergroups - 1) / kSupergroups;
   std::vector<RunningMaximum> worst(pieces);
   std::atomic<std::size_t> first_found = pieces;
   std::vector<std::vector<std::uint32_t>> raised_by(options_.threads);
   in_supergroups([&](std::size_t thread, std::size_t first, std::size_t last) {
-    const std::size_t piece = first / kPiece;
+    const std::size_t piece = first / kSupergroups;
     if (piece > first_found) return;
     worst[piece].raise({limit_bits, 0});
     target_.search_supergroups(job(mesh, worst[piece], limit_bits, raised_by[thread]), first, last);

@@ -11,8 +11,8 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kPiece = 4096;  // triangles
-static_assert(kPiece % kTreeWidth == 0);
+constexpr std::size_t kTriangles = 4096;  // triangles
+static_assert(kTriangles % kTreeWidth == 0);
 constexpr std::size_t kMostInCell = 8;  // at most this many leaves of a cell are compared
 
 bool same_triangle(const TriangleRecord<float>& a, const TriangleRecord<float>& b) {
@@ -28,10 +28,10 @@ MeshLeaves::MeshLeaves(MeshView mesh, const Normalization& normalization,
   CurveOrder order(mesh, normalization, threads);
   records_ = std::make_unique_for_overwrite<TriangleRecord<float>[]>(count_);
   const std::span<TriangleRecord<float>> records(records_.get(), count_);
-  std::vector<float> reach((count_ + kPiece - 1) / kPiece);
-  in_pieces(threads, count_, kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
+  std::vector<float> reach((count_ + kTriangles - 1) / kTriangles);
+  in_pieces(threads, count_, kTriangles, [&](std::size_t, std::size_t first, std::size_t last) {
     const std::size_t count = last - first;
-    reach[first / kPiece] = target.make_leaves(
+    reach[first / kTriangles] = target.make_leaves(
         order.vertices(), order.corners().subspan(first, count), order.keys().subspan(first, count),
         records.subspan(first, count),
         blocks.subspan(first / kTreeWidth, (count + kTreeWidth - 1) / kTreeWidth));

@@ -23,17 +23,17 @@ constexpr std::array<std::string_view, 14> kEndings{".ply", ".pcd", ".xyz", ".as
 // Those of the other endings.
 constexpr std::array<std::pair<std::string_view, StreamReader>, 3> kStreamReaders{
     {{".las", read_las}, {".laz", read_las}, {".e57", read_e57}}};
-constexpr std::array<std::pair<std::string_view, Reader>, 11> kReaders{{{".ply", read_ply},
-                                                                        {".pcd", read_pcd},
-                                                                        {".xyz", read_xyz},
-                                                                        {".asc", read_xyz},
-                                                                        {".txt", read_xyz},
-                                                                        {".pts", read_pts},
-                                                                        {".obj", read_obj},
-                                                                        {".off", read_off},
-                                                                        {".glb", read_glb},
-                                                                        {".3mf", read_threemf},
-                                                                        {".ptx", read_ptx}}};
+constexpr std::array<std::pair<std::string_view, Reader>, 11> kCloudReaders{{{".ply", read_ply},
+                                                                             {".pcd", read_pcd},
+                                                                             {".xyz", read_xyz},
+                                                                             {".asc", read_xyz},
+                                                                             {".txt", read_xyz},
+                                                                             {".pts", read_pts},
+                                                                             {".obj", read_obj},
+                                                                             {".off", read_off},
+                                                                             {".glb", read_glb},
+                                                                             {".3mf", read_threemf},
+                                                                             {".ptx", read_ptx}}};
 
 constexpr auto kEndingOf = [](const auto& reader) { return reader.first; };
 
@@ -47,8 +47,8 @@ FileContent read_content(const std::filesystem::path& path, const CloudReadOptio
     return of_stream->second(input, options);
   }
   const InputFile input = read_input(path);
-  const auto known = std::ranges::find(kReaders, ending, kEndingOf);
-  if (known == kReaders.end()) {
+  const auto known = std::ranges::find(kCloudReaders, ending, kEndingOf);
+  if (known == kCloudReaders.end()) {
     input.fail(fmt::format("unknown ending \"{}\"", printable(ending)),
                fmt::format("clouds are read from {}", fmt::join(kEndings, ", ")));
   }

@@ -18,9 +18,10 @@ namespace emax {
 namespace {
 
 // Bytes of a point of each format.
-constexpr std::array<std::uint16_t, 11> kLeastBytes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+constexpr std::array<std::uint16_t, 11> kLeastPointBytes{20, 28, 26, 34, 57, 63,
+                                                         30, 36, 38, 59, 67};
 constexpr int kFirstExtendedFormat = 6;
-constexpr std::array<std::uint16_t, 5> kHeaderBytes{227, 227, 227, 235, 375};  // of 1.0 to 1.4
+constexpr std::array<std::uint16_t, 5> kLasHeaderBytes{227, 227, 227, 235, 375};  // of 1.0 to 1.4
 
 template <class Number>
 Number load(const std::uint8_t* bytes) {
@@ -30,7 +31,7 @@ Number load(const std::uint8_t* bytes) {
   return value;
 }
 
-struct Header {
+struct LasHeader {
   int minor = 0;
   std::uint16_t header_bytes = 0;
   std::uint32_t offset = 0, records = 0;  // of the points; of variable length
@@ -42,20 +43,20 @@ struct Header {
   Point scale, shift, greatest, least;
 };
 
-Header read_header(const InputStream& input) {
+LasHeader read_las_header(const InputStream& input) {
   std::array<std::uint8_t, 375> bytes{};
-  if (input.size() < kHeaderBytes[0]) {
+  if (input.size() < kLasHeaderBytes[0]) {
     input.fail(fmt::format("{} bytes are fewer than a LAS header has", input.size()), kExportAgain);
   }
   input.read(0, std::span(bytes).first(std::min<std::size_t>(input.size(), bytes.size())));
   if (std::memcmp(bytes.data(), "LASF", 4) != 0) {
     input.fail("does not begin with LASF", "it is no LAS or LAZ file, check its ending");
   }
-  if (bytes[24] != 1 || bytes[25] >= kHeaderBytes.size()) {
+  if (bytes[24] != 1 || bytes[25] >= kLasHeaderBytes.size()) {
     input.fail(fmt::format("version {}.{} is not known", bytes[24], bytes[25]),
                "export it as LAS 1.0 to 1.4");
   }
-  Header h;
+  LasHeader h;
   h.minor = bytes[25];
   h.header_bytes = load<std::uint16_t>(&bytes[94]);
   h.offset = load<std::uint32_t>(&bytes[96]);
@@ -64,7 +65,7 @@ Header read_header(const InputStream& input) {
   h.compressed = (bytes[104] & 0x80) != 0;
   h.point_bytes = load<std::uint16_t>(&bytes[105]);
   h.points = load<std::uint32_t>(&bytes[107]);
-  if (h.header_bytes < kHeaderBytes[bytes[25]] || h.offset < h.header_bytes ||
+  if (h.header_bytes < kLasHeaderBytes[bytes[25]] || h.offset < h.header_bytes ||
       h.offset > input.size()) {
     input.fail(fmt::format("the header of {} bytes puts the points at byte {} of {}",
                            h.header_bytes, h.offset, input.size()),
@@ -80,11 +81,11 @@ Header read_header(const InputStream& input) {
   }
   h.may_follow = (h.minor >= 3 && load<std::uint64_t>(&bytes[227]) != 0) ||
                  (h.minor == 4 && load<std::uint32_t>(&bytes[243]) != 0);
-  if (h.format >= static_cast<int>(kLeastBytes.size())) {
+  if (h.format >= static_cast<int>(kLeastPointBytes.size())) {
     input.fail(fmt::format("point format {} is not known", h.format),
                "export it with a point format from 0 to 10");
   }
-  if (h.point_bytes < kLeastBytes[static_cast<std::size_t>(h.format)]) {
+  if (h.point_bytes < kLeastPointBytes[static_cast<std::size_t>(h.format)]) {
     input.fail(
         fmt::format("{} bytes are too few for a point of format {}", h.point_bytes, h.format),
         kExportAgain);
@@ -126,7 +127,7 @@ struct Records {
   std::optional<std::vector<std::uint8_t>> laz;
 };
 
-Records read_records(const InputStream& input, const Header& header) {
+Records read_records(const InputStream& input, const LasHeader& header) {
   constexpr std::uint64_t kRecordHeader = 54;
   if (header.records > (header.offset - header.header_bytes) / kRecordHeader) {
     input.fail(fmt::format("the header promises {} records, but there is room for {}",
@@ -164,7 +165,7 @@ Records read_records(const InputStream& input, const Header& header) {
 
 class PointReader {
  public:
-  PointReader(const InputStream& input, const Header& header, const CloudReadOptions& options,
+  PointReader(const InputStream& input, const LasHeader& header, const CloudReadOptions& options,
               FileContent& content)
       : input_(input), header_(header), content_(content) {
     for (const std::uint8_t c : options.left_out_classes) left_out_[c] = true;
@@ -201,7 +202,7 @@ class PointReader {
   }
 
   const InputStream& input_;
-  const Header& header_;
+  const LasHeader& header_;
   FileContent& content_;
   std::array<bool, 256> left_out_{};
   bool bounded_ = false;
@@ -211,7 +212,7 @@ class PointReader {
 }  // namespace
 
 FileContent read_las(const InputStream& input, const CloudReadOptions& options) {
-  const Header header = read_header(input);
+  const LasHeader header = read_las_header(input);
   const Records records = read_records(input, header);
   FileContent content;
   content.has_classes = true;

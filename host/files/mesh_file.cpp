@@ -19,20 +19,20 @@ namespace {
 using Reader = FileContent (*)(const InputFile&);
 
 // In the order of MeshFormat.
-constexpr std::array<std::string_view, 7> kEndings{".ply", ".obj", ".stl", ".off",
-                                                   ".glb", ".3mf", ".dxf"};
-constexpr std::array<Reader, 7> kReaders{read_ply, read_obj,     read_stl, read_off,
-                                         read_glb, read_threemf, read_dxf};
+constexpr std::array<std::string_view, 7> kMeshEndings{".ply", ".obj", ".stl", ".off",
+                                                       ".glb", ".3mf", ".dxf"};
+constexpr std::array<Reader, 7> kMeshReaders{read_ply, read_obj,     read_stl, read_off,
+                                             read_glb, read_threemf, read_dxf};
 
 std::optional<MeshFormat> format_with(std::string_view ending) {
-  const auto known = std::ranges::find(kEndings, ending);
-  if (known == kEndings.end()) return std::nullopt;
-  return static_cast<MeshFormat>(known - kEndings.begin());
+  const auto known = std::ranges::find(kMeshEndings, ending);
+  if (known == kMeshEndings.end()) return std::nullopt;
+  return static_cast<MeshFormat>(known - kMeshEndings.begin());
 }
 
 [[noreturn]] void fail_at_ending(const std::filesystem::path& path, std::string_view ending) {
   throw Error(fmt::format("{}: unknown ending \"{}\"; meshes end in {}", path.string(),
-                          printable(ending), fmt::join(kEndings, ", ")));
+                          printable(ending), fmt::join(kMeshEndings, ", ")));
 }
 
 FileContent read_content(const InputFile& input, const std::filesystem::path& path) {
@@ -40,7 +40,7 @@ FileContent read_content(const InputFile& input, const std::filesystem::path& pa
   const std::optional<MeshFormat> format = format_with(ending);
   if (!format) fail_at_ending(path, ending);
   check_ending_fits(input, input.bytes, ending);
-  return kReaders[static_cast<std::size_t>(*format)](input);
+  return kMeshReaders[static_cast<std::size_t>(*format)](input);
 }
 
 // Meshes of depth images have a vertex for every pixel, NaN where nothing was seen. Such a vertex
@@ -59,7 +59,7 @@ bool replace_unused_invalid(FileContent& content) {
 
 }  // namespace
 
-std::span<const std::string_view> mesh_endings() { return kEndings; }
+std::span<const std::string_view> mesh_endings() { return kMeshEndings; }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   const std::string ending = lower_case_ending(path);

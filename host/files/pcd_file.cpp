@@ -31,7 +31,7 @@ constexpr std::int64_t kMostValues = 65536;
 
 enum class Data { kText, kBinary, kCompressed };
 
-struct Header {
+struct PcdHeader {
   std::vector<Field> fields;
   std::uint64_t points = 0;
   Data data = Data::kText;
@@ -63,9 +63,9 @@ void check_field(const TextLines& lines, const Field& field) {
   }
 }
 
-Header read_header(const InputFile& input) {
+PcdHeader read_pcd_header(const InputFile& input) {
   TextLines lines(input, TextLines::Comments::kHash);
-  Header header;
+  PcdHeader header;
   std::optional<std::uint64_t> width, height, points;
   while (true) {
     lines.require_next("the line \"DATA\"");
@@ -146,7 +146,7 @@ struct Place {
 };
 using ThreePlaces = std::array<Place, 3>;
 
-std::optional<ThreePlaces> find_three(const Header& header,
+std::optional<ThreePlaces> find_three(const PcdHeader& header,
                                       const std::array<std::string_view, 3>& names) {
   ThreePlaces places{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -188,7 +188,7 @@ double load(const Field& field, const char* bytes) {
 }
 
 // The decompressed body: all values of the first field, then all of the second, ...
-std::string decompress(const InputFile& input, const Header& header, std::uint64_t wanted) {
+std::string decompress(const InputFile& input, const PcdHeader& header, std::uint64_t wanted) {
   const std::size_t room = input.bytes.size() - header.body;
   std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
   if (room < sizeof sizes) input.fail("the file ends before its compressed data", kExportAgain);
@@ -226,7 +226,7 @@ bool is_point(const TextLines& lines, std::size_t columns) {
 // as the Point Cloud Library's reader ignores them. A further line of text that is a point is
 // refused, because it contradicts the header.
 FileContent read_pcd(const InputFile& input) {
-  const Header header = read_header(input);
+  const PcdHeader header = read_pcd_header(input);
   const auto coordinates = find_three(header, {"x", "y", "z"});
   if (!coordinates) {
     input.fail("the header has no FIELDS x, y and z",

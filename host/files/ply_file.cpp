@@ -56,7 +56,7 @@ struct Element {
   std::vector<Property> properties;
 };
 
-struct Header {
+struct PlyHeader {
   bool text = false;
   bool big_endian = false;
   std::vector<Element> elements;
@@ -79,13 +79,13 @@ Property parse_property(const TextLines& lines) {
   return {std::string(lines[2]), parse_type(lines, 1, false), {}};
 }
 
-Header read_header(const InputFile& input) {
+PlyHeader read_ply_header(const InputFile& input) {
   TextLines lines(input, TextLines::Comments::kNone);
   if (!lines.next() || lines.line() != 1 || lines.text() != "ply") {
     input.fail("does not begin with \"ply\"",
                "it is no PLY file, give it the ending of its format");
   }
-  Header header;
+  PlyHeader header;
   bool has_format = false;
   while (true) {
     lines.require_next("\"end_header\"");
@@ -127,7 +127,7 @@ class TextValues {
   static std::size_t least_bytes(Type) { return 2; }  // a digit and the byte that ends it
   static std::size_t slack() { return 1; }            // the last digit may end the file
 
-  TextValues(const InputFile& input, const Header& header)
+  TextValues(const InputFile& input, const PlyHeader& header)
       : lines_(input, TextLines::Comments::kNone, header.body, header.last_line) {}
 
   void begin_item(const Element& element, std::uint64_t index) {
@@ -167,7 +167,7 @@ class BinaryValues {
   static std::size_t least_bytes(Type type) { return size_of(type); }
   static std::size_t slack() { return 0; }
 
-  BinaryValues(const InputFile& input, const Header& header)
+  BinaryValues(const InputFile& input, const PlyHeader& header)
       : input_(input), at_(header.body), swap_(header.big_endian) {
     static_assert(std::endian::native == std::endian::little);
   }
@@ -281,7 +281,7 @@ bool is_corner_list(const Element& element, const Property& property) {
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void note_attributes(const Header& header, FileContent& content) {
+void note_attributes(const PlyHeader& header, FileContent& content) {
   for (const Element& element : header.elements) {
     const bool is_vertex = element.name == "vertex";
     if (element.count == 0) continue;
@@ -313,7 +313,7 @@ std::optional<std::array<std::size_t, 3>> find_three(const Element& element,
 template <class Values>
 class Body {
  public:
-  Body(const InputFile& input, const Header& header)
+  Body(const InputFile& input, const PlyHeader& header)
       : input_(input), header_(header), values_(input, header) {}
 
   FileContent read() {
@@ -414,7 +414,7 @@ class Body {
   }
 
   const InputFile& input_;
-  const Header& header_;
+  const PlyHeader& header_;
   Values values_;
   FileContent content_;
 };
@@ -422,7 +422,7 @@ class Body {
 }  // namespace
 
 FileContent read_ply(const InputFile& input) {
-  const Header header = read_header(input);
+  const PlyHeader header = read_ply_header(input);
   return header.text ? Body<TextValues>(input, header).read()
                      : Body<BinaryValues>(input, header).read();
 }

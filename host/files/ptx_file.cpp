@@ -10,7 +10,7 @@
 namespace emax {
 namespace {
 
-constexpr std::uint64_t kLeastBytes = 6;  // of the line of a cell: "0 0 0" and its end
+constexpr std::uint64_t kLeastLineBytes = 6;  // of the line of a cell: "0 0 0" and its end
 
 std::uint64_t read_one_count(TextLines& lines, std::string_view what) {
   lines.require_next(what);
@@ -61,7 +61,7 @@ FileContent read_ptx(const InputFile& input) {
     const std::uint64_t columns = lines.count(0);
     const std::uint64_t rows = read_one_count(lines, "the number of rows");
     const Pose pose = read_pose(lines);
-    const std::uint64_t room = (input.bytes.size() - lines.offset() + 1) / kLeastBytes;
+    const std::uint64_t room = (input.bytes.size() - lines.offset() + 1) / kLeastLineBytes;
     if (columns != 0 && rows > room / columns) {
       lines.fail(fmt::format("{} x {} cells are promised, but the rest of the file has room for {}",
                              columns, rows, room),

@@ -12,7 +12,7 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84;  // 80 of text and the count
+constexpr std::size_t kStlHeaderBytes = 84;  // 80 of text and the count
 constexpr std::size_t kTriangleBytes = 50;
 
 // Adds corners in triples; triangles index them until equal ones are merged.
@@ -26,7 +26,7 @@ void add_corner(FileContent& content, const Point& corner, std::string_view plac
 std::uint32_t binary_count(const InputFile& input) {
   std::uint32_t count = 0;
   static_assert(std::endian::native == std::endian::little);
-  std::memcpy(&count, input.bytes.data() + kHeaderBytes - 4, sizeof count);
+  std::memcpy(&count, input.bytes.data() + kStlHeaderBytes - 4, sizeof count);
   return count;
 }
 
@@ -39,12 +39,13 @@ FileContent read_binary(const InputFile& input) {
   for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       float xyz[3];
-      std::memcpy(xyz, input.bytes.data() + kHeaderBytes + t * kTriangleBytes + 12 * (corner + 1),
+      std::memcpy(xyz,
+                  input.bytes.data() + kStlHeaderBytes + t * kTriangleBytes + 12 * (corner + 1),
                   sizeof xyz);
       add_corner(content, Point(xyz[0], xyz[1], xyz[2]), "triangle", t);
     }
     // Some programs store a colour in the two bytes that the format leaves unused.
-    const char* const end = input.bytes.data() + kHeaderBytes + (t + 1) * kTriangleBytes;
+    const char* const end = input.bytes.data() + kStlHeaderBytes + (t + 1) * kTriangleBytes;
     if (end[-2] != 0 || end[-1] != 0) content.note_attribute(kColours);
   }
   return content;
@@ -91,12 +92,13 @@ FileContent read_text(const InputFile& input) {
 FileContent read_stl(const InputFile& input) {
   // Binary files may also begin with "solid", so the size decides first.
   const std::size_t size = input.bytes.size();
-  const bool is_binary = size >= kHeaderBytes &&
-                         (EMAX_FAULT(kTrustsCounts) ||
-                          size == kHeaderBytes + std::size_t{binary_count(input)} * kTriangleBytes);
+  const bool is_binary =
+      size >= kStlHeaderBytes &&
+      (EMAX_FAULT(kTrustsCounts) ||
+       size == kStlHeaderBytes + std::size_t{binary_count(input)} * kTriangleBytes);
   if (!is_binary && !input.bytes.starts_with("solid")) {
     input.fail(
-        size < kHeaderBytes
+        size < kStlHeaderBytes
             ? "neither \"solid\" nor the 84 bytes of a binary STL header"
             : fmt::format("the header promises {} triangles, which is not what {} bytes hold",
                           binary_count(input), size),

@@ -12,7 +12,7 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kPieceBytes = std::size_t{1} << 16;
+constexpr std::size_t kEntryPieceBytes = std::size_t{1} << 16;
 
 std::string in_lower_case(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -63,7 +63,7 @@ void ZipReader::read(const std::string& name, const std::function<void(std::stri
     fail(is_unknown ? "the entry is compressed in an unknown way" : "the entry is damaged",
          kExportAgain);
   }
-  std::array<char, kPieceBytes> piece;
+  std::array<char, kEntryPieceBytes> piece;
   zip_int64_t count = 0;
   while ((count = zip_fread(file.get(), piece.data(), piece.size())) > 0) {
     limit_.spend(static_cast<std::uint64_t>(count));

@@ -12,7 +12,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kFirstRadius = 0.2;  // of the domains
 constexpr double kMostRadius = 0.5;
-constexpr double kLeastRadius = 0.01;  // below this the radius starts again at kFirstRadius
+constexpr double kRestartRadius = 0.01;  // below this the radius starts again at kFirstRadius
 
 }  // namespace
 
@@ -80,7 +80,7 @@ std::optional<Genes> LinearStep::propose(const Genes& centre, const Evaluation& 
 
 void LinearStep::judge(bool improved) {
   radius_ = improved ? std::min(1.6 * radius_, kMostRadius) : 0.8 * radius_;
-  if (radius_ < kLeastRadius) radius_ = kFirstRadius;
+  if (radius_ < kRestartRadius) radius_ = kFirstRadius;
 }
 
 }  // namespace emax

@@ -19,7 +19,7 @@ constexpr int kBlock = 4;        // nodes along a block's side
 constexpr float kAway = 0.02f;   // of a cell, the least distance of a node from the surface
 constexpr float kApart = 0.05f;  // of a border's value, likewise
 constexpr int kPasses = 2;
-constexpr float kAlike = 0.5f;     // difference of unit normals at which a point counts e^-1/2
+constexpr float kAlikeNormals = 0.5f;  // difference of unit normals at which a point counts e^-1/2
 constexpr float kPlane = 0.6283f;  // weights of a plane of points around one of them, in reach^2
 
 // The corners of a cube and the edges between them, as PCL's tables number them.
@@ -111,7 +111,7 @@ class Contour {
       for (const OrientedPoint& p : points)
         spread(p, [](Node& node, const OrientedPoint& point, const Influence& i) {
           const float weight = i.weight * std::exp((point.normal - node.mean).squaredNorm() /
-                                                   (-2 * kAlike * kAlike));
+                                                   (-2 * kAlikeNormals * kAlikeNormals));
           node.robust_weight += weight;
           // On a curved surface the one is as much too small as the other is too great.
           node.distance += weight * (i.distance + i.offset.dot(node.mean)) / 2;

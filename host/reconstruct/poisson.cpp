@@ -17,7 +17,7 @@ namespace {
 // beyond borders and across the air between parts. Vertices farther from the nearest point than
 // `spacings` of those around it go, with their triangles.
 void trim(TriangleMesh& mesh, const LocalCloud& cloud, double spacings) {
-  constexpr std::size_t kDensity = 10;  // the neighbour whose distance tells the density
+  constexpr std::size_t kNeighbour = 10;  // the neighbour whose distance tells the density
   std::vector<Point> points;
   points.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) points.push_back(cloud.original(i));
@@ -28,7 +28,7 @@ void trim(TriangleMesh& mesh, const LocalCloud& cloud, double spacings) {
   for (const Point& vertex : mesh.vertices) {
     tree.nearest(vertex, 1, near);
     const double squared = near.front().squared_distance;
-    tree.nearest(points[near.front().index], kDensity + 1, near);
+    tree.nearest(points[near.front().index], kNeighbour + 1, near);
     const double area =
         std::numbers::pi * near.back().squared_distance / static_cast<double>(near.size() - 1);
     gone.push_back(squared > spacings * spacings * area);

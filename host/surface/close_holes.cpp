@@ -16,7 +16,7 @@ namespace emax {
 namespace {
 
 constexpr double kFoldsBack = -0.5;  // cosine: a sharper turn than 120 degrees folds back
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoIndex = ~0u;
 
 struct DirectedEdge {
   std::uint32_t from, to;
@@ -38,7 +38,7 @@ class Adjacency {
     find_holes();
   }
 
-  // The triangle that has this directed edge, or kNone.
+  // The triangle that has this directed edge, or kNoIndex.
   std::uint32_t triangle(std::uint32_t from, std::uint32_t to) const {
     for (const std::uint32_t t : around(from)) {
       const Triangle& triangle = mesh_.triangles[t];
@@ -46,7 +46,7 @@ class Adjacency {
         if (triangle[k] == from && triangle[(k + 1) % 3] == to) return t;
       }
     }
-    return kNone;
+    return kNoIndex;
   }
 
   std::span<const std::uint32_t> around(std::uint32_t vertex) const {
@@ -55,10 +55,10 @@ class Adjacency {
 
   // Each hole's vertices in the direction of the triangles that would close it.
   const std::vector<std::vector<std::uint32_t>>& holes() const { return holes_; }
-  // The hole of a vertex, or kNone.
+  // The hole of a vertex, or kNoIndex.
   std::uint32_t hole_at(std::uint32_t vertex) const {
     const auto found = hole_at_.find(vertex);
-    return found == hole_at_.end() ? kNone : found->second;
+    return found == hole_at_.end() ? kNoIndex : found->second;
   }
 
  private:
@@ -68,7 +68,7 @@ class Adjacency {
     for (const Triangle& t : mesh_.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-        if (triangle(to, from) != kNone) continue;
+        if (triangle(to, from) != kNoIndex) continue;
         next[to] = from;
         starts.push_back(to);
       }
@@ -163,13 +163,13 @@ class Opening {
       // Another hole at a vertex of the triangle becomes part of this one.
       for (const std::uint32_t v : mesh_.triangles[t]) {
         const std::uint32_t hole = adjacency_.hole_at(v);
-        if (hole != kNone && !holes_.contains(hole) && !take(hole)) return false;
+        if (hole != kNoIndex && !holes_.contains(hole) && !take(hole)) return false;
       }
     }
     return true;
   }
 
-  bool is_left(std::uint32_t t) const { return t != kNone && !dropped_.contains(t); }
+  bool is_left(std::uint32_t t) const { return t != kNoIndex && !dropped_.contains(t); }
 
   // Traces the edges that triangles which stay have at the opening, as loops. Where a loop would
   // touch itself, all triangles at that vertex are dropped.

@@ -11,7 +11,8 @@
 namespace emax {
 namespace {
 
-constexpr double kAlike = 8;  // components within this ratio of areas are tested in the same round
+constexpr double kAlikeAreas =
+    8;  // components within this ratio of areas are tested in the same round
 
 class Components {
  public:
@@ -74,7 +75,7 @@ TriangleMesh drop_needless_components(TriangleMesh mesh, std::span<const Point> 
     for (const Open& o : open) greatest = std::max(greatest, components.area(o.component));
     added.assign(added.size(), false);
     for (const Open& o : open) {
-      if (components.area(o.component) >= greatest / kAlike) added[o.component] = true;
+      if (components.area(o.component) >= greatest / kAlikeAreas) added[o.component] = true;
     }
     part = components.part(added);
   }

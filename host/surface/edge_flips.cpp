@@ -16,7 +16,7 @@
 namespace emax {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoSide = ~0u;
 // A flip must reduce the turn of the edges around it by this ratio of their length. A smaller gain
 // may be rounding, and the flips would not end.
 constexpr double kGain = 1e-9;
@@ -32,7 +32,7 @@ class Flips {
   Flips(TriangleMesh& mesh, const std::vector<std::uint8_t>& locked)
       : mesh_(mesh),
         locked_(locked),
-        twin_(3 * mesh.triangles.size(), kNone),
+        twin_(3 * mesh.triangles.size(), kNoSide),
         queued_(twin_.size(), 1),
         changed_(mesh.triangles.size(), 0) {
     EdgeSides(mesh.view()).for_each_edge([&](std::span<const EdgeSide> sides) {
@@ -60,7 +60,7 @@ class Flips {
         for (const std::uint32_t t : {side / 3, twin_[side] / 3}) {
           for (std::uint32_t s = 3 * t; s < 3 * t + 3; ++s) {
             queue(s, next);
-            if (twin_[s] == kNone) continue;
+            if (twin_[s] == kNoSide) continue;
             queue(following(twin_[s]), next);
             queue(following(following(twin_[s])), next);
           }
@@ -79,7 +79,7 @@ class Flips {
   const Point& at(std::uint32_t vertex) const { return mesh_.vertices[vertex]; }
 
   void queue(std::uint32_t s, std::vector<std::uint32_t>& next) {
-    if (twin_[s] == kNone || queued_[s] != 0) return;
+    if (twin_[s] == kNoSide || queued_[s] != 0) return;
     queued_[s] = 1;
     next.push_back(s);
   }
@@ -96,7 +96,7 @@ class Flips {
   }
   // The cost of side s if its own triangle had the normal `n`.
   double cost_outside(std::uint32_t s, const Point& n) const {
-    if (twin_[s] == kNone) return 0;
+    if (twin_[s] == kNoSide) return 0;
     const Triangle& t = mesh_.triangles[twin_[s] / 3];
     return cost(from(s), from(following(s)), n, unit_normal(t[0], t[1], t[2]));
   }
@@ -120,7 +120,7 @@ class Flips {
 
   bool worth(std::uint32_t s) const {
     const std::uint32_t t = twin_[s];
-    if (t == kNone) return false;
+    if (t == kNoSide) return false;
     const std::uint32_t bc = following(s), ca = following(bc), ad = following(t),
                         db = following(ad);
     const std::uint32_t a = from(s), b = from(t), c = from(ca), d = from(db);
@@ -148,9 +148,9 @@ class Flips {
     do {
       if (has(side)) return true;
       side = twin_[following(following(side))];
-    } while (side != kNone && side != s);
+    } while (side != kNoSide && side != s);
     if (side == s) return false;
-    for (side = s; twin_[side] != kNone;) {  // in the other direction, from the border
+    for (side = s; twin_[side] != kNoSide;) {  // in the other direction, from the border
       side = following(twin_[side]);
       if (has(side)) return true;
     }
@@ -159,7 +159,7 @@ class Flips {
 
   void join(std::uint32_t s, std::uint32_t t) {
     twin_[s] = t;
-    if (t != kNone) twin_[t] = s;
+    if (t != kNoSide) twin_[t] = s;
   }
 
   // Triangles (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b). Sides s and t are the edge

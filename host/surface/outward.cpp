@@ -12,11 +12,11 @@
 namespace emax {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoPart = ~0u;
 
 // The closed components of a mesh.
 struct ClosedParts {
-  std::vector<std::uint32_t> of_triangle;  // the component, or kNone if it has a border
+  std::vector<std::uint32_t> of_triangle;  // the component, or kNoPart if it has a border
   std::vector<std::uint32_t> vertex;       // one of each component
   std::vector<double> volume;  // of each component, times 6; negative where it faces inward
 };
@@ -36,7 +36,7 @@ ClosedParts closed_parts(const TriangleMesh& mesh) {
     if (open[t] != 0 || repeats_index(mesh.triangles[t])) open[joined.root(t)] = 1;
   }
   ClosedParts parts;
-  parts.of_triangle.assign(triangles, kNone);
+  parts.of_triangle.assign(triangles, kNoPart);
   for (std::size_t t = 0; t < triangles; ++t) {
     const std::size_t root = joined.root(t);
     if (open[root] != 0) continue;
@@ -91,7 +91,7 @@ std::vector<std::size_t> depths(const TriangleMesh& mesh, const ClosedParts& par
   std::vector<std::pair<std::uint32_t, std::uint32_t>> passes;  // inner and outer component
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint32_t outer = parts.of_triangle[t];
-    if (outer == kNone) continue;
+    if (outer == kNoPart) continue;
     const auto [a, b, c] = mesh.view().corners(t);
     const Point low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     for (auto i = std::ranges::lower_bound(by_y, low.y(), {}, y);
@@ -117,7 +117,7 @@ void orient_outward(TriangleMesh& mesh) {
   const std::vector<std::size_t> depth = depths(mesh, parts);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint32_t part = parts.of_triangle[t];
-    if (part == kNone) continue;
+    if (part == kNoPart) continue;
     const double volume = parts.volume[part];
     const bool inward = depth[part] % 2 == 1;
     if (inward ? volume > 0 : volume < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);

@@ -65,13 +65,13 @@ std::string field(const std::string& name, const std::string& key) {
 
 constexpr std::array<const char*, kCoverageKinds> kKinds = {"line", "branch", "toggle"};
 
-struct Point {
+struct CoveragePoint {
   std::string module, name, place;
   std::size_t kind;
   std::uint64_t hits = 0;
 };
 
-void read_file(const std::string& file, std::map<std::string, Point>& points) {
+void read_file(const std::string& file, std::map<std::string, CoveragePoint>& points) {
   std::ifstream in(file);
   if (!in) throw Error(file + ": cannot be read; write it with --coverage first");
   static const std::regex parameters("__.*$");
@@ -83,12 +83,12 @@ void read_file(const std::string& file, std::map<std::string, Point>& points) {
     for (std::size_t kind = 0; kind < kCoverageKinds; ++kind) {
       if (page.substr(0, slash) != std::string("v_") + kKinds[kind]) continue;
       const std::string source = field(name, "f");
-      Point point;
+      CoveragePoint point;
       point.module = std::regex_replace(page.substr(slash + 1), parameters, "");
       point.kind = kind;
       point.name = std::string(kKinds[kind]) + " " + field(name, "o");
       point.place = source.substr(source.rfind('/') + 1) + ":" + field(name, "l");
-      Point& known =
+      CoveragePoint& known =
           points[point.module + "\1" + point.place + "\1" + field(name, "n") + "\1" + point.name];
       point.hits = known.hits + std::stoull(line.substr(end + 1));
       known = point;
@@ -141,7 +141,7 @@ std::map<std::string, double> read_test_coverage(const std::string& file) {
 }
 
 CoverageReport read_coverage(const std::vector<std::string>& files) {
-  std::map<std::string, Point> points;
+  std::map<std::string, CoveragePoint> points;
   for (const std::string& file : files) read_file(file, points);
   if (points.empty()) throw Error(files.front() + ": holds no coverage points");
   CoverageReport report;

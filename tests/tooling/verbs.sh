@@ -65,7 +65,8 @@ lint_subjects() {
 tidy_one() {
   local parts key more=
   mapfile -t parts < <(awk -v source="$1" -v RS= -v FS='\n *' '
-    $1 == source { for (i = 1; i <= NF; ++i) print $i }' build/lint/dependencies | sort -u)
+    { has = 0; for (i = 1; i <= NF; ++i) has = has || $i == source }
+    has { for (i = 1; i <= NF; ++i) print $i }' build/lint/dependencies | sort -u)
   [ ${#parts[@]} -gt 0 ] || { echo "$1: not built, so not checked" && return 1; }
   key=$(cat build/lint/checks "${parts[@]}" | sha256sum | cut -c1-32)
   [ ! -f "build/lint/$key" ] || return 0
@@ -89,7 +90,7 @@ lint_tidy() {
     build/lint/compile_commands.json >build/lint/objects
   [ -s build/lint/objects ] || fail "cannot read what the build compiles"
   cut -d ' ' -f 2 build/lint/objects | xargs ninja -C build/release --quiet || return
-  # Of each object, a paragraph: its source first, then our headers that it includes.
+  # Of each object, a paragraph: its sources and our headers that they include.
   ninja -C build/release -t deps |
     awk -v root="$PWD/" '!/^ / { print ""; next } index($1, root) == 1 { print $1 }' \
       >build/lint/dependencies || fail "cannot read what the build depends on"

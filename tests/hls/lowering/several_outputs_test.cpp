@@ -21,11 +21,11 @@ namespace {
 // cycles after the last is ready. Returns the first difference; empty if there is none.
 std::string first_difference(std::uint64_t seed, int late) {
   const LoweredDesign design = test::several_outputs_design();
-  constexpr int kSamples = 20000;
+  constexpr int kCalls = 20000;
   Random random(seed);
   std::vector<std::array<Word, 2>> samples;
   std::vector<std::vector<Word>> expected;
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kCalls; ++i) {
     samples.push_back({test::any_word(random), test::any_word(random)});
     expected.push_back(evaluate<FlushedFloat>(design.graph, samples.back()));
   }
@@ -37,10 +37,10 @@ std::string first_difference(std::uint64_t seed, int late) {
                              module.through};
   };
   const int latency = design.schedule.latency;
-  for (int cycle = 0; cycle < kSamples + latency; ++cycle) {
+  for (int cycle = 0; cycle < kCalls + latency; ++cycle) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const int sample = cycle - design.schedule.start[design.graph.inputs()[i].node];
-      const bool in_range = sample >= 0 && sample < kSamples;
+      const bool in_range = sample >= 0 && sample < kCalls;
       *inputs[i] = in_range ? samples[static_cast<std::size_t>(sample)][i] : 0;
     }
     module.clk = 0;

@@ -271,16 +271,16 @@ TEST_F(Resume, EffortChoosesTheBudget) {
 }
 
 TEST_F(Resume, StopsAndLimitsAreSaid) {
-  const auto json = [this] { return nlohmann::json::parse(test::bytes_of(folder_ / "r.json")); };
+  const auto result = [this] { return nlohmann::json::parse(test::bytes_of(folder_ / "r.json")); };
   const ProgramRun target = optimize({"--target-triangles", "100000", "--json", "r.json"});
   ASSERT_EQ(target.exit_code, 0) << target.errors;
   EXPECT_NE(target.output.find("target reached"), std::string::npos) << target.output;
-  EXPECT_EQ(json().at("ended_by"), "target");
-  EXPECT_EQ(json().at("evaluations"), 1);
+  EXPECT_EQ(result().at("ended_by"), "target");
+  EXPECT_EQ(result().at("evaluations"), 1);
 
   ASSERT_EQ(optimize({"--stagnation", "1", "--json", "r.json"}).exit_code, 0);
-  EXPECT_EQ(json().at("ended_by"), "stagnation");
-  EXPECT_LT(json().at("evaluations"), 20);
+  EXPECT_EQ(result().at("ended_by"), "stagnation");
+  EXPECT_LT(result().at("evaluations"), 20);
 
   // No evaluation is done in a millisecond; each is counted.
   const ProgramRun hasty = test::run_emax(

@@ -12,8 +12,8 @@ namespace emax::test {
 namespace {
 
 // A state and passes over it, of a mesh whose own vertices are the cloud unless one is given.
-struct Bench {
-  Bench(const TriangleMesh& mesh, double limit, std::vector<Point> points = {})
+struct PassesBench {
+  PassesBench(const TriangleMesh& mesh, double limit, std::vector<Point> points = {})
       : cloud(points.empty() ? mesh.vertices : std::move(points)),
         state(mesh, cloud, nullptr, limit * limit, {}),
         passes(state, {}, 1, [this](double done) {
@@ -50,7 +50,7 @@ TriangleMesh saddle() {
 
 // Each collapse takes a vertex, and two triangles of a closed mesh.
 TEST(DecimationPasses, CollapsesLeaveACubeItsCorners) {
-  Bench bench(cube(4), 1e-3);
+  PassesBench bench(cube(4), 1e-3);
   const std::size_t vertices = bench.cloud.size();
   EXPECT_EQ(bench.passes.collapse(), vertices - 8);
   EXPECT_EQ(bench.state.mesh().triangles(), 12u);
@@ -59,7 +59,7 @@ TEST(DecimationPasses, CollapsesLeaveACubeItsCorners) {
 }
 
 TEST(DecimationPasses, SweepsCollapseFarBelowTheLimit) {
-  Bench bench(bumpy(30, 50), 0.02);
+  PassesBench bench(bumpy(30, 50), 0.02);
   const std::size_t before = bench.state.mesh().triangles();
   const std::size_t swept = bench.passes.sweep();
   EXPECT_GT(swept, 100u);
@@ -72,7 +72,7 @@ TEST(DecimationPasses, AFlipTurnsTheEdgeThatMissesThePoints) {
   TriangleMesh mesh = saddle();
   std::vector<Point> cloud = mesh.vertices;
   cloud.emplace_back(0.5, 0.5, 0.2);
-  Bench bench(mesh, 0.3, cloud);
+  PassesBench bench(mesh, 0.3, cloud);
   EXPECT_GT(bench.energy(), 0.01);
   EXPECT_EQ(bench.passes.flip(4), 1u);
   EXPECT_LT(bench.energy(), 1e-12);
@@ -80,7 +80,7 @@ TEST(DecimationPasses, AFlipTurnsTheEdgeThatMissesThePoints) {
 }
 
 TEST(DecimationPasses, NoEdgeIsTurnedForNothing) {
-  Bench bench(saddle(), 0.3);
+  PassesBench bench(saddle(), 0.3);
   EXPECT_EQ(bench.passes.flip(4), 0u);
 }
 
@@ -98,7 +98,7 @@ TEST(DecimationPasses, ARelocationMovesAVertexToItsPoints) {
     cloud.push_back(0.5 * (at(0) + at(1)));
   }
   cloud.insert(cloud.end(), scanned.vertices.begin() + 1, scanned.vertices.end());
-  Bench bench(pyramid(0.4), 0.2, cloud);
+  PassesBench bench(pyramid(0.4), 0.2, cloud);
   const double before = bench.energy();
   EXPECT_GT(bench.passes.relocate(4), 0u);
   EXPECT_LT(bench.energy(), 0.01 * before);
@@ -108,7 +108,7 @@ TEST(DecimationPasses, ARelocationMovesAVertexToItsPoints) {
 
 // A cube's corner cannot go within so little, and what was tried is taken back.
 TEST(DecimationPasses, ATrialThatCannotBeMendedLeavesTheMeshAsItWas) {
-  Bench bench(cube(1), 1e-3);
+  PassesBench bench(cube(1), 1e-3);
   const TriangleMesh before = bench.state.mesh().compact();
   EXPECT_EQ(bench.passes.collapse_and_mend(), 0u);
   EXPECT_TRUE(same_bytes(bench.state.mesh().compact(), before));
@@ -116,7 +116,7 @@ TEST(DecimationPasses, ATrialThatCannotBeMendedLeavesTheMeshAsItWas) {
 }
 
 TEST(DecimationPasses, MendingCollapsesWhatCollapsesAloneCannot) {
-  Bench bench(bumpy(30, 50), 0.02);
+  PassesBench bench(bumpy(30, 50), 0.02);
   bench.passes.sweep();
   bench.passes.collapse();
   const std::size_t before = bench.state.mesh().triangles();
@@ -129,7 +129,7 @@ TEST(DecimationPasses, MendingCollapsesWhatCollapsesAloneCannot) {
 
 // What is held keeps its triangles.
 TEST(DecimationPasses, NothingMovesWhereVerticesAreHeld) {
-  Bench bench(bumpy(30, 50), 0.02);
+  PassesBench bench(bumpy(30, 50), 0.02);
   const TriangleMesh before = bench.state.mesh().compact();
   const auto held = [&](const Point& p) { return (p - before.vertices[700]).norm() <= 0.5; };
   const auto triangles_held = [&](const TriangleMesh& mesh) {
@@ -162,7 +162,7 @@ TEST(DecimationPasses, NothingMovesWhereVerticesAreHeld) {
 }
 
 TEST(DecimationPasses, TellHowFarTheyAreAndEndWhenToldTo) {
-  Bench whole(bumpy(30, 50), 0.02);
+  PassesBench whole(bumpy(30, 50), 0.02);
   whole.passes.collapse();
   ASSERT_GT(whole.told.size(), 2u);
   EXPECT_TRUE(std::is_sorted(whole.told.begin(), whole.told.end()));
@@ -170,7 +170,7 @@ TEST(DecimationPasses, TellHowFarTheyAreAndEndWhenToldTo) {
   EXPECT_LE(whole.told.back(), 1);
   EXPECT_FALSE(whole.passes.stopped());
 
-  Bench ended(bumpy(30, 50), 0.02);
+  PassesBench ended(bumpy(30, 50), 0.02);
   ended.stop = true;
   EXPECT_EQ(ended.passes.collapse(), 0u);
   EXPECT_TRUE(ended.passes.stopped());

@@ -11,7 +11,7 @@
 namespace emax::test {
 namespace {
 
-constexpr double kLimit = 0.03;
+constexpr double kStateLimit = 0.03;
 
 std::uint32_t mesh_slot_at(const EditableMesh& mesh, std::uint32_t vertex) {
   std::uint32_t found = kNoIndex;
@@ -55,7 +55,7 @@ void expect_in_step(const DecimationState& state, const BackBound& back) {
     ASSERT_GE(sight.share, back.sight(mesh.position(v)).share - 1e-9);
     const double squared =
         squared_distance(mesh.position(v), back.reference().corners(sight.triangle));
-    ASSERT_NEAR(sight.share, squared / (kLimit * kLimit), 1e-9);
+    ASSERT_NEAR(sight.share, squared / (kStateLimit * kStateLimit), 1e-9);
     ASSERT_LE(sight.share, 1);
     const auto [p, q, r] = mesh.corners(mesh_slot_at(mesh, v));
     ASSERT_EQ(state.area_normal(mesh_slot_at(mesh, v)), (q - p).cross(r - p));
@@ -105,8 +105,8 @@ class Edits : public testing::TestWithParam<bool> {
  protected:
   Edits()
       : mesh_(GetParam() ? bumpy(16, 24) : without_vertex(sheet(20, 0.3), 189)),
-        back_(mesh_, kLimit),
-        state_(mesh_, mesh_.vertices, &back_, kLimit * kLimit, {}),
+        back_(mesh_, kStateLimit),
+        state_(mesh_, mesh_.vertices, &back_, kStateLimit * kStateLimit, {}),
         search_(state_) {}
 
   // One random edit of the kind, kept or not within the limit; whether it was made.
@@ -220,9 +220,9 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, Edits, testing::Bool(),
 // A triangle of the reference whose corners the mesh has and whose inside lies under a tent.
 class Tent : public testing::Test {
  protected:
-  static constexpr double kSquaredLimit = kLimit * kLimit;
+  static constexpr double kSquaredLimit = kStateLimit * kStateLimit;
 
-  explicit Tent(double height = 2.5 * kLimit)
+  explicit Tent(double height = 2.5 * kStateLimit)
       : mesh_{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0.1, -0.2, height}},
               {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
         cloud_(mesh_.vertices.begin(), mesh_.vertices.begin() + 3),
@@ -266,7 +266,7 @@ TEST_F(Tent, GetsAWitnessWhereTheReferenceIsFarthest) {
 
 class FlatTent : public Tent {
  protected:
-  FlatTent() : Tent(0.5 * kLimit) {}
+  FlatTent() : Tent(0.5 * kStateLimit) {}
 };
 
 TEST_F(FlatTent, NeedsNoWitness) {

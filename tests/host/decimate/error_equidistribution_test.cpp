@@ -30,8 +30,8 @@ std::vector<Point> with_samples(const TriangleMesh& mesh) {
 }
 
 // A state under all bounds of a reference, its passes, and what stops them.
-struct Bench {
-  Bench(const TriangleMesh& mesh, double at_most)
+struct EquidistributionBench {
+  EquidistributionBench(const TriangleMesh& mesh, double at_most)
       : reference(mesh),
         limit(at_most),
         back(reference, limit),
@@ -85,7 +85,7 @@ struct Bench {
 TEST(ErrorEquidistribution, NeedsFewerTrianglesThanCollapsesWithinTheLimits) {
   for (const auto& [mesh, limit] :
        {std::pair{bumpy(50, 80), 0.02}, std::pair{sheet(40, 0.3), 0.01}}) {
-    Bench bench(mesh, limit);
+    EquidistributionBench bench(mesh, limit);
     bench.passes.sweep();
     bench.passes.collapse();
     const std::size_t before = bench.state.mesh().triangles();
@@ -103,7 +103,7 @@ TEST(ErrorEquidistribution, RestoresTheLimitsOverARoughReference) {
   TriangleMesh rough = bumpy(50, 80);
   Random random(3);
   for (Point& p : rough.vertices) p += random.point(-0.004, 0.004);
-  Bench bench(rough, 0.02);
+  EquidistributionBench bench(rough, 0.02);
   EXPECT_GT(bench.back.usual_rise(), 0.3 * bench.limit);
   bench.passes.sweep();
   bench.passes.collapse();
@@ -143,8 +143,8 @@ TEST(ErrorEquidistribution, ThinsWhatIsWithinTheLimits) {
   const TriangleMesh surface = sheet(30, 0.3);
   ErrorEquidistribution::Extent extent = ErrorEquidistribution::kLong;
   extent.thinnings = 0;
-  Bench plain(surface, 0.01), thinned(surface, 0.01), stopped(surface, 0.01);
-  for (Bench* bench : {&plain, &thinned, &stopped}) {
+  EquidistributionBench plain(surface, 0.01), thinned(surface, 0.01), stopped(surface, 0.01);
+  for (EquidistributionBench* bench : {&plain, &thinned, &stopped}) {
     bench->passes.sweep();
     bench->passes.collapse();
   }
@@ -167,7 +167,7 @@ TEST(ErrorEquidistribution, ThinsWhatIsWithinTheLimits) {
 TEST(ErrorEquidistribution, SaysThatAStoppedMeshIsNotWithin) {
   std::size_t beyond = 0;
   for (const long polls : {1, 30, 200, 400}) {
-    Bench bench(bumpy(30, 50), 0.01);
+    EquidistributionBench bench(bumpy(30, 50), 0.01);
     bench.passes.collapse();
     const DecimationState::Snapshot before = bench.state.snapshot();
     const TriangleMesh kept = bench.mesh();
@@ -184,7 +184,7 @@ TEST(ErrorEquidistribution, SaysThatAStoppedMeshIsNotWithin) {
 }
 
 TEST(EquidistributionPasses, CollapseAndSplitToTheirTargets) {
-  Bench bench(bumpy(30, 50), 0.01);
+  EquidistributionBench bench(bumpy(30, 50), 0.01);
   bench.loosen();
   const std::size_t start = bench.state.mesh().triangles();
   const std::size_t collapses = bench.passes.collapse_to(start - 20, 8);
@@ -199,7 +199,7 @@ TEST(EquidistributionPasses, CollapseAndSplitToTheirTargets) {
 
 // By every point and every triangle, and by the interval of the surface distance.
 TEST(EquidistributionPasses, FindEveryTriangleBeyondALimit) {
-  Bench bench(bumpy(30, 50), 0.01);
+  EquidistributionBench bench(bumpy(30, 50), 0.01);
   bench.take_too_many();
   const std::vector<std::uint32_t> found = bench.passes.beyond_limit();
   ASSERT_GT(found.size(), 5u);
@@ -223,7 +223,7 @@ TEST(EquidistributionPasses, FindEveryTriangleBeyondALimit) {
 }
 
 TEST(EquidistributionPasses, SplitsAtTheWorstPlaceLowerTheWorst) {
-  Bench bench(bumpy(30, 50), 0.01);
+  EquidistributionBench bench(bumpy(30, 50), 0.01);
   bench.take_too_many();
   std::vector<std::uint32_t> beyond = bench.passes.beyond_limit();
   const std::size_t first = beyond.size();

@@ -15,7 +15,7 @@
 namespace emax::test {
 namespace {
 
-constexpr double kLimit = 0.05;
+constexpr double kEnergyLimit = 0.05;
 
 // From the definition, with the true distances of all points.
 HoppeEnergy directly(const TriangleMesh& mesh, std::span<const Point> cloud, double width,
@@ -45,7 +45,7 @@ TEST(HoppeEnergy, IsThatOfItsDefinition) {
     for (const Point& p : mesh.vertices) cloud.push_back(p + 0.02 * random.point(-1, 1));
     const double width = bounds_of(mesh.vertices).width();
     const HoppeWeights weights = {1e-4, 1e-3};
-    const DecimationState state(mesh, cloud, nullptr, kLimit * kLimit, {});
+    const DecimationState state(mesh, cloud, nullptr, kEnergyLimit * kEnergyLimit, {});
     const HoppeEnergy found = hoppe_energy(state, width, weights);
     const HoppeEnergy expected = directly(mesh, cloud, width, weights);
     EXPECT_NEAR(found.distance, expected.distance, 1e-9 * expected.distance);
@@ -59,7 +59,7 @@ TEST(HoppeEnergy, OfAnEditIsTheDifferenceOfTheWhole) {
   for (const TriangleMesh& mesh : {bumpy(12, 20), sheet(9, 0.3)}) {
     const double width = bounds_of(mesh.vertices).width();
     const HoppeWeights weights = {0, 0.02};
-    DecimationState state(mesh, mesh.vertices, nullptr, kLimit * kLimit, {});
+    DecimationState state(mesh, mesh.vertices, nullptr, kEnergyLimit * kEnergyLimit, {});
     LocalSearch search(state, weights.spring);
     Random random(7);
     std::array<int, 3> made{};
@@ -86,7 +86,8 @@ TEST(HoppeEnergy, OfAnEditIsTheDifferenceOfTheWhole) {
       const double whole = hoppe_energy(state, width, weights).total();
       state.apply(edit);
       const double gained = hoppe_energy(state, width, weights).total() - whole;
-      EXPECT_NEAR((fit.energy - before) * kLimit * kLimit / (width * width), gained, 1e-12);
+      EXPECT_NEAR((fit.energy - before) * kEnergyLimit * kEnergyLimit / (width * width), gained,
+                  1e-12);
       ++made[static_cast<std::size_t>(kind)];
     }
     for (const int count : made) EXPECT_GT(count, 10);

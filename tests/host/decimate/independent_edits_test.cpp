@@ -14,7 +14,7 @@ namespace emax::test {
 namespace {
 
 using Edge = IndependentEdits::Edge;
-constexpr double kLimit = 0.1;
+constexpr double kEditLimit = 0.1;
 constexpr int kPower = 8;
 
 // A coarse mesh within points of a finer one, with the edges counted between all of its vertices.
@@ -23,8 +23,8 @@ class IndependentParts : public testing::TestWithParam<bool> {
   IndependentParts()
       : reference_(GetParam() ? bumpy(40, 60) : sheet(40, 0.4)),
         mesh_(GetParam() ? bumpy(12, 18) : sheet(12, 0.4)),
-        back_(reference_, kLimit),
-        state_(mesh_, reference_.vertices, &back_, kLimit * kLimit, {}) {}
+        back_(reference_, kEditLimit),
+        state_(mesh_, reference_.vertices, &back_, kEditLimit * kEditLimit, {}) {}
 
   std::vector<std::uint32_t> vertices() const {
     std::vector<std::uint32_t> all(mesh_.vertices.size());

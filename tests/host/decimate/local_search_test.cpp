@@ -9,13 +9,13 @@
 namespace emax::test {
 namespace {
 
-constexpr double kLimit = 0.03;
+constexpr double kSearchLimit = 0.03;
 
 // Steps along the axes, halved where none of them gains: slow, and without a derivative.
 Fit compass_search(LocalSearch& search, Point at, int power) {
   Fit best;
   if (!search.evaluate(at, power, best)) return best;
-  for (double step = 0.5 * kLimit; step > 1e-7 * kLimit;) {
+  for (double step = 0.5 * kSearchLimit; step > 1e-7 * kSearchLimit;) {
     bool gained = false;
     for (int axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0}) {
@@ -36,10 +36,10 @@ class Steps : public testing::TestWithParam<int> {};
 TEST_P(Steps, OfNewtonReachWhatASlowSearchReaches) {
   const int power = GetParam();
   const TriangleMesh reference = bumpy(30, 50), mesh = bumpy(10, 16);
-  const BackBound back(reference, kLimit);
+  const BackBound back(reference, kSearchLimit);
   DecimationState::Guards guards;
   guards.squared_reach = 1;
-  const DecimationState state(mesh, reference.vertices, &back, kLimit * kLimit, guards);
+  const DecimationState state(mesh, reference.vertices, &back, kSearchLimit * kSearchLimit, guards);
   LocalSearch search(state);
   search.use(LocalSearch::Steps::kNewton);
   LocalSearch::Options options;

@@ -395,11 +395,10 @@ TEST(Genocop, ViolationsMayBeInfinite) {
 // Two methods with a parameter each: points that differ in the other method's parameter alone are
 // one, and one evaluation serves them.
 TEST(Genocop, ParametersOfAnotherMethodDoNotCount) {
-  using Kind = Gene::Kind;
   BenchmarkProblem bench;
-  bench.problem.genes = {{"method", Kind::kCategorical, 0, 1},
-                         {"a", Kind::kInteger, 0, 4, Gene::Condition{0, 0}},
-                         {"b", Kind::kInteger, 0, 4, Gene::Condition{0, 1}}};
+  bench.problem.genes = {{"method", Gene::Kind::kCategorical, 0, 1},
+                         {"a", Gene::Kind::kInteger, 0, 4, Gene::Condition{0, 0}},
+                         {"b", Gene::Kind::kInteger, 0, 4, Gene::Condition{0, 1}}};
   bench.evaluate = [](const Genes& g) { return Evaluation{true, g[0] == 0 ? 3 + g[1] : g[2], -1}; };
   Settings settings;
   settings.budget = 300;

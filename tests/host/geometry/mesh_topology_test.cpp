@@ -41,11 +41,11 @@ void append(std::vector<Triangle>& to, const std::vector<Triangle>& more) {
   for (const Triangle& t : more) to.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
-const std::vector<Triangle> kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+const std::vector<Triangle> kClosed{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 TEST(MeshTopology, NothingHasNothing) { EXPECT_EQ(topology({}), (MeshTopology{0, 0, 0})); }
 
-TEST(MeshTopology, SphereIsClosed) { EXPECT_EQ(topology(kTetrahedron), (MeshTopology{1, 0, 0})); }
+TEST(MeshTopology, SphereIsClosed) { EXPECT_EQ(topology(kClosed), (MeshTopology{1, 0, 0})); }
 
 TEST(MeshTopology, TorusHasOneHandle) {
   EXPECT_EQ(topology(grid(4, 5, true, true)), (MeshTopology{1, 0, 1}));
@@ -97,7 +97,7 @@ TEST(MeshTopology, HolesThatMeetAtAVertexAreOneLoopOfTheCutSurface) {
 TEST(MeshTopology, ComponentsAreCountedAndGenusIsTheirSum) {
   std::vector<Triangle> all = grid(4, 5, true, true);
   append(all, grid(4, 5, true, true));
-  append(all, kTetrahedron);
+  append(all, kClosed);
   append(all, grid(3, 6, false, true));
   EXPECT_EQ(topology(all), (MeshTopology{4, 2, 2}));
 }
@@ -114,7 +114,7 @@ TEST(MeshTopology, MoebiusStripIsCutWhereItsTrianglesDisagree) {
 }
 
 TEST(MeshTopology, TriangleTurnedRoundIsAPieceOfItsOwn) {
-  std::vector<Triangle> turned = kTetrahedron;
+  std::vector<Triangle> turned = kClosed;
   std::swap(turned[3][0], turned[3][1]);
   EXPECT_EQ(topology(turned), (MeshTopology{2, 2, 0}));
 }
@@ -126,8 +126,8 @@ TEST(MeshTopology, BowTieIsTwoPieces) {
 TEST(MeshTopology, LeavesOnOneEdgeAreCutApart) {
   EXPECT_EQ(topology({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), (MeshTopology{3, 3, 0}));
   // Two closed pieces that share an edge: each is open along it after the cut.
-  std::vector<Triangle> pair = kTetrahedron;
-  for (const Triangle& t : kTetrahedron) {
+  std::vector<Triangle> pair = kClosed;
+  for (const Triangle& t : kClosed) {
     Triangle other = t;
     for (std::uint32_t& v : other) v = v < 2 ? v : v + 2;
     pair.push_back(other);
@@ -140,7 +140,7 @@ TEST(MeshTopology, TriangleOnBothSidesIsClosed) {
 }
 
 TEST(MeshTopology, UnusedVerticesAndRepeatedIndicesAreNoPart) {
-  std::vector<Triangle> faces = kTetrahedron;
+  std::vector<Triangle> faces = kClosed;
   faces.push_back({1, 1, 9});
   EXPECT_EQ(topology(faces), (MeshTopology{1, 0, 0}));
 }

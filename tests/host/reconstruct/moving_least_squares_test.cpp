@@ -10,7 +10,7 @@
 namespace emax::test {
 namespace {
 
-constexpr std::uint64_t kSeed = 41;
+constexpr std::uint64_t kSmoothingSeed = 41;
 
 ParameterValues values(Mls::Method method) {
   ParameterValues values;
@@ -22,7 +22,7 @@ ParameterValues values(Mls::Method method) {
 }
 
 std::vector<Point> noisy_sphere(double noise) {
-  Random random(kSeed);
+  Random random(kSmoothingSeed);
   std::vector<Point> points = sphere_cloud(3000);
   for (Point& p : points) p *= 1 + random.uniform(-noise, noise);
   return points;
@@ -51,7 +51,7 @@ TEST(MovingLeastSquares, SmoothingTakesMostOfTheNoise) {
 
 TEST(MovingLeastSquares, ResamplingEvensTheDensity) {
   std::vector<Point> cloud = noisy_sphere(0.005);
-  Random random(kSeed + 1);
+  Random random(kSmoothingSeed + 1);
   for (int i = 0; i < 4000; ++i) {  // the north is scanned once more
     const double turn = random.uniform(0, 6.28), z = random.uniform(0.5, 1);
     const double r = std::sqrt(1 - z * z);
@@ -81,7 +81,7 @@ TEST(MovingLeastSquares, APointOnItsOwnStays) {
 
 // A paraboloid is its own quadratic fit, far from the origin too.
 TEST(LeastSquaresPatch, ReproducesAQuadraticSurface) {
-  Random random(kSeed + 2);
+  Random random(kSmoothingSeed + 2);
   for (const Point& origin : {Point(0, 0, 0), Point(1e6, -1e6, 3e5)}) {
     std::vector<Point> points;
     for (int i = 0; i < 60; ++i) {

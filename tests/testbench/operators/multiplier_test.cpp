@@ -13,10 +13,10 @@
 namespace emax {
 namespace {
 
-constexpr int kSettled = 12;  // cycles after which all that comes out was put in
+constexpr int kProductsSettled = 12;  // cycles after which all that comes out was put in
 constexpr unsigned kAllLatencies = (1u << 7) - 1;
 
-struct Differences {
+struct ProductDifferences {
   unsigned product = 0, square = 0, narrow_product = 0, narrow_square = 0;
   bool any() const { return (product | square | narrow_product | narrow_square) != 0; }
 };
@@ -38,8 +38,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> operands() {
 }
 
 template <class Model>
-Differences run(Model& rtl, bool fault = false) {
-  Differences differences;
+ProductDifferences run(Model& rtl, bool fault = false) {
+  ProductDifferences differences;
   rtl.fault = fault;
   int cycle = 0;
   for (const auto& [a, b] : operands()) {
@@ -49,7 +49,7 @@ Differences run(Model& rtl, bool fault = false) {
     rtl.eval();
     rtl.clk = 1;
     rtl.eval();
-    if (++cycle < kSettled) continue;
+    if (++cycle < kProductsSettled) continue;
     differences.product |= rtl.product_differs;
     differences.square |= rtl.square_differs;
     differences.narrow_product |= rtl.narrow_product_differs;
@@ -62,7 +62,7 @@ template <class Model>
 void expect_products() {
   VerilatedContext context;
   Model rtl(&context);
-  const Differences differences = run(rtl);
+  const ProductDifferences differences = run(rtl);
   EXPECT_EQ(differences.product, 0u) << "bit LATENCY - 3";
   EXPECT_EQ(differences.square, 0u) << "bit LATENCY - 3";
   EXPECT_EQ(differences.narrow_product, 0u) << "bit LATENCY - 3";
@@ -84,7 +84,7 @@ TEST(MantissaMultiply, XilinxGivesProductsAtEveryLatency) {
 TEST(MantissaMultiply, FaultIsSeenAtEveryLatency) {
   VerilatedContext context;
   Vecp5_multipliers_rtl rtl(&context);
-  const Differences differences = run(rtl, true);
+  const ProductDifferences differences = run(rtl, true);
   EXPECT_EQ(differences.product, kAllLatencies);
   EXPECT_EQ(differences.square, kAllLatencies);
   EXPECT_EQ(differences.narrow_product, kAllLatencies);
