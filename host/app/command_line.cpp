@@ -239,12 +239,11 @@ void add_decimate(CLI::App& app, CommandLine& line) {
       "--cloud", decimate.cloud,
       "point cloud whose points have to lie within the tolerance of the result (default: "
       "the vertices of MESH)");
-  command
-      .add_option(
-          "--max-error", decimate.max_error,
-          "tolerance: N in the unit of the points, N% of their width, or 0.5mm; several, separated "
-          "by commas, write a mesh for each, MESH-N.ply, and their curve")
-      ->required();
+  command.add_option(
+      "--max-error", decimate.max_error,
+      "tolerance: N in the unit of the points, N% of their width, or 0.5mm; several, separated by "
+      "commas, write a mesh for each, MESH-N.ply, and their curve");
+  add_level(command, decimate.level);
   command
       .add_option("--bound", line.decimate_bound,
                   "one-sided: every point lies within the tolerance of the result; two-sided: also "
@@ -297,6 +296,9 @@ void add_decimate(CLI::App& app, CommandLine& line) {
       "  emax decimate mesh.stl --max-error 0.1,0.2,0.5 -o small.ply  a mesh for each\n"
       "  emax decimate part.obj --max-error 0.1 --feature-angle 40 -o small.obj  sharp edges");
   command.callback([&] {
+    if (decimate.max_error.empty() && decimate.level == 0) {
+      throw CLI::RequiredError("--max-error");
+    }
     decimate.two_sided = line.decimate_bound == "two-sided";
     if (!decimate.two_sided && !decimate.back_error.empty()) {
       throw CLI::ValidationError(
@@ -340,6 +342,10 @@ void add_error(CLI::App& app, CommandLine& line) {
       .add_option("--color-mesh", error.color_mesh,
                   "write the mesh coloured by its vertices' distances to the reference: .ply")
       ->needs("--two-sided");
+  command.add_option(
+      "--deviations", error.deviations,
+      "write the mesh with the greatest deviation of the points at each triangle and vertex: .ply "
+      ".glb");
   add_quiet(command, line);
   add_examples(command,
                "  emax error scan.ply part.ply  the greatest distance, quantiles, histogram\n"

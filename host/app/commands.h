@@ -42,7 +42,8 @@ struct DecimateOptions {
   std::string cloud;  // empty: the mesh's vertices, and its whole surface
   std::string unit;   // of the points; empty: what the file says
   std::string max_error;
-  std::string back_error;  // empty: max_error
+  int level = 0;           // of accuracy, in place of max_error
+  std::string back_error;  // empty: the tolerance
   std::string output;
   std::string effort = "normal";        // or quick, deep
   std::string objective = "triangles";  // or hoppe
@@ -69,6 +70,7 @@ struct ErrorOptions {
   std::vector<double> quantiles;  // percent; empty: the usual ones
   std::size_t worst = 5;
   std::string color, color_mesh;  // PLY files; empty: none
+  std::string deviations;         // PLY or GLB; empty: none
 };
 int run_error(const ErrorOptions& options);
 

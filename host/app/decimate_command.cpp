@@ -41,7 +41,7 @@ class DecimateCommand {
         options_(options),
         own_cloud_(options.cloud.empty()),
         share_(parse_share(options.excluded_share)),
-        bounds_(tolerated_meshes(options.max_error, options.output)),
+        bounds_(tolerated_meshes(options.max_error, options.level, options.output)),
         output_(bounds_.front().output) {
     const bool several = bounds_.size() > 1;
     if (several && share_ > 0) {
@@ -254,6 +254,7 @@ class DecimateCommand {
               grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "",
               length_text(scan_.width, scan_.unit));
     print_left_out(facts, scan_.cloud);
+    print_doubtful_unit(facts, scan_.width, scan_.unit);
     std::string tolerances;
     for (const ToleratedMesh& bound : bounds_) {
       if (bounds_.size() == 1) {
@@ -263,7 +264,8 @@ class DecimateCommand {
       }
     }
     const bool own_back = options_.two_sided && epsilon_back() != epsilon_;
-    facts.add("tolerance", "{}, {}{}", tolerances, options_.two_sided ? "two-sided" : "one-sided",
+    facts.add("tolerance", "{}{}, {}{}", tolerances, level_text(options_.level),
+              options_.two_sided ? "two-sided" : "one-sided",
               own_back ? fmt::format(", mesh to reference {:.6g}", epsilon_back()) : "");
     std::fflush(stdout);
   }

@@ -22,6 +22,7 @@
 #include "host/geometry/merge_vertices.h"
 #include "host/measure/error_constraint.h"
 #include "host/measure/point_distances.h"
+#include "host/report/deviations.h"
 #include "host/report/error_ply.h"
 #include "host/report/result_json.h"
 #include "host/report/surface_samples.h"
@@ -32,16 +33,19 @@ namespace emax {
 namespace {
 
 constexpr std::array<std::string_view, 1> kColorEndings = {".ply"};
+constexpr std::array<std::string_view, 2> kDeviationEndings = {".ply", ".glb"};
 
 void check_outputs(const ErrorOptions& options) {
   const std::string& json = options.common.json;
   if (!json.empty()) check_output(json, kJsonEndings);
   if (!options.color.empty()) check_output(options.color, kColorEndings);
   if (!options.color_mesh.empty()) check_output(options.color_mesh, kColorEndings);
+  if (!options.deviations.empty()) check_output(options.deviations, kDeviationEndings);
   const ReportOptions& report = options.common.report;
   check_report_outputs(report);
-  check_distinct({json, options.color, options.color_mesh, report.report, report.picture},
-                 {options.common.cloud, options.mesh, options.reference});
+  check_distinct(
+      {json, options.color, options.color_mesh, options.deviations, report.report, report.picture},
+      {options.common.cloud, options.mesh, options.reference});
 }
 
 ErrorReference read_reference(const ErrorOptions& options, const Scan& scan) {
@@ -71,6 +75,19 @@ void write_colors(Facts& facts, const std::string& path, std::span<const Point> 
             greatest / 2, greatest, limit ? " and beyond" : "");
 }
 
+void write_deviations(Facts& facts, const std::string& path, const TriangleMesh& mesh,
+                      const Scan& scan, const ErrorFindings& f) {
+  const Deviations found =
+      deviations_of(scan.cloud.points, mesh.view(), f.measured.excluded, processor_threads());
+  const std::vector<float> of_vertices = deviations_of_vertices(mesh.view(), found.of_triangles);
+  write_mesh(
+      path, mesh,
+      {.unit = scan.unit, .deviation = of_vertices, .deviation_of_triangles = found.of_triangles});
+  facts.add("deviations", "{}: of each vertex{}{}", path,
+            lower_case_ending(path) == ".ply" ? " and triangle" : "",
+            found.are_signed ? ", + outside" : "");
+}
+
 // What a device adds to the findings.
 struct DeviceFindings {
   std::optional<DeviceCounters> counters;
@@ -82,6 +99,7 @@ void print(Facts& facts, const ErrorFindings& f, const DeviceFindings& d,
            const ErrorOptions& options, const Scan& scan, const TriangleMesh& mesh) {
   facts.add("cloud", "{}", describe(scan));
   print_left_out(facts, scan.cloud);
+  print_doubtful_unit(facts, scan.width, scan.unit);
   facts.add("mesh", "{}: {} triangles; {}", options.mesh, grouped(mesh.triangles.size()),
             describe(f.validity));
   facts.add("topology", "{}", describe(f.topology, f.reference_topology()));
@@ -202,6 +220,7 @@ int run_error(const ErrorOptions& options) {
         point_distances(PreparedCloud(mesh.vertices), reference->mesh.view(), was_interrupted);
     write_colors(facts, options.color_mesh, mesh.vertices, distances, mesh.triangles, limit);
   }
+  if (!options.deviations.empty()) write_deviations(facts, options.deviations, mesh, scan, f);
   write_report_of(facts, f, options, mesh, scan, std::move(inputs));
   if (json_is_wanted(json)) {
     write_json(json, json_text(f, d, options, mesh, scan));

@@ -53,6 +53,7 @@ Contents read(const InfoOptions& options) {
 }
 
 void print(const InfoOptions& options, const Contents& c) {
+  Facts facts;
   fmt::print("file           {}, {} bytes\n", options.file, grouped(bytes_of_input(options.file)));
   if (c.mesh) {
     fmt::print("mesh           {} triangles, {} vertices; {}\n",
@@ -66,7 +67,6 @@ void print(const InfoOptions& options, const Contents& c) {
   } else {
     fmt::print("cloud          {} points{}\n", grouped(c.cloud.points.size()),
                c.cloud.normals.empty() ? "" : ", with normals");
-    Facts facts;
     print_left_out(facts, c.cloud);
     if (!c.cloud.scans.empty()) {
       std::vector<std::string> names;
@@ -82,6 +82,7 @@ void print(const InfoOptions& options, const Contents& c) {
   const Point size = c.bounds.upper - c.bounds.lower;
   fmt::print("extent         {:.6g} x {:.6g} x {:.6g}, from ({:.6g}, {:.6g}, {:.6g})\n", size.x(),
              size.y(), size.z(), c.bounds.lower.x(), c.bounds.lower.y(), c.bounds.lower.z());
+  print_doubtful_unit(facts, c.bounds.width(), c.cloud.unit);
   if (const std::optional<double> suggested = suggested_tolerance(c.scan)) {
     fmt::print("scan           points {:.3g} apart, noise {:.2g}\n", c.scan.spacing, c.scan.noise);
     fmt::print("suggested      --max-error {:.2g} ({:.2g}% of the width): {}\n", *suggested,

@@ -123,6 +123,7 @@ class OptimizeCommand {
     facts_.add_passing("run", "{}", describe(*log_, settings_.config.search.budget));
     facts_.add("cloud", "{}", describe(scan_));
     print_left_out(facts_, scan_.cloud);
+    print_doubtful_unit(facts_, scan_.width, scan_.unit);
     facts_.add("tolerance", "{}{}, {}", to_text(tolerance, scan_.width, scan_.unit),
                level_text(options_.level), settings_.epsilon_back ? "two-sided" : "one-sided");
     facts_.add_passing("search", "{} + {}, {} evaluations, seed {}, {} jobs, device {}",

@@ -188,6 +188,16 @@ void print_left_out(Facts& facts, const PointCloud& cloud) {
   facts.add("left out", "{}", describe(cloud.left_out));
 }
 
+void print_doubtful_unit(Facts& facts, double width, const std::optional<Unit>& unit) {
+  constexpr double kWidest = 5e3, kSmallest = 1e-4;  // metres
+  if (!unit) return;
+  const double metres = width * unit->metres;
+  if (metres >= kSmallest && metres <= kWidest) return;
+  facts.add("remark",
+            "a width of {} is hardly that of a scan; if the numbers are not {}, say --unit {}",
+            length_text(width, unit), unit->name, metres > kWidest ? "mm" : "m");
+}
+
 void print_excluded(Facts& facts, const CertifiedError& certified, std::size_t excludable) {
   if (excludable == 0) return;
   facts.add("outliers", "{} of at most {} points excluded; e_max over all points {:.9g}",

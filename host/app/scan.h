@@ -102,6 +102,9 @@ std::string grouped(std::uint64_t number);
 
 // Prints how many points of the file were left out and why, if any were.
 void print_left_out(Facts& facts, const PointCloud& cloud);
+// Prints a remark where no scan is so wide or so small in the unit, as in files of millimetres that
+// say metres.
+void print_doubtful_unit(Facts& facts, double width, const std::optional<Unit>& unit);
 
 // "valid: ..." or "not valid: 3 non-manifold edges, ..."
 std::string describe(const MeshValidity& validity);

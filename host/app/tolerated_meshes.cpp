@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "host/app/scan.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
 
-std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
+std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances, int level,
                                             const std::filesystem::path& output) {
+  if (level > 0) return {{"", *given_tolerance(tolerances, level), output}};
   std::vector<ToleratedMesh> meshes;
   for (std::size_t start = 0; start <= tolerances.size();) {
     const std::size_t end = std::min(tolerances.find(',', start), tolerances.size());

@@ -15,9 +15,10 @@ struct ToleratedMesh {
   std::filesystem::path output;
 };
 
-// The tolerances of --max-error, which commas separate. If there are several, the output's name is
-// given for each with the tolerance after its stem (part-0.1pct.ply). Throws Error.
-std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances,
+// The tolerances of --max-error, which commas separate, or that of the level (given_tolerance). If
+// there are several, the output's name is given for each with the tolerance after its stem
+// (part-0.1pct.ply). Throws Error.
+std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances, int level,
                                             const std::filesystem::path& output);
 
 // Another file of this tolerance, named in the same way. An empty path stays empty.

@@ -22,8 +22,9 @@ MeshFormat mesh_format(const std::filesystem::path& path);
 
 // What a file holds beside vertices and triangles, where its format has a place for it.
 struct MeshNotes {
-  std::optional<Unit> unit = {};          // of the coordinates: GLB, 3MF, DXF
-  std::span<const float> deviation = {};  // empty, or a number per vertex: PLY, GLB
+  std::optional<Unit> unit = {};                       // of the coordinates: GLB, 3MF, DXF
+  std::span<const float> deviation = {};               // empty, or a number per vertex: PLY, GLB
+  std::span<const float> deviation_of_triangles = {};  // empty, or a number per triangle: PLY
 };
 
 // A mesh, with the names of the other attributes in its file, which the files that we write do not

@@ -27,20 +27,24 @@ void append_vertices(std::string& text, const TriangleMesh& mesh, std::string_vi
 }  // namespace
 
 std::string ply_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
+  constexpr std::string_view kProperty = "property float deviation\n";
   const bool deviates = !notes.deviation.empty();
+  const bool triangles_deviate = !notes.deviation_of_triangles.empty();
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\n"
       "property double y\nproperty double z\n{}element face {}\n"
-      "property list uchar int vertex_indices\nend_header\n",
-      mesh.vertices.size(), deviates ? "property float deviation\n" : "", mesh.triangles.size());
+      "property list uchar int vertex_indices\n{}end_header\n",
+      mesh.vertices.size(), deviates ? kProperty : "", mesh.triangles.size(),
+      triangles_deviate ? kProperty : "");
   bytes.reserve(bytes.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     for (int k = 0; k < 3; ++k) append_value(bytes, mesh.vertices[v][k]);
     if (deviates) append_value(bytes, notes.deviation[v]);
   }
-  for (const Triangle& t : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     append_value(bytes, std::uint8_t{3});
-    for (const std::uint32_t corner : t) append_value(bytes, corner);
+    for (const std::uint32_t corner : mesh.triangles[t]) append_value(bytes, corner);
+    if (triangles_deviate) append_value(bytes, notes.deviation_of_triangles[t]);
   }
   return bytes;
 }

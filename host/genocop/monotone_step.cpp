@@ -118,14 +118,14 @@ MonotoneStep::Bracket MonotoneStep::bracket(const Genes& key, const Line& line) 
 
 // The predicted root of the violation, inside the bracket.
 double MonotoneStep::root(const Bracket& b) const {
-  constexpr double kMargin = 0.25;  // a bracket shrinks at least by this share
+  constexpr double kLeastShrinkage = 0.25;  // a bracket shrinks at least by this share
   const double width = b.upper - b.lower;
   if (b.at_lower && b.at_upper) {
     double share = 0.5;
     if (b.at_upper->evaluated_ok && b.at_upper->violation > b.at_lower->violation) {
       share = -b.at_lower->violation / (b.at_upper->violation - b.at_lower->violation);
     }
-    return b.lower + std::clamp(share, kMargin, 1 - kMargin) * width;
+    return b.lower + std::clamp(share, kLeastShrinkage, 1 - kLeastShrinkage) * width;
   }
   if (rise_ > 0 && b.at_lower) {
     return std::min(b.lower - b.at_lower->violation / rise_, b.upper);

@@ -120,8 +120,8 @@ Camera::Ray Camera::ray(const Point& p) const {
 }
 
 void Camera::fit(std::span<const Point> at, double x, double y, double width, double height) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  double left = kFar, right = -kFar, low = kFar, high = -kFar;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double left = kInfinity, right = -kInfinity, low = kInfinity, high = -kInfinity;
   for (const Point& p : at) {
     const Ray r = ray(p);
     left = std::min(left, r.u);

@@ -84,4 +84,14 @@ Deviations deviations_of(std::span<const Point> cloud, MeshView mesh,
   return deviations;
 }
 
+std::vector<float> deviations_of_vertices(MeshView mesh, std::span<const float> of_triangles) {
+  std::vector<float> greatest(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (std::abs(of_triangles[t]) > std::abs(greatest[v])) greatest[v] = of_triangles[t];
+    }
+  }
+  return greatest;
+}
+
 }  // namespace emax

@@ -27,6 +27,10 @@ struct Deviations {
 Deviations deviations_of(std::span<const Point> cloud, MeshView mesh,
                          std::span<const std::uint32_t> excluded, std::size_t threads);
 
+// Of each vertex: the deviation of its triangles that is greatest without its sign; 0 where no
+// point is nearest to any of them. O(triangles).
+std::vector<float> deviations_of_vertices(MeshView mesh, std::span<const float> of_triangles);
+
 // A cloud's indices along a Morton curve of 2^16 cells on each axis, so that neighbours in the
 // order are neighbours in space. O(n log n).
 std::vector<std::uint32_t> along_morton_curve(std::span<const Point> points);

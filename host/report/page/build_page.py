@@ -13,9 +13,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from three_package import PackageError, unpack
+from npm_package import NpmPackage, PackageError
 
 HERE = Path(__file__).resolve().parent
+# What the page bundles of three.js, as paths in the package.
+THREE = ("package.json", "LICENSE", "build/three.module.js", "build/three.core.js",
+         "examples/jsm/controls/OrbitControls.js")
 # The program puts the data of a report in the place of this marker (host/report/page/README.md).
 MARKER = "<!--emax:report-->"
 # The rest of the megabyte that a page may have is for data and picture.
@@ -67,7 +70,7 @@ def main():
     parser.add_argument("out", type=Path)
     given = parser.parse_args()
     try:
-        three = unpack(given.three, given.work)
+        three = NpmPackage(HERE / "package-lock.json", "three").unpack(THREE, given.three, given.work)
         page = page_of(bundled(given.esbuild, "main.js", given.work),
                        bundled(given.esbuild, "page.css", given.work), (three / "LICENSE").read_text())
     except (BuildError, PackageError, OSError) as error:

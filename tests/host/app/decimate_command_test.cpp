@@ -128,6 +128,21 @@ TEST_F(DecimateCommand, SeveralTolerancesGiveACertifiedMeshEach) {
   EXPECT_NE(test::file_text(folder_ / "part-curve.svg").find("</svg>"), std::string::npos);
 }
 
+TEST_F(DecimateCommand, ALevelOfAccuracyIsATolerance) {
+  const std::vector<std::string> decimate = {"decimate", "surface.off", "-o",
+                                             "out.ply",  "--unit",      "m"};
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), decimate.begin(), decimate.end());
+    return emax(more);
+  };
+  const ProgramRun done = run({"--loa", "30"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_NE(done.output.find("LOA 30, as a maximum"), std::string::npos) << done.output;
+  EXPECT_EQ(certificate("out.ply").at("epsilon"), 0.015);
+  EXPECT_EQ(run({"--loa", "30", "--max-error", "1"}).exit_code, 1);
+  EXPECT_EQ(run({}).exit_code, 1);
+}
+
 TEST_F(DecimateCommand, SeveralTolerancesThatMakeNoSenseAreRefused) {
   for (const char* wrong : {"1%,", ",1%", "1%,1%", "1%,x", "1%,-2%"}) {
     EXPECT_EQ(decimate("part.ply", {}, "surface.off", wrong).exit_code, 1) << wrong;

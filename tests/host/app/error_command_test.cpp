@@ -106,6 +106,22 @@ TEST_F(ErrorCommand, TolerancesHaveUnits) {
   }
 }
 
+TEST_F(ErrorCommand, WritesDeviationsIntoTheMesh) {
+  for (const std::string name : {"deviations.ply", "deviations.glb"}) {
+    const ProgramRun run = error({"--deviations", name});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_NE(run.output.find(name + ": of each vertex"), std::string::npos) << run.output;
+    EXPECT_FALSE(read_mesh_file(folder_ / name).attributes.empty()) << name;
+  }
+  EXPECT_EQ(error({"--deviations", "deviations.stl"}).exit_code, 1);
+}
+
+TEST_F(ErrorCommand, ADoubtfulUnitIsRemarked) {
+  EXPECT_NE(error({"--unit", "um"}).output.find("say --unit m\n"), std::string::npos);
+  EXPECT_EQ(error({"--unit", "mm"}).output.find("remark"), std::string::npos);
+  EXPECT_EQ(error({}).output.find("remark"), std::string::npos);
+}
+
 TEST_F(ErrorCommand, CountsPointsBeyondATolerance) {
   std::vector<double> distances = exact_distances();
   std::ranges::sort(distances);

@@ -1,5 +1,6 @@
-"""foreign_meshes_test.py CONVERT [--fault]: GLB, 3MF and DXF files of emax, read by trimesh, lib3mf and
-ezdxf, and files of trimesh and lib3mf, read by emax. CONVERT is the program of convert_mesh.cpp. With
+"""foreign_meshes_test.py CONVERT NODE VALIDATOR [--fault]: GLB, 3MF and DXF files of emax, read by trimesh,
+lib3mf and ezdxf, and files of trimesh and lib3mf, read by emax. CONVERT is the program of
+convert_mesh.cpp, VALIDATOR the folder of gltf-validator, a package for the program NODE. With
 --fault a bit of each expected coordinate is wrong, which must be seen."""
 
 import logging
@@ -13,7 +14,8 @@ import lib3mf
 import numpy as np
 import trimesh
 
-CONVERT, FAULT = sys.argv[1], "--fault" in sys.argv
+CONVERT, NODE, VALIDATOR = sys.argv[1:4]
+FAULT = "--fault" in sys.argv
 checks = 0
 logging.disable()  # trimesh tells at length that it does without SciPy
 
@@ -38,6 +40,14 @@ def convert(source, target, *unit):
     done = subprocess.run([CONVERT, source, target, *unit], capture_output=True, text=True, timeout=60)
     expect(done.returncode == 0, f"{source}: {done.stderr}")
     return done.stdout.strip()
+
+
+def faults_of_glb(path):
+    """What gltf-validator says of the file."""
+    done = subprocess.run([NODE, Path(__file__).parent / "validate_glb.js", VALIDATOR, path],
+                          capture_output=True, text=True, timeout=60)
+    expect(done.returncode == 0, f"{path}: gltf-validator: {done.stderr}")
+    return done.stdout
 
 
 def write_off(path, vertices, triangles):
@@ -74,6 +84,8 @@ def check_written_glb(folder, vertices, triangles):
         shifted = vertices + [5e5, -4e6, 100]
         write_off(folder / "glb.off", shifted, triangles)
         convert(folder / "glb.off", path, unit)
+        faults = faults_of_glb(path)
+        expect(faults == "", f"{path}: {faults}")
         scene = trimesh.load_scene(path)
         expect(len(scene.geometry) == 1, f"{path}: {scene.geometry}")
         (name,) = scene.graph.nodes_geometry
@@ -89,6 +101,14 @@ def check_written_glb(folder, vertices, triangles):
         again, faces = read_off(folder / "again.off")
         expect_equal("again", again, origin + (shifted - origin).astype("<f4").astype(float))
         expect(np.array_equal(faces, triangles), f"{path}: other triangles read again")
+
+
+def check_the_validator(folder):
+    """It must see a vertex outside of the bounds that the file states."""
+    wrong = (folder / "m.glb").read_bytes()
+    at = wrong.index(b'"min":[0.0') + len(b'"min":[')
+    (folder / "wrong.glb").write_bytes(wrong[:at] + b"9" + wrong[at + 1:])
+    expect("ACCESSOR_MIN_MISMATCH" in faults_of_glb(folder / "wrong.glb"), "the validator sees no fault")
 
 
 def check_read_glb(folder, vertices, triangles):
@@ -184,6 +204,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="emax_meshes_") as name:
         folder = Path(name)
         check_written_glb(folder, vertices, triangles)
+        check_the_validator(folder)
         check_read_glb(folder, vertices, triangles)
         check_3mf(folder, vertices, triangles)
         check_dxf(folder, vertices, triangles)

@@ -138,6 +138,14 @@ TEST_F(SceneFile, DeviationsHaveAPlace) {
   }
 }
 
+TEST_F(SceneFile, DeviationsOfTrianglesHaveAPlaceInPly) {
+  const std::vector<float> deviation = {0.25F, -0.5F, 1, 3};
+  write_mesh(folder_ / "a.ply", kTetrahedron, {.deviation_of_triangles = deviation});
+  const MeshFile file = read_mesh_file(folder_ / "a.ply");
+  EXPECT_EQ(file.mesh.triangles, kTetrahedron.triangles);
+  EXPECT_EQ(file.attributes, std::vector<std::string>{"\"deviation\""});
+}
+
 TEST_F(SceneFile, GlbNodesAreTurnedScaledAndShifted) {
   Sample sample;
   EXPECT_EQ(read(sample).vertices, (std::vector<Point>{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}));

@@ -75,6 +75,14 @@ TEST(Deviations, HaveNoSignWithoutAConsistentOrientation) {
   EXPECT_TRUE(std::ranges::all_of(d.of_points, [](double x) { return x >= 0; }));
 }
 
+TEST(Deviations, OfAVertexIsTheGreatestOfItsTriangles) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Point> vertices(6, Point::Zero());
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {3, 4, 5}};
+  EXPECT_EQ(deviations_of_vertices({vertices, triangles}, std::vector<float>{0.5F, -2, kNone}),
+            (std::vector<float>{-2, 0.5F, -2, -2, 0, 0}));
+}
+
 TEST(MortonCurve, HoldsEveryPointOnceAndKeepsNeighboursTogether) {
   const Stimulus s = bumpy_sphere(4, 4, 4096, 7);
   const std::vector<std::uint32_t> order = along_morton_curve(s.cloud);
