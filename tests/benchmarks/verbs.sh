@@ -8,5 +8,8 @@ verb_bench() {
   verb_build bench emax emax_benchmark emax_decimation_benchmark emax_search_benchmark \
     emax_search_problems
   verb_data
+  case " $* " in
+    *" --comparison "*) python_packages "laspy and pye57" tests/host/files/requirements.txt ;;
+  esac
   exec "$python" -B tests/benchmarks/bench.py "$@"
 }

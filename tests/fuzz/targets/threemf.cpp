@@ -35,8 +35,13 @@ void read(Input input) {
 }
 
 std::vector<std::string> seeds() {
-  const std::string archive = tetrahedron(".3mf");
-  return {archive, entry(archive, std::string(kThreeMfModelPart))};
+  // Short, so that most changes meet a number.
+  const std::string triangle = "<model xmlns=\"" + std::string(kThreeMfCore) +
+                               R"("><resources><object id="1"><mesh><vertices>
+<vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
+</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources>
+<build><item objectid="1"/></build></model>)";
+  return {tetrahedron(".3mf"), triangle};
 }
 
 }  // namespace emax::fuzz
