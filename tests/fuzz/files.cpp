@@ -63,6 +63,13 @@ std::filesystem::path write(std::string_view name, Input bytes) {
   return folder().write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+void read_sound_mesh(const std::filesystem::path& path) {
+  const TriangleMesh mesh = read_mesh(path);
+  require(holds_triangles(path), "a mesh that was read holds triangles");
+  require_sound(mesh);
+  require_kept(mesh);
+}
+
 void read_file(Input bytes, std::string_view ending) {
   const std::filesystem::path path = write("file" + std::string(ending), bytes);
   std::exception_ptr refusal;
@@ -76,12 +83,7 @@ void read_file(Input bytes, std::string_view ending) {
   };
   attempt(cloud_endings(), [&] { require_sound(read_cloud(path)); });
   attempt(cloud_endings(), [&] { require_sound(read_cloud(path, {.skip_invalid = true})); });
-  attempt(mesh_endings(), [&] {
-    const TriangleMesh mesh = read_mesh(path);
-    require(holds_triangles(path), "a mesh that was read holds triangles");
-    require_sound(mesh);
-    require_kept(mesh);
-  });
+  attempt(mesh_endings(), [&] { read_sound_mesh(path); });
   if (refusal) std::rethrow_exception(refusal);
 }
 

@@ -20,6 +20,9 @@ std::filesystem::path write(std::string_view name, Input bytes);
 // format that keeps every bit. Throws the last Error of a reader.
 void read_file(Input bytes, std::string_view ending);
 
+// The same as a mesh alone.
+void read_sound_mesh(const std::filesystem::path& path);
+
 // A tetrahedron as a file of this ending.
 std::string tetrahedron(std::string_view ending);
 

@@ -15,13 +15,14 @@ std::string entry(const std::string& archive, const std::string& name) {
   return bytes;
 }
 
-// The seed with this model.
+// An archive with this model.
 std::string packed(Input model) {
+  static const std::string types = "[Content_Types].xml", relations = "_rels/.rels";
   static const std::string seed = tetrahedron(".3mf");
+  static const std::string of_types = entry(seed, types), of_relations = entry(seed, relations);
   ZipWriter zip;
-  for (const std::string name : {"[Content_Types].xml", "_rels/.rels"}) {
-    zip.add(name, entry(seed, name));
-  }
+  zip.add(types, of_types);
+  zip.add(relations, of_relations);
   zip.add(std::string(kThreeMfModelPart), {model.begin(), model.end()});
   return zip.finish();
 }
@@ -30,18 +31,22 @@ std::string packed(Input model) {
 
 void read(Input input) {
   constexpr std::uint8_t kFirstOfZip = 'P';
-  const bool is_archive = !input.empty() && input.front() == kFirstOfZip;
-  read_file(is_archive ? input : bytes_of(packed(input)), ".3mf");
+  if (!input.empty() && input.front() == kFirstOfZip) {
+    read_file(input, ".3mf");
+  } else {
+    read_sound_mesh(write("file.3mf", bytes_of(packed(input))));
+  }
 }
 
 std::vector<std::string> seeds() {
-  // Short, so that most changes meet a number.
-  const std::string triangle = "<model xmlns=\"" + std::string(kThreeMfCore) +
-                               R"("><resources><object id="1"><mesh><vertices>
+  // Short, so that many changes meet an index.
+  const std::string triangles = "<model xmlns=\"" + std::string(kThreeMfCore) +
+                                R"("><resources><object id="1"><mesh><vertices>
 <vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
-</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources>
+</vertices><triangles><triangle v1="0" v2="1" v3="2"/><triangle v1="2" v2="1" v3="0"/>
+<triangle v1="1" v2="2" v3="0"/></triangles></mesh></object></resources>
 <build><item objectid="1"/></build></model>)";
-  return {tetrahedron(".3mf"), triangle};
+  return {tetrahedron(".3mf"), triangles};
 }
 
 }  // namespace emax::fuzz
