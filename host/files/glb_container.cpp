@@ -138,9 +138,9 @@ std::vector<GltfObject> GltfObject::objects(const char* key) const {
 }
 
 GltfObject GltfObject::object(const char* key) const {
-  static const Json kEmpty = Json::object();
+  static const Json empty = Json::object();
   const auto member = json->find(key);
-  if (member == json->end()) return {input, &kEmpty, place};
+  if (member == json->end()) return {input, &empty, place};
   if (!member->is_object()) fail(fmt::format("\"{}\" is not an object", key));
   return {input, &*member, fmt::format("{}, \"{}\"", place, key)};
 }

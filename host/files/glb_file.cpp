@@ -23,12 +23,9 @@ Pose placement_of(const GltfObject& node) {
   Pose pose;
   std::array<double, 16> matrix{};
   if (node.numbers("matrix", matrix)) {
-    for (int column = 0; column < 3; ++column) {
-      for (int row = 0; row < 3; ++row) {
-        pose.rotation(row, column) = matrix[static_cast<std::size_t>(4 * column + row)];
-      }
-      pose.shift[column] = matrix[static_cast<std::size_t>(12 + column)];
-    }
+    const Eigen::Map<const Eigen::Matrix4d> columns(matrix.data());
+    pose.rotation = columns.topLeftCorner<3, 3>();
+    pose.shift = columns.topRightCorner<3, 1>();
     return pose;
   }
   std::array<double, 4> turn{0, 0, 0, 1};

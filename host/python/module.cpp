@@ -10,7 +10,7 @@ namespace nb = nanobind;
 // The part of the package that is compiled. Its functions take what emax/*.py has made of the
 // arguments.
 NB_MODULE(_core, module) {
-  nb::exception<emax::Error>(module, "Error", PyExc_Exception);
+  const nb::exception<emax::Error> error(module, "Error", PyExc_Exception);
   module.attr("version") = EMAX_VERSION;
   emax::verify_arithmetic();
   emax::bind_arrays(module);

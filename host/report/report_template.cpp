@@ -4,23 +4,23 @@
 
 // The bytes of the file EMAX_REPORT_TEMPLATE, as the assembler reads them.
 asm(".pushsection .rodata\n"
-    ".hidden emax_report_template_begin\n.hidden emax_report_template_end\n"
-    ".globl emax_report_template_begin\n.globl emax_report_template_end\n"
-    "emax_report_template_begin:\n.incbin \"" EMAX_REPORT_TEMPLATE
+    ".hidden kReportTemplateBegin\n.hidden kReportTemplateEnd\n"
+    ".globl kReportTemplateBegin\n.globl kReportTemplateEnd\n"
+    "kReportTemplateBegin:\n.incbin \"" EMAX_REPORT_TEMPLATE
     "\"\n"
-    "emax_report_template_end:\n"
+    "kReportTemplateEnd:\n"
     ".popsection\n");
 
 extern "C" {
-[[gnu::visibility("hidden")]] extern const char emax_report_template_begin[];
-[[gnu::visibility("hidden")]] extern const char emax_report_template_end[];
+[[gnu::visibility("hidden")]] extern const char kReportTemplateBegin[];
+[[gnu::visibility("hidden")]] extern const char kReportTemplateEnd[];
 }
 
 namespace emax {
 
 std::string_view report_template() {
-  return {emax_report_template_begin,
-          static_cast<std::size_t>(emax_report_template_end - emax_report_template_begin)};
+  return {kReportTemplateBegin,
+          static_cast<std::size_t>(kReportTemplateEnd - kReportTemplateBegin)};
 }
 
 }  // namespace emax

@@ -1,9 +1,10 @@
-"""compile_database.py FOLDER OBJECTS OUT: writes the compilation database OUT, which has each of our sources once.
+"""compile_database.py FOLDER OBJECTS OUT: writes a compilation database into the folder OUT, which has each of our sources
+once.
 
 FOLDER is of a build by CMake with Ninja; OBJECTS names a file with the build's objects, one a line. A source that
 several programs compile has the command of one of these objects, where there is one: others are built on demand
-alone, and may lack what is generated for them. A source that is compiled together with others is an entry of its own.
-Prints each source and its object.
+alone, and may lack what is generated for them. Sources that are compiled together stay together: a file in OUT, or for
+tests in OUT/tests, includes them. Prints each file and its object.
 """
 
 import json
@@ -16,6 +17,15 @@ built = set(objects.read_text().splitlines())
 own = Path.cwd()
 
 
+def object_of(entry):
+    words = entry["command"].split()
+    return words[words.index("-o") + 1]
+
+
+def is_own(source):
+    return source.is_relative_to(own) and not source.is_relative_to(own / "build")
+
+
 def sources(entry):
     """The files of an entry: itself, or those that CMake has it include."""
     if Path(entry["file"]).parent.name == "Unity":
@@ -23,17 +33,24 @@ def sources(entry):
     return [entry["file"]]
 
 
-chosen = {}
-for entry in json.loads((folder / "compile_commands.json").read_text()):
-    words = entry["command"].split()
-    name = words[words.index("-o") + 1]
-    for source in sources(entry):
-        path = Path(source)
-        if not path.is_relative_to(own) or path.is_relative_to(own / "build"):
-            continue
-        if source not in chosen or name in built:
-            command = entry["command"].replace(entry["file"], source)
-            chosen[source] = {"directory": entry["directory"], "command": command, "file": source, "object": name}
-out.write_text(json.dumps([{key: value for key, value in entry.items() if key != "object"} for entry in chosen.values()]))
-for name in sorted(chosen):
-    print(name, chosen[name]["object"])
+def joined(names, target):
+    """A file that includes these sources."""
+    room = Path(names[0]).relative_to(own).parts[0]
+    path = (out / room if room == "tests" else out) / (target.replace("/", ".") + ".cpp")
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("".join(f'#include "{name}"\n' for name in names))
+    return str(path.absolute())
+
+
+entries = json.loads((folder / "compile_commands.json").read_text())
+seen, chosen = set(), []
+for entry in sorted(entries, key=lambda entry: object_of(entry) not in built):
+    names = [name for name in sources(entry) if is_own(Path(name)) and name not in seen]
+    if not names:
+        continue
+    seen.update(names)
+    file = names[0] if names == [entry["file"]] else joined(names, object_of(entry))
+    command = entry["command"].replace(entry["file"], file)
+    chosen.append({"directory": entry["directory"], "command": command, "file": file})
+    print(file, object_of(entry))
+(out / "compile_commands.json").write_text(json.dumps(chosen))

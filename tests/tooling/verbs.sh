@@ -61,14 +61,13 @@ lint_subjects() {
     subject ~ /[.]$/ || subject !~ /^[A-Z]/ { print $1 ": a subject is an order: Do this" }' | grep .
 }
 
-# tidy_one SOURCE: clang-tidy, unless this source with these headers and checks passed before.
+# tidy_one FILE OBJECT: clang-tidy, unless this file with these sources, headers and checks passed before.
 tidy_one() {
   local parts key more=
-  mapfile -t parts < <(awk -v source="$1" -v RS= -v FS='\n *' '
-    { has = 0; for (i = 1; i <= NF; ++i) has = has || $i == source }
-    has { for (i = 1; i <= NF; ++i) print $i }' build/lint/dependencies | sort -u)
+  mapfile -t parts < <(awk -v object="$2" -v RS= -v FS='\n *' '
+    $1 == object { for (i = 2; i <= NF; ++i) print $i }' build/lint/dependencies | sort -u)
   [ ${#parts[@]} -gt 0 ] || { echo "$1: not built, so not checked" && return 1; }
-  key=$(cat build/lint/checks "${parts[@]}" | sha256sum | cut -c1-32)
+  key=$(cat build/lint/checks "$1" "${parts[@]}" | sha256sum | cut -c1-32)
   [ ! -f "build/lint/$key" ] || return 0
   # CGAL has templates that no one uses and newer compilers refuse.
   ! grep -q '<CGAL/' "${parts[@]}" || more=--extra-arg=-fdelayed-template-parsing
@@ -76,27 +75,47 @@ tidy_one() {
     touch "build/lint/$key"
 }
 
+# tidy_configuration: for files that only include sources, what is seen in these.
+tidy_configuration() {
+  local folder=build/lint
+  mkdir -p $folder/tests
+  sed -e 's/^  bugprone-\*,$/&\n  -bugprone-suspicious-include,/' \
+    -e '/^HeaderFilterRegex/s/\\\.h\$/\\.(h|cpp)$/' .clang-tidy >$folder/.clang-tidy
+  cp tests/.clang-tidy $folder/tests/.clang-tidy
+}
+
+# sees_fault FILE: clang-tidy, configured as for the sources, finds the wrong name in a source that FILE includes.
+sees_fault() {
+  local found
+  found=$(build/python/bin/clang-tidy --quiet "$1" -- 2>&1 || true)
+  [[ $found == *"invalid case style for function 'BadName'"* ]] ||
+    fail "clang-tidy does not apply .clang-tidy: $found"
+}
+
 lint_tidy() {
-  local findings tidy=build/python/bin/clang-tidy
-  mkdir -p build/lint
+  tidy_configuration
   # Without its configuration clang-tidy would pass everything: show that it sees a wrong name.
-  printf 'int BadName() { return 0; }\n' >build/lint/fault.cpp
-  findings=$($tidy --quiet --config-file=.clang-tidy build/lint/fault.cpp -- 2>&1 || true)
-  [[ $findings == *"invalid case style for function 'BadName'"* ]] ||
-    fail "clang-tidy does not apply .clang-tidy: $findings"
-  { $tidy --version && own_files .clang-tidy | xargs cat; } >build/lint/checks
+  mkdir -p build/lint/host
+  printf 'int BadName() { return 0; }\n' >build/lint/host/fault.cpp
+  for folder in build/lint build/lint/tests; do
+    printf '#include "%s"\n' "$PWD/build/lint/host/fault.cpp" >$folder/fault.cpp
+    sees_fault $folder/fault.cpp
+  done
+  { build/python/bin/clang-tidy --version && own_files .clang-tidy | xargs cat; } >build/lint/checks
   ninja -C build/release -t inputs all >build/lint/built
-  "$python" -B tests/tooling/compile_database.py build/release build/lint/built \
-    build/lint/compile_commands.json >build/lint/objects
+  "$python" -B tests/tooling/compile_database.py build/release build/lint/built build/lint \
+    >build/lint/objects
   [ -s build/lint/objects ] || fail "cannot read what the build compiles"
   cut -d ' ' -f 2 build/lint/objects | xargs ninja -C build/release --quiet || return
-  # Of each object, a paragraph: its sources and our headers that they include.
-  ninja -C build/release -t deps |
-    awk -v root="$PWD/" '!/^ / { print ""; next } index($1, root) == 1 { print $1 }' \
-      >build/lint/dependencies || fail "cannot read what the build depends on"
+  # Of each object, a paragraph: its name, its sources, and our headers that they include. ccache may
+  # have made the paths relative.
+  ninja -C build/release -t deps | awk -v root="$PWD/" '
+    !/^ / { sub(/:.*/, ""); print "\n" $0; next }
+    sub(/^\.\.\/\.\.\//, root, $1) || index($1, root) == 1 { print $1 }' \
+    >build/lint/dependencies || fail "cannot read what the build depends on"
   export -f tidy_one
   # shellcheck disable=SC2016  # expanded by the inner shell
-  cut -d ' ' -f 1 build/lint/objects | sort -u | xargs -P "$jobs" -I{} bash -c 'tidy_one "$1"' tidy {}
+  xargs -P "$jobs" -n 2 bash -c 'tidy_one "$1" "$2"' tidy <build/lint/objects
 }
 
 verb_lint() {
