@@ -69,9 +69,10 @@ def write_clouds():
         cloud(name, None)
         las.write(FOLDER / name)
     cloud("cloud.e57", None, "m")
-    scan = {"cartesian" + axis.upper(): points[:, k].copy() for k, axis in enumerate("xyz")}
+    # libE57Format's Python writes 32 bits, so the scan has its place by its pose.
+    scan = {"cartesian" + axis.upper(): points[:, k] - ORIGIN[k] for k, axis in enumerate("xyz")}
     with pye57.E57(str(FOLDER / "cloud.e57"), mode="w") as e57:
-        e57.write_scan_raw(scan)
+        e57.write_scan_raw(scan, translation=ORIGIN)
 
 
 def glb():
