@@ -19,7 +19,7 @@ class MeshLab:
         import pymeshlab
         meshes = pymeshlab.MeshSet()
         meshes.load_new_mesh(path)
-        return extent(meshes.current_mesh().vertex_matrix(), meshes.current_mesh().face_number())
+        return extent(meshes.current_mesh().transformed_vertex_matrix(), meshes.current_mesh().face_number())
 
     @staticmethod
     def write(mesh, output):
