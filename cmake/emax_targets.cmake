@@ -3,7 +3,7 @@
 # "<folder>/..." through a folder that holds a link to that room alone, so a target sees a room only
 # when it links the room's library.
 
-option(EMAX_UNITY "Compile the sources of a target several at a time, in a third of the time" ON)
+option(EMAX_UNITY "Compile the sources of a target several at a time, which takes less time" ON)
 
 # emax_alone(<source>...): sources, from the root, that no others are compiled with: a second program
 # has them in another form, or the compiler warns wrongly where it sees them together.
