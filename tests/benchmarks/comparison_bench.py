@@ -146,17 +146,22 @@ def extent_of_glb(path):
     return told
 
 
+def attempt(tool, path, kind):
+    """What the tool has read, or None: it refused, or nothing was read that could be written. Raises Broken."""
+    try:
+        got = tool.read(path, kind)
+    except (Refused, OSError, ValueError, KeyError, IndexError):
+        return None
+    return got if got["points"] > 0 else None
+
+
 def reading(tool, path, expected):
     """A word for the table: what became of a sound file."""
     try:
-        got = tool.read(path, expected["kind"])
-    except Refused:
-        return "–"
+        got = attempt(tool, path, expected["kind"])
     except Broken as why:
         return f"**{why}**"
-    except (OSError, ValueError, KeyError, IndexError):
-        return "–"
-    if got["points"] == 0:
+    if got is None:
         return "–"
     if expected["triangles"] != got["triangles"] or (expected["kind"] == "cloud" and got["points"] != expected["points"]):
         return f"other: {got['points']} points, {got['triangles']} triangles"
@@ -172,14 +177,10 @@ def refusal(tool, path, expected, readable):
     if not readable.get((tool.name, path.suffix)):
         return "does not read it"
     try:
-        got = tool.read(path, expected["kind"])
-    except Refused:
-        return "refuses"
+        got = attempt(tool, path, expected["kind"])
     except Broken as why:
         return f"**{why}**"
-    except (OSError, ValueError, KeyError, IndexError):
-        return "refuses"  # nothing was read that could be written
-    if got["points"] == 0:
+    if got is None:
         return "refuses"
     return f"takes {got['points']} points" + (f", {got['triangles']} triangles" if got["triangles"] else "")
 
