@@ -45,7 +45,6 @@ expect fail "no section [nonsense]" "an unknown section" "$dev" setup nonsense
 stand_in dpkg-query 'for p in "$@"; do
   case " $INSTALLED " in *" $p "*) echo "installed $p" ;; esac
 done; exit 1'
-stand_in apt-cache 'exit 0'
 # shellcheck disable=SC2016
 stand_in apt-get 'echo "$*" >>"$CALLS"; exit "${APT_STATUS:-0}"'
 # shellcheck disable=SC2016
@@ -61,8 +60,10 @@ expect_silence "$dev" setup kernel
 export INSTALLED=${all/ verilator/}
 expect pass "installing verilator (" "one package missing" "$dev" setup kernel
 expect_calls 1 "install --no-install-recommends verilator"
+expect pass "installing verilator (" "lists brought up to date" "$dev" setup kernel
+expect_calls 1 "update"
 FAKE_ID=1000 expect pass "installing verilator" "not root, with sudo" "$dev" setup kernel
-expect_calls 1 "sudo env DEBIAN_FRONTEND=noninteractive apt-get -y"
+expect_calls 2 "sudo env DEBIAN_FRONTEND=noninteractive apt-get -y"
 APT_STATUS=100 expect fail "could not be installed" "an install that fails" "$dev" setup kernel
 expect_calls 1 "update"
 
