@@ -8,13 +8,13 @@ namespace emax {
 namespace {
 
 constexpr std::array<Colour, 9> kViridis = {{{68, 1, 84},
-                                             {71, 44, 122},
-                                             {59, 81, 139},
-                                             {44, 113, 142},
-                                             {33, 144, 141},
-                                             {39, 173, 129},
-                                             {92, 200, 99},
-                                             {170, 220, 50},
+                                             {71, 45, 123},
+                                             {59, 82, 139},
+                                             {44, 114, 142},
+                                             {33, 145, 140},
+                                             {40, 174, 128},
+                                             {94, 201, 98},
+                                             {173, 220, 48},
                                              {253, 231, 37}}};
 constexpr std::array<Colour, 9> kBlueToRed = {{{31, 78, 156},
                                                {63, 127, 193},
@@ -26,6 +26,8 @@ constexpr std::array<Colour, 9> kBlueToRed = {{{31, 78, 156},
                                                {196, 82, 74},
                                                {150, 28, 44}}};
 constexpr Colour kAbove = {255, 176, 0}, kBelow = {180, 75, 224}, kFar = {240, 80, 45};
+constexpr DeviationScale kWithSign = {kBlueToRed, kAbove, kBelow};
+constexpr DeviationScale kWithoutSign = {kViridis, kFar, kFar};
 
 // Between equally spaced colours.
 Colour between(std::span<const Colour> map, double position) {
@@ -42,13 +44,18 @@ Colour between(std::span<const Colour> map, double position) {
 
 }  // namespace
 
+const DeviationScale& deviation_scale(bool is_signed) {
+  return is_signed ? kWithSign : kWithoutSign;
+}
+
 Colour viridis(double position) { return between(kViridis, position); }
 
 Colour deviation_colour(double deviation, double reach, bool is_signed) {
+  const DeviationScale& scale = deviation_scale(is_signed);
   const double share = deviation / reach;
-  if (!is_signed) return share > 1 ? kFar : viridis(share);
-  if (share > 1) return kAbove;
-  return share < -1 ? kBelow : between(kBlueToRed, (share + 1) / 2);
+  if (share > 1) return scale.above;
+  if (share < -1) return scale.below;
+  return between(scale.stops, is_signed ? (share + 1) / 2 : share);
 }
 
 }  // namespace emax

@@ -10,10 +10,17 @@ using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
 // The perceptually uniform map "viridis" from dark blue at 0 to yellow at 1 and beyond.
 Colour viridis(double position);
 
-// The colours of deviations, in pictures as on the page of a report
-// (host/report/page/src/scale.js): from blue at -reach by way of light grey to red at reach, or
-// viridis where deviations have no sign. What lies beyond has a colour that the scale does not
-// have.
+// The colours of deviations, in pictures as on the page of a report: equally spaced stops from
+// -reach to reach, or from 0 where deviations have no sign, and what lies above and below.
+struct DeviationScale {
+  std::array<Colour, 9> stops;
+  Colour above, below;
+};
+
+// From blue by way of light grey to red, or viridis. Both keep their order for every kind of colour
+// vision. What lies beyond has a colour that the stops do not have.
+const DeviationScale& deviation_scale(bool is_signed);
+
 Colour deviation_colour(double deviation, double reach, bool is_signed);
 
 }  // namespace emax

@@ -1,3 +1,4 @@
+#include "host/picture/colour.h"
 #include "host/report/json_parts.h"
 #include "host/report/report_data.h"
 
@@ -79,6 +80,11 @@ Json curve_json(const std::vector<ReportCurvePoint>& curve) {
   });
 }
 
+Json colours_json(bool is_signed) {
+  const DeviationScale& scale = deviation_scale(is_signed);
+  return {{"stops", scale.stops}, {"above", scale.above}, {"below", scale.below}};
+}
+
 }  // namespace
 
 std::string report_json(const ReportData& r) {
@@ -112,6 +118,7 @@ std::string report_json(const ReportData& r) {
       {"certificate", r.certificate ? certificate_json(*r.certificate) : Json()},
       {"checks", r.checks ? checks_json(*r.checks) : Json()},
       {"signed", m.is_signed},
+      {"colours", colours_json(m.is_signed)},
       {"statistics", statistics_json(m.statistics)},
       {"histogram",
        {{"edges", h.edges}, {"counts", h.counts}, {"below", h.below}, {"above", h.above}}},

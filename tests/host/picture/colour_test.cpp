@@ -11,7 +11,7 @@ double luminance(const Colour& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.072
 
 TEST(Viridis, RunsFromDarkBlueToYellowAndBrightensThroughout) {
   EXPECT_EQ(viridis(0), (Colour{68, 1, 84}));
-  EXPECT_EQ(viridis(0.5), (Colour{33, 144, 141}));
+  EXPECT_EQ(viridis(0.5), (Colour{33, 145, 140}));
   EXPECT_EQ(viridis(1), (Colour{253, 231, 37}));
   EXPECT_EQ(viridis(7), viridis(1));
   for (double x = 0; x < 1; x += 1.0 / 64) {

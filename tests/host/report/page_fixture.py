@@ -10,6 +10,9 @@ from array import array
 MARKER = "<!--emax:report-->"
 RADIUS, CENTRE, EPSILON = 50.0, (10.0, -20.0, 30.0), 0.8
 HISTOGRAM_BINS = 40
+# From blue by way of grey to red; not the colours of the program, so that the page has to take these.
+COLOURS = {"stops": [[20 + 50 * k, 60 + 40 * k, 220] for k in range(4)] + [[222, 220, 214]] + [[220, 180 - 40 * k, 170 - 50 * k] for k in range(4)],
+           "above": [250, 180, 10], "below": [170, 80, 230]}
 # A picture of one grey pixel.
 PICTURE = ("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNsaGj4DwAFhAKAjM1mJgAAAABJRU5ErkJggg==")
 
@@ -117,7 +120,7 @@ def sphere_report(count=20_000, signed=True):
         "provenance": [{"name": "cloud", "file": "scan.ply", "sha256": "3f" * 32}, {"name": "mesh", "file": "part.ply", "sha256": "ab" * 32}],
         "parameters": [{"name": "method", "text": "gp3"}, {"name": "seed", "text": "1"}],
         "certificate": {"file": "part.ply.certificate.json", "text": certificate, "verify": "emax verify part.ply.certificate.json"},
-        "checks": None, "signed": signed, "statistics": statistics_of(deviations, signed), "histogram": histogram_of(deviations, signed),
+        "checks": None, "signed": signed, "colours": COLOURS, "statistics": statistics_of(deviations, signed), "histogram": histogram_of(deviations, signed),
         "worst": [{"point": i, "position": points[i][0], "deviation": deviations[i], "triangle": i % len(triangles)} for i in worst],
         "excluded": [{"point": 7, "position": [CENTRE[0], CENTRE[1], CENTRE[2] + 70.0], "deviation": 20.0}], "excluded_count": 1,
         "left_out": [{"reason": "not finite", "points": 3}, {"reason": "of class 7", "points": 755}],

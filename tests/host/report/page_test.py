@@ -81,9 +81,11 @@ def shows_the_distribution(browser, data):
     share = 100 * sum(bins[-4:]) / data["points"]
     equal(rows[1], ["+0.64 to +0.8", f"{share:.2f} %"], "the highest band within ε")
     ends = browser.js("return [...document.querySelectorAll('#legend .swatch')].map((s) => getComputedStyle(s).backgroundImage + getComputedStyle(s).backgroundColor)")
-    red_first = lambda text: [tuple(map(float, m)) for m in re.findall(r"rgb\(([\d.]+), ([\d.]+), ([\d.]+)\)", text)][0]
-    holds(red_first(ends[1])[0] > red_first(ends[1])[2], "the legend's upper end is not red")
-    holds(red_first(ends[-2])[2] > red_first(ends[-2])[0], "the legend's lower end is not blue")
+    colours = lambda text: [list(map(int, m)) for m in re.findall(r"rgb\((\d+), (\d+), (\d+)\)", text)]
+    equal(colours(ends[0])[-1], fixture.COLOURS["above"], "the colour above the tolerance")
+    equal(colours(ends[1])[-1], fixture.COLOURS["stops"][-1], "the legend's upper end")
+    equal(colours(ends[-2])[0], fixture.COLOURS["stops"][0], "the legend's lower end")
+    equal(colours(ends[-1])[-1], fixture.COLOURS["below"], "the colour below the tolerance")
     bars = browser.js("return [...document.querySelectorAll('#distribution rect.bar')].map((bar) => bar.textContent)")
     equal(len(bars), fixture.HISTOGRAM_BINS + 1, "bars of the histogram")
     holds(f": {bins[0]:,} points" in bars[0], f"the first bar says {bars[0]!r}, not {bins[0]} points")

@@ -1,15 +1,8 @@
 // The scale of colours: the same for points, triangles, legend and histogram.
 import { deviation } from './format.js';
 
-const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
-
-// Blue to red by way of grey, and viridis: both keep their order for every kind of colour vision.
-const DIVERGING = ['#1f4e9c', '#3f7fc1', '#7fb2d9', '#bcd5e4', '#dedcd6', '#ecc3a9', '#df8f6e',
-  '#c4524a', '#961c2c'];
-const SEQUENTIAL = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962',
-  '#addc30', '#fde725'];
-const BEYOND_DIVERGING = { above: '#ffb000', below: '#b44be0', within: '#4f93c4' };
-const BEYOND_SEQUENTIAL = { above: '#f0502d', below: '#f0502d', within: '#4f93c4' };
+const rgb = (bytes) => bytes.map((part) => part / 255);
+const WITHIN = rgb([79, 147, 196]);
 const MOST_BANDS = 12;
 
 const css = (colour) => `rgb(${colour.map((part) => Math.round(255 * part)).join(' ')})`;
@@ -30,11 +23,10 @@ export class Scale {
     this.signed = Boolean(data.signed);
     this.epsilon = data.epsilon;
     this.range = Math.abs(edges.at(-1) ?? data.epsilon ?? data.e_max) || Number.MIN_VALUE;
-    this.stops = (this.signed ? DIVERGING : SEQUENTIAL).map(rgb);
-    const beyond = this.signed ? BEYOND_DIVERGING : BEYOND_SEQUENTIAL;
-    this.above = rgb(beyond.above);
-    this.below = rgb(beyond.below);
-    this.within = rgb(beyond.within);
+    this.stops = data.colours.stops.map(rgb);
+    this.above = rgb(data.colours.above);
+    this.below = rgb(data.colours.below);
+    this.within = WITHIN;
     this.go_no_go = false;
   }
 
