@@ -46,6 +46,13 @@ double limit_of(double epsilon, double roundings, double undecided) {
   return epsilon * (1 - kMargin) - roundings - std::min(undecided, kMostUndecided * epsilon);
 }
 
+// One point in so many guides the search: about as many as the reference has vertices, and never
+// few.
+std::size_t guides_of(std::size_t points, std::size_t vertices) {
+  constexpr std::size_t kGuides = 160'000;
+  return std::max<std::size_t>(points / std::max(vertices, kGuides), 1);
+}
+
 void require_belonging(const DecimationState& state) {
   const AssignedPoints& assigned = state.assigned();
   std::size_t away = 0;
@@ -216,6 +223,8 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   guards.flatness = settings.flatness;
   guards.squared_reach = reach * reach;
   guards.threads = settings.threads;
+  const bool hoppe = settings.objective == DecimationSettings::Objective::kHoppe;
+  if (!hoppe) guards.guides = guides_of(cloud_.size(), reference_.vertices.size());
   const TriangleMesh ordered = spatially_ordered(start);
   DecimationState state(ordered, known.points, settings.two_sided ? known.back.get() : nullptr,
                         limit * limit, guards, settings.interrupted, known.triangles);
@@ -229,7 +238,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   std::ranges::sort(result.left_out);
   DecimationPasses::Options options;
   if (settings.feature_angle > 0) options.features = FeatureEdges(ordered, settings.feature_angle);
-  if (settings.objective == DecimationSettings::Objective::kHoppe) {
+  if (hoppe) {
     const double width = bounds_of(reference_.vertices).width();
     options.spring = settings.hoppe.spring;
     options.representation = settings.hoppe.representation * width * width / (limit * limit);

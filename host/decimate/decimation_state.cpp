@@ -42,10 +42,13 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
       squared_limit_(squared_limit),
       guards_(guards),
       reference_(reference),
-      assigned_(cloud.size(), mesh.triangles.size()),
+      assigned_(cloud.size(), mesh.triangles.size(), guards.guides),
       tree_(mesh_),
       sight_(mesh.vertices.size()) {
   take_area_normals();
+  for (const Triangle& t : reference_) {
+    for (const std::uint32_t p : t) assigned_.make_guide(p);
+  }
   complete_ = reassign(interrupted);
   if (complete_) cover_reference();
   if (!complete_ || back_ == nullptr) return;
@@ -64,7 +67,10 @@ bool DecimationState::reassign(const Interrupted& interrupted) {
               [&](std::size_t, std::size_t first, std::size_t last) {
                 std::uint32_t hint = kNoIndex;
                 for (std::size_t i = first; i < last; ++i) {
-                  nearest[i] = nearest_of(static_cast<std::uint32_t>(begin + i), hint);
+                  const auto p = static_cast<std::uint32_t>(begin + i);
+                  nearest[i] = {kNoIndex, 0};
+                  if (guides_alone_ && !assigned_.is_guide(p)) continue;
+                  nearest[i] = nearest_of(p, hint);
                   if (nearest[i].slot != kNoIndex) hint = nearest[i].slot;
                 }
               });
@@ -79,12 +85,13 @@ bool DecimationState::reassign(const Interrupted& interrupted) {
   return true;
 }
 
-// Within slightly more than the known distance, so that the point's triangle is found again. The
-// hint is for points that have none.
+// Within slightly more than the known distance, so that the point's triangle is found again, or
+// anywhere if it was taken from it. The hint is for points that have none.
 SlotTree::Nearest DecimationState::nearest_of(std::uint32_t point, std::uint32_t hint) const {
   const std::uint32_t owner = assigned_.owner(point);
-  const double known = owner == kNoIndex ? std::max(squared_limit_, guards_.squared_reach)
-                                         : assigned_.squared_distance(point);
+  const bool has_none = owner == kNoIndex && !assigned_.detached(point);
+  const double known = has_none ? std::max(squared_limit_, guards_.squared_reach)
+                                : assigned_.squared_distance(point);
   return tree_.nearest(mesh_, points_[point],
                        known * (1 + 1e-9) + std::numeric_limits<double>::min(),
                        owner == kNoIndex ? hint : owner);
@@ -276,6 +283,7 @@ void DecimationState::cover_reference() {
 }
 
 void DecimationState::loosen(double factor, double back_factor) {
+  detach_others();
   permitted_ = factor * factor;
   permitted_back_ = back_factor * back_factor;
   may_stay_beyond_ = true;
@@ -287,6 +295,24 @@ void DecimationState::tighten() {
   reassign();
   test_back_bound();
   cover_reference();
+}
+
+void DecimationState::detach_others() {
+  guides_alone_ = !assigned_.all_are_guides();
+  assigned_.detach_others();
+}
+
+std::size_t DecimationState::attach_others() {
+  if (!guides_alone_) return 0;
+  guides_alone_ = false;
+  reassign();
+  std::size_t beyond = 0;
+  for (std::uint32_t p = 0; p < assigned_.size(); ++p) {
+    if (assigned_.is_guide(p) || assigned_.squared_distance(p) <= squared_limit_) continue;
+    assigned_.make_guide(p);
+    ++beyond;
+  }
+  return beyond;
 }
 
 void DecimationState::test_back_bound() {
@@ -303,7 +329,7 @@ void DecimationState::test_back_bound() {
 bool DecimationState::keep_limits() {
   if (unproven() > 0 || std::ranges::count(breaks_back_, 1) > 0) return false;
   for (std::uint32_t p = 0; p < assigned_.size(); ++p) {
-    const bool known = assigned_.owner(p) != kNoIndex;
+    const bool known = assigned_.owner(p) != kNoIndex || assigned_.detached(p);
     if (known && assigned_.squared_distance(p) > squared_limit_) return false;
   }
   may_stay_beyond_ = false;
@@ -362,7 +388,7 @@ void DecimationState::restore(const Snapshot& snapshot) {
   points_.resize(assigned_.size());
   sight_ = snapshot.sight;
   permitted_ = permitted_back_ = 1;
-  may_stay_beyond_ = false;
+  may_stay_beyond_ = guides_alone_ = false;
   breaks_back_.clear();
   tree_.rebuild(mesh_);
   take_area_normals();

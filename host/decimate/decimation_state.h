@@ -38,6 +38,7 @@ class DecimationState {
     double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
     double flatness = 1e-3;      // least height of a triangle over its longest side
     double squared_reach = 0;    // if over the limit: points up to this far have a triangle
+    std::size_t guides = 1;      // one point in so many guides searches (AssignedPoints)
     std::size_t threads = 1;     // that find the nearest triangles; change no byte
   };
 
@@ -67,14 +68,20 @@ class DecimationState {
 
   // While the limits are loosened, points may go to `factor` > 1 times the limit and vertices to
   // `back_factor` times the back bound. The insides of triangles, of the mesh and of the reference,
-  // are not tested then.
+  // are not tested then. Points that are no guides have no triangle until attach_others().
   void loosen(double factor, double back_factor);
   bool loosened() const { return permitted_ > 1; }
   // The greatest squared distance / limit^2 that points may have, 1 unless loosened.
   double permitted() const { return permitted_; }
-  // Ends loosening. What is beyond its limit may stay as far, and edits do not increase the number
-  // of triangles that break the back bound. O((triangles + points) log triangles).
+  // Ends loosening. What is beyond its limit may stay as
+  // far, and edits do not increase the number of triangles that break the back bound. O((triangles
+  // + points) log triangles).
   void tighten();
+  // Until attach_others(), points that are no guides have no triangle. O(points).
+  void detach_others();
+  // Every point has a triangle again. Those beyond the limit become guides; returns how many did.
+  // O(points log triangles), or O(1) where all points are guides.
+  std::size_t attach_others();
   // Every point, triangle and triangle of the reference has to keep its limit from now on. Returns
   // false, and changes nothing, where some do not. O(points + triangles).
   bool keep_limits();
@@ -175,6 +182,7 @@ class DecimationState {
   double squared_limit_;
   double permitted_ = 1, permitted_back_ = 1;  // squared distance / limit^2
   bool may_stay_beyond_ = false;               // what is beyond its limit
+  bool guides_alone_ = false;                  // the others have no triangle
   Guards guards_;
   std::span<const Triangle> reference_;
   AssignedPoints assigned_;

@@ -22,6 +22,7 @@ constexpr int kRings = 3;
 constexpr double kManyBeyond = 0.05;  // share of the triangles: no fewer can be restored
 constexpr double kFewBeyond = 0.02;   // share of the triangles that is left to exact restoration
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
+constexpr int kGuidedRepairs = 3;                 // with the guides alone
 constexpr int kVainRepairs = 6;                   // in a row
 constexpr int kExactTries = 2;                    // of the exact limits
 constexpr int kFirstRestorations = 2;             // rounds without splits
@@ -161,9 +162,23 @@ bool ErrorEquidistribution::restore_loosely(double most, double few) {
   return true;
 }
 
-// Returns whether every limit holds.
+// First with the points that guide alone: few of the others are then beyond, and they guide from
+// then on. In the end with all points. Returns whether every limit holds.
 bool ErrorEquidistribution::restore_exactly() {
   state_.tighten();
+  for (int i = 0; i < kGuidedRepairs && !passes_.stopped(); ++i) {
+    if (i > 0) state_.detach_others();
+    repair();
+    if (passes_.stopped() || state_.attach_others() == 0) break;
+    if (i + 1 == kGuidedRepairs) repair();
+  }
+  if (passes_.stopped()) return false;
+  if (state_.keep_limits()) return true;
+  note_stuck(still_beyond());
+  return false;
+}
+
+void ErrorEquidistribution::repair() {
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int vain = 0;
   for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
@@ -179,10 +194,6 @@ bool ErrorEquidistribution::restore_exactly() {
     if (i % 4 == 2 && i > 2) tell_("collapses", passes_.collapse_at(beyond));
     for (const int power : {32, 32, 16}) relax_around(beyond, power);
   }
-  if (passes_.stopped()) return false;
-  if (state_.keep_limits()) return true;
-  note_stuck(still_beyond());
-  return false;
 }
 
 // The triangles beyond the exact limits, and those around what is not proven of the reference.

@@ -49,6 +49,7 @@ class ErrorEquidistribution {
   bool restore(double most);
   bool restore_loosely(double most, double few);
   bool restore_exactly();
+  void repair();
   bool thin();
   std::vector<std::uint32_t> still_beyond();
   void note_stuck(const std::vector<std::uint32_t>& slots);

@@ -22,8 +22,8 @@ constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 
 // Squared distance / limit^2 of edges and of triangles' middles under loosened limits.
 constexpr double kLoosenedEdge = 2;
-// Points for each triangle of an edit that guide the steps of Newton.
-constexpr std::size_t kGuidingPoints = 20;
+// Guides for each triangle of an edit that are enough for its steps, and for those of Newton.
+constexpr std::size_t kGuidesOfTriangle = 400, kGuidesOfNewton = 20;
 
 Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
   if (t[1] == vertex) return {t[1], t[2], t[0]};
@@ -58,7 +58,7 @@ void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
 void LocalSearch::take_points() {
   ids_.clear();
   for (const std::uint32_t slot : removed_) {
-    state_.assigned().for_each(slot, [&](std::uint32_t p) { ids_.push_back(p); });
+    state_.assigned().for_each_guide(slot, [&](std::uint32_t p) { ids_.push_back(p); });
   }
   choose_guiding_points();
   const bool near_limit = !samples_.none() || !fine();
@@ -66,17 +66,20 @@ void LocalSearch::take_points() {
   samples_.take(removed_, added_, vertex_, other_);
 }
 
-// Of many points an even share is enough to guide Newton's steps; finish() tests them all.
+// Of many guides an even share is enough; finish() tests all points. Hoppe's energy is one of all.
 void LocalSearch::choose_guiding_points() {
-  const std::size_t enough = kGuidingPoints * added_.size();
-  const std::size_t stride =
-      steps_ == Steps::kNewton && ids_.size() > enough ? ids_.size() / enough : 1;
+  const bool newton = steps_ == Steps::kNewton;
+  const std::size_t enough = (newton ? kGuidesOfNewton : kGuidesOfTriangle) * added_.size();
+  const bool many = ids_.size() > enough && (newton || spring_ == 0);
+  const std::size_t stride = many ? ids_.size() / enough : 1;
   guiding_ids_.clear();
   guiding_.clear();
   for (std::size_t i = stride / 2; i < ids_.size(); i += stride) {
     guiding_ids_.push_back(ids_[i]);
     guiding_.push_back(state_.point(ids_[i]));
   }
+  // Edits with shares of different sizes are compared with each other.
+  weight_ = newton ? 1 : static_cast<double>(stride);
 }
 
 bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
@@ -195,7 +198,8 @@ double LocalSearch::spring_after(const Point& position) const {
 double LocalSearch::energy_before(int power) const {
   double energy = spring_ * lengths_before_ / state_.squared_limit();
   for (const std::uint32_t p : guiding_ids_) {
-    energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
+    energy +=
+        weight_ * power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   }
   if (watch_back_) {
     for (const std::uint32_t v : {vertex_, other_}) {
@@ -266,7 +270,7 @@ bool LocalSearch::measure_at(const Point& position, int power, double most, Fit&
   const double scale = 1 / state_.squared_limit();
   for (std::size_t i = 0; i < guiding_.size(); ++i) {
     const double squared = guiding_.squared[i] * scale;
-    fit.energy += power_of(squared, power);
+    fit.energy += weight_ * power_of(squared, power);
     fit.worst = std::max(fit.worst, squared);
   }
   if (!(fit.energy < most)) return false;
@@ -299,7 +303,7 @@ bool LocalSearch::step(const Options& options, double damping, Fit& at) const {
     const double squared = guiding_.squared[i] * scale;
     if (squared < least) continue;
     const double importance =
-        1e-4 + (options.power > 2 ? power_of(squared * unit, options.power - 2) : 1);
+        weight_ * (1e-4 + (options.power > 2 ? power_of(squared * unit, options.power - 2) : 1));
     const Foot foot =
         foot_on(frames_[static_cast<std::size_t>(guiding_.nearest[i])], guiding_.at(i));
     if (foot.weight == 0) continue;
@@ -427,6 +431,46 @@ bool LocalSearch::middles_are_near(const Point& position) const {
          });
 }
 
+// Returns false where `limit` forbids one of the points.
+bool LocalSearch::answer(std::span<const std::uint32_t> ids, LocalPoints& points, bool limit,
+                         MeshEdit& edit) const {
+  measure(points, frames_);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    MeshEdit::Answer answer{ids[i], static_cast<std::uint32_t>(points.nearest[i]), kNoIndex,
+                            points.squared[i]};
+    if (!state_.permits_point(ids[i], answer.squared_distance) &&
+        !serve_elsewhere(ids[i], answer) && limit && !EMAX_FAULT(kSkipsPoints)) {
+      return false;
+    }
+    edit.answers.push_back(answer);
+  }
+  return true;
+}
+
+bool LocalSearch::answer(std::span<const std::uint32_t> ids, bool limit, MeshEdit& edit) {
+  points_.clear();
+  for (const std::uint32_t p : ids) points_.push_back(state_.point(p));
+  return answer(ids, points_, limit, edit);
+}
+
+// The guides first, then the others piece by piece: most edits that a point forbids are known
+// early.
+bool LocalSearch::answer_all(bool limit, MeshEdit& edit) {
+  constexpr std::size_t kPiece = 4096;
+  const bool measured = guiding_ids_.size() == ids_.size();
+  if (!(measured ? answer(ids_, guiding_, limit, edit) : answer(ids_, limit, edit))) return false;
+  if (state_.assigned().all_are_guides() || state_.loosened()) return true;
+  others_.clear();
+  for (const std::uint32_t slot : removed_) {
+    state_.assigned().for_each_other(slot, [&](std::uint32_t p) { others_.push_back(p); });
+  }
+  const std::span<const std::uint32_t> others = others_;
+  for (std::size_t i = 0; i < others.size(); i += kPiece) {
+    if (!answer(others.subspan(i, std::min(kPiece, others.size() - i)), limit, edit)) return false;
+  }
+  return true;
+}
+
 bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
   edit.clear();
   if (!shape(fit.position)) return false;
@@ -435,22 +479,7 @@ bool LocalSearch::finish(const Fit& fit, bool limit, MeshEdit& edit) {
       !(samples_.permits(fit.position, vertex_, kLoosenedEdge) && middles_are_near(fit.position))) {
     return false;
   }
-  const bool all_guide = guiding_ids_.size() == ids_.size();
-  if (!all_guide) {
-    points_.clear();
-    for (const std::uint32_t p : ids_) points_.push_back(state_.point(p));
-  }
-  LocalPoints& points = all_guide ? guiding_ : points_;
-  measure(points, frames_);
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    MeshEdit::Answer answer{ids_[i], static_cast<std::uint32_t>(points.nearest[i]), kNoIndex,
-                            points.squared[i]};
-    if (!state_.permits_point(ids_[i], answer.squared_distance) &&
-        !serve_elsewhere(ids_[i], answer) && limit && !EMAX_FAULT(kSkipsPoints)) {
-      return false;
-    }
-    edit.answers.push_back(answer);
-  }
+  if (!answer_all(limit, edit)) return false;
   edit.vertex = vertex_;
   edit.position = fit.position;
   edit.removed = removed_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "host/decimate/decimation_state.h"
@@ -91,6 +92,10 @@ class LocalSearch {
   bool fit_by_newton(const Options& options, Fit& best);
   double share_of_middle(const std::array<Point, 3>& corners, std::uint32_t near) const;
   bool middles_are_near(const Point& position) const;
+  bool answer(std::span<const std::uint32_t> ids, LocalPoints& points, bool limit,
+              MeshEdit& edit) const;
+  bool answer(std::span<const std::uint32_t> ids, bool limit, MeshEdit& edit);
+  bool answer_all(bool limit, MeshEdit& edit);
   bool serve_elsewhere(std::uint32_t point, MeshEdit::Answer& answer) const;
 
   const DecimationState& state_;
@@ -105,11 +110,13 @@ class LocalSearch {
   std::vector<std::uint32_t> removed_;
   std::vector<Triangle> added_;     // the moving vertex first
   std::vector<Point> normals_;      // of the triangles that `added_` replaces
-  std::vector<std::uint32_t> ids_;  // of all points of the edit
+  std::vector<std::uint32_t> ids_;  // of the guides among the points of the edit
   bool watch_back_ = false;         // whether the moving vertex's distance to the reference counts
+  std::vector<std::uint32_t> others_;  // scratch: the points of the edit that are no guides
   LocalPoints points_;
   std::vector<std::uint32_t> guiding_ids_;  // of the points that the energy is a sum over
   LocalPoints guiding_;
+  double weight_ = 1;       // of each of them in the energy
   BackBound::Sight sight_;  // of the moving vertex at the position last measured
   std::vector<LocalFrame> frames_;
 };

@@ -98,6 +98,43 @@ TEST(ErrorEquidistribution, NeedsFewerTrianglesThanCollapsesWithinTheLimits) {
   }
 }
 
+// A noisy cloud far denser than the reference, of which few points guide the searches.
+TEST(ErrorEquidistribution, KeepsPointsWithinTheLimitThatDoNotGuide) {
+  const TriangleMesh reference = sheet(24, 0.3);
+  const double limit = 0.02;
+  const BackBound back(reference, limit);
+  std::vector<Point> cloud = with_samples(reference);
+  Random random(8);
+  for (std::size_t i = 0; i < 40 * reference.triangles.size(); ++i) {
+    const auto& [a, b, c] = reference.triangles[i % reference.triangles.size()];
+    const Point weights = random.point(0.05, 1);
+    const Point at = weights[0] * reference.vertices[a] + weights[1] * reference.vertices[b] +
+                     weights[2] * reference.vertices[c];
+    cloud.push_back(at / weights.sum() + random.point(-0.1 * limit, 0.1 * limit));
+  }
+  DecimationState::Guards guards;
+  guards.guides = 50;
+  DecimationState state(reference, cloud, &back, limit * limit, guards, nullptr,
+                        reference.triangles);
+  EXPECT_FALSE(state.assigned().all_are_guides());
+  DecimationPasses passes(state, {}, 2, nullptr);
+  passes.sweep();
+  passes.collapse();
+  EXPECT_TRUE(certify(cloud, state.mesh().compact().view(), {}).within(limit));
+  const std::size_t collapsed = state.mesh().triangles();
+  Race race(0);
+  ErrorEquidistribution even(state, passes, ErrorEquidistribution::kShort, race,
+                             [](const char*, std::size_t) {});
+  ASSERT_TRUE(even.run());
+  const TriangleMesh found = state.mesh().compact();
+  EXPECT_LT(found.triangles.size(), collapsed);
+  EXPECT_TRUE(certify(cloud, found.view(), {}).within(limit * (1 + 1e-9)));
+  for (std::uint32_t p = 0; p < cloud.size(); ++p) {
+    ASSERT_NE(state.assigned().owner(p), kNoIndex) << p;
+    EXPECT_FALSE(state.assigned().detached(p)) << p;
+  }
+}
+
 // Over a rough reference edges are farthest from it at several places.
 TEST(ErrorEquidistribution, RestoresTheLimitsOverARoughReference) {
   TriangleMesh rough = bumpy(50, 80);
