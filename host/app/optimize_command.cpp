@@ -129,7 +129,24 @@ class OptimizeCommand {
     facts_.add_passing("search", "{} + {}, {} evaluations, seed {}, {} jobs, device {}",
                        settings_.method, settings_.decimator, settings_.config.search.budget,
                        settings_.seed, settings_.jobs, options_.common.device);
+    print_expected_time();
     std::fflush(stdout);
+  }
+
+  // Rough, so in minutes.
+  void print_expected_time() {
+    const std::size_t points = scan_.cloud.points.size();
+    expected_search_seconds_ = expected_search_seconds(settings_, options_, points, log_->size());
+    const double first =
+        seconds(begun_, Clock::now()) + reference_seconds(points) + certifying_seconds(points);
+    const double all = first + expected_search_seconds_;
+    const bool limited = options_.seconds && *options_.seconds < all;
+    const double shown = limited ? *options_.seconds : all;
+    facts_.add_passing(
+        "takes", "{} {}{}", limited ? "at most" : "about", rough_time(shown),
+        settings_.epsilon_back
+            ? fmt::format(", the first certified mesh after about {}", rough_time(first))
+            : "");
   }
 
   int search() {
@@ -141,7 +158,7 @@ class OptimizeCommand {
       };
     }
     {
-      Progress progress(*constraint_, settings_.seconds_left);
+      Progress progress(*constraint_, settings_.seconds_left, expected_search_seconds_);
       state_ = optimize(scan_.cloud.points, *constraint_, device_.get(), settings_,
                         [&](const OptimizeState& state) {
                           progress.show(state);
@@ -342,6 +359,7 @@ class OptimizeCommand {
   Scan scan_;
   std::string cloud_sha256_;
   double epsilon_ = 0;
+  double expected_search_seconds_ = 0;
   ReferenceFit fit_;
   std::optional<ErrorConstraint> constraint_;
   std::optional<RunLog> log_;

@@ -10,6 +10,7 @@
 
 #include "host/app/progress_style.h"
 #include "host/app/standard_streams.h"
+#include "host/optimize/evaluation_limits.h"
 
 namespace emax {
 namespace {
@@ -26,12 +27,24 @@ std::string minutes(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
+std::string rough_time(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kInSeconds = 100, kInMinutes = 6000;
+  if (seconds < kInSeconds) return fmt::format("{:.0f} s", 5 * std::ceil(seconds / 5));
+  if (seconds < kInMinutes) return fmt::format("{:.0f} min", seconds / kMinute);
+  return fmt::format("{:.1f} h", seconds / kHour);
+}
+
 double expected_share(double elapsed, double expected) {
   constexpr double kKnown = 0.9;  // share of the phase that the expected time covers
   if (!(expected > 0)) return 0;
   const double part = elapsed / expected;
   if (part <= 1) return kKnown * part;
   return 1 - (1 - kKnown) * std::exp(1 - part);
+}
+
+double expected_left(double elapsed, double expected) {
+  const double share = expected_share(elapsed, expected);
+  return share > 0 ? elapsed * (1 - share) / share : expected;
 }
 
 double reading_seconds(const std::filesystem::path& file) {
@@ -41,7 +54,10 @@ double reading_seconds(const std::filesystem::path& file) {
   return unknown ? 0 : static_cast<double>(bytes) / kBytesPerSecond;
 }
 
-double reference_seconds(std::size_t points) { return 1.5e-4 * static_cast<double>(points); }
+double reference_seconds(std::size_t points) {
+  const std::size_t made_of = is_thinned(points) ? kReferencePoints : points;
+  return 1.5e-4 * static_cast<double>(made_of) + joining_seconds(points);
+}
 
 double joining_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }
 

@@ -15,10 +15,16 @@ namespace emax {
 // 75 as "1:15".
 std::string minutes(double seconds);
 
+// "45 s", "6 min", "2.5 h".
+std::string rough_time(double seconds);
+
 // The share that is done of a phase of `expected` seconds after `elapsed` seconds: from 0 to below
 // 1, never falling in `elapsed`. It is nine tenths when the expected time is over, and grows ever
 // more slowly after that.
 double expected_share(double elapsed, double expected);
+
+// Seconds that are left of a phase by expected_share(): all of them at its beginning.
+double expected_left(double elapsed, double expected);
 
 // Rough times of phases on one processor core. They are only shown, and decide nothing.
 double reading_seconds(const std::filesystem::path& file);

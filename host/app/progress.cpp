@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "host/app/phase_progress.h"
@@ -20,28 +19,26 @@ constexpr std::chrono::seconds kInPipe{30};  // without news
 
 }  // namespace
 
-Progress::Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left)
+Progress::Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left,
+                   double expected)
     : constraint_(constraint),
       seconds_left_(std::move(seconds_left)),
+      expected_(expected),
       terminal_(standard_error_is_terminal()) {}
 
+double Progress::elapsed_since(Clock::time_point start) const {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 double Progress::seconds_left(const OptimizeState& state) const {
-  const std::chrono::duration<double> elapsed = Clock::now() - start_;
-  double left = -1;
+  const double elapsed = elapsed_since(start_);
+  double left = expected_left(elapsed, expected_);
   if (state.evaluations > state.from_log) {
-    left = elapsed.count() * static_cast<double>(state.budget - state.evaluations) /
+    left = elapsed * static_cast<double>(state.budget - state.evaluations) /
            static_cast<double>(state.evaluations - state.from_log);
     left += state.polish_seconds;
   }
-  if (const double until = std::max(0.0, seconds_left_()); std::isfinite(until)) {
-    left = left < 0 ? until : std::min(left, until);
-  }
-  return left;
-}
-
-std::string Progress::time_left(const OptimizeState& state) const {
-  const double left = seconds_left(state);
-  return left < 0 ? "estimating the time left" : minutes(left) + " left";
+  return std::min(left, std::max(0.0, seconds_left_()));
 }
 
 std::string Progress::line(const OptimizeState& state) const {
@@ -53,21 +50,18 @@ std::string Progress::line(const OptimizeState& state) const {
     best = fmt::format("none within {:.4g} yet, least e_max {:.4g}", constraint_.epsilon(),
                        constraint_.in_file_units(state.least_error->squared_bits));
   }
-  return fmt::format(
-      "{}/{} evaluations, {}, {}", evaluations_, state.budget, best,
-      polishing_ ? "decimating the best deep" + polishing_time(state) : time_left(state));
+  return fmt::format("{}/{} evaluations, {}, {}", evaluations_, state.budget, best,
+                     polishing_ ? "decimating the best deep" + polishing_time(state)
+                                : "about " + minutes(seconds_left(state)) + " left");
 }
 
 double Progress::polishing_seconds_left(const OptimizeState& state) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - *polishing_).count();
-  const double share = expected_share(elapsed, state.polish_seconds);
-  const double left = share > 0 ? elapsed * (1 - share) / share : state.polish_seconds;
+  const double left = expected_left(elapsed_since(*polishing_), state.polish_seconds);
   return std::min(left, std::max(0.0, seconds_left_()));
 }
 
 std::string Progress::polishing_time(const OptimizeState& state) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - *polishing_).count();
-  return fmt::format(" for {}, about {} left", minutes(elapsed),
+  return fmt::format(" for {}, about {} left", minutes(elapsed_since(*polishing_)),
                      minutes(polishing_seconds_left(state)));
 }
 
@@ -79,8 +73,8 @@ void Progress::tell(const OptimizeState& state) const {
   }
   if (state.best) triangles = state.best->triangles;
   tell_progress({{"phase", polishing_ ? "decimating the best deep" : "search"},
-                 {"seconds", std::chrono::duration<double>(Clock::now() - start_).count()},
-                 {"seconds_left", left >= 0 ? Json(left) : Json()},
+                 {"seconds", elapsed_since(start_)},
+                 {"seconds_left", left},
                  {"evaluations", evaluations_},
                  {"budget", state.budget},
                  {"triangles", triangles},

@@ -15,8 +15,10 @@ namespace emax {
 // of evaluations that is shown never falls. As JSON (ProgressStyle), a line for every news.
 class Progress {
  public:
-  // `seconds_left`: of a limited time; infinite without a limit.
-  Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left);
+  // `seconds_left`: of a limited time; infinite without a limit. `expected`: seconds that the
+  // search may take, shown until the first evaluation tells more.
+  Progress(const ErrorConstraint& constraint, std::function<double()> seconds_left,
+           double expected);
   ~Progress() { finish(); }
 
   void show(const OptimizeState& state);
@@ -26,14 +28,15 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   std::string line(const OptimizeState& state) const;
-  double seconds_left(const OptimizeState& state) const;  // negative while nothing is known of it
-  std::string time_left(const OptimizeState& state) const;
+  double elapsed_since(Clock::time_point start) const;
+  double seconds_left(const OptimizeState& state) const;
   double polishing_seconds_left(const OptimizeState& state) const;
   std::string polishing_time(const OptimizeState& state) const;
   void tell(const OptimizeState& state) const;
 
   const ErrorConstraint& constraint_;
   std::function<double()> seconds_left_;
+  double expected_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_ = start_;
   bool terminal_;

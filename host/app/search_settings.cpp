@@ -11,17 +11,19 @@
 namespace emax {
 namespace {
 
+SearchSpace space_of(const OptimizeOptions& options) {
+  if (!keeps_bound(options.decimator)) return SearchSpace::kDecimations;
+  return method_for(options.method, options.decimator) == kFitMethod ? SearchSpace::kOneReference
+                                                                     : SearchSpace::kSurfaces;
+}
+
 std::uint64_t budget_of(const OptimizeOptions& options, std::uint64_t configured,
                         std::size_t points) {
   if (options.budget) return *options.budget;
   const SearchEffort effort = options.effort == "quick"  ? SearchEffort::kQuick
                               : options.effort == "deep" ? SearchEffort::kDeep
                                                          : SearchEffort::kNormal;
-  const SearchSpace space = !keeps_bound(options.decimator) ? SearchSpace::kDecimations
-                            : method_for(options.method, options.decimator) == kFitMethod
-                                ? SearchSpace::kOneReference
-                                : SearchSpace::kSurfaces;
-  return search_budget(effort, points, space,
+  return search_budget(effort, points, space_of(options),
                        options.config.empty() ? std::nullopt : std::optional(configured));
 }
 
@@ -76,6 +78,15 @@ void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, s
   if (options.jobs == 0) {
     settings.jobs = std::min(settings.jobs, jobs_in_memory(*settings.limits));
   }
+}
+
+double expected_search_seconds(const OptimizeSettings& settings, const OptimizeOptions& options,
+                               std::size_t points, std::size_t logged) {
+  const std::size_t budget = settings.config.search.budget;
+  const bool polishes = settings.polish && takes_bound(settings.decimator);
+  return expected_seconds(space_of(options), points, budget - std::min(budget, logged),
+                          polishes ? std::min(budget, polished_candidates(points)) : 0,
+                          settings.jobs);
 }
 
 }  // namespace emax

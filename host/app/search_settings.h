@@ -18,4 +18,9 @@ OptimizeSettings search_settings(const OptimizeOptions& options);
 // Sets budget, limits and jobs, where they depend on the number of points.
 void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, std::size_t points);
 
+// About how many seconds the search takes once the bound is made, for settings that suit the cloud.
+// `logged`: evaluations that it need not repeat.
+double expected_search_seconds(const OptimizeSettings& settings, const OptimizeOptions& options,
+                               std::size_t points, std::size_t logged);
+
 }  // namespace emax

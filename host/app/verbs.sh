@@ -8,7 +8,7 @@ json_value() {
 
 verb_demo() {
   need data
-  verb_build release
+  verb_build release emax emax_worker
   verb_data
   local emax=build/release/bin/emax cloud=data/bunny00.off out=build/demo device
   local mesh=$out/bunny.ply

@@ -20,14 +20,19 @@ constexpr std::array<std::uint64_t, 3> kNormalBudget = {40, 16, 60}, kQuickBudge
 constexpr std::uint64_t kDeepTimes = 4;
 constexpr std::size_t kManyPoints = 100'000;
 constexpr std::uint64_t kLeastShare = 5;  // of the budget remains, one in so many
-// With one reference: about the processor's seconds of a decimation from the surface of a point, of
-// all decimations of a run, and how many of the normal ones a deep one takes.
-constexpr double kSecondsPerPoint = 0.8e-3, kSeconds = 1200, kDeepDecimations = 1.6;
+// With one reference: about the processor's seconds of a decimation for each point that the
+// reference is made of and for each that is measured, of all decimations of a run, and how many of
+// the normal ones a deep one takes.
+constexpr double kSecondsPerPoint = 0.8e-3, kSecondsPerMeasured = 1.2e-5;
+constexpr double kSeconds = 1200, kDeepDecimations = 1.6;
+// Of the other spaces, for a point: of a reconstruction, and of an evaluation without bounds.
+constexpr double kSurfaceSeconds = 1.5e-4, kChainSeconds = 4e-4;
 constexpr std::size_t kManyPolished = 4, kFewPolished = 2;
 
 double decimation_seconds(std::size_t points) {
   const std::size_t made_of = is_thinned(points) ? kReferencePoints : points;
-  return kSecondsPerPoint * static_cast<double>(made_of);
+  return kSecondsPerPoint * static_cast<double>(made_of) +
+         kSecondsPerMeasured * static_cast<double>(points - made_of);
 }
 
 std::uint64_t budget_from_one_reference(std::size_t points) {
@@ -81,6 +86,19 @@ std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace
   }
   normal = configured.value_or(normal);
   return effort == SearchEffort::kDeep ? kDeepTimes * normal : normal;
+}
+
+double expected_seconds(SearchSpace space, std::size_t points, std::uint64_t evaluations,
+                        std::size_t polished, unsigned jobs) {
+  const auto rounds = [&](std::uint64_t runs) {
+    return static_cast<double>((runs + jobs - 1) / jobs);
+  };
+  const auto all = static_cast<double>(points);
+  const double decimation = decimation_seconds(points);
+  const double evaluation = space == SearchSpace::kOneReference ? decimation
+                            : space == SearchSpace::kSurfaces   ? kSurfaceSeconds * all + decimation
+                                                                : kChainSeconds * all;
+  return rounds(evaluations) * evaluation + rounds(polished) * kDeepDecimations * decimation;
 }
 
 unsigned jobs_in_memory(const EvaluationLimits& limits) {

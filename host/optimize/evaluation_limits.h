@@ -37,10 +37,15 @@ std::size_t polished_candidates(std::size_t points);
 
 // How many evaluations a search makes unless it is told. `configured`: what a configuration says is
 // normal. Without one, a search from one reference makes from 16 down to 2, so that with the deep
-// decimations it takes about ten minutes on two cores; the others make fewer for more than 100,000
-// points, down to a fifth.
+// decimations it takes about ten minutes on two cores, up to ten million points; the others make
+// fewer for more than 100,000 points, down to a fifth.
 std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace space,
                             std::optional<std::uint64_t> configured);
+
+// About how many seconds the evaluations and the deep decimations of so many meshes take on so many
+// processors. It is only shown: meshes differ by a factor of two and more, and so do processors.
+double expected_seconds(SearchSpace space, std::size_t points, std::uint64_t evaluations,
+                        std::size_t polished, unsigned jobs);
 
 // How many workers the memory holds, each with a quarter of its limit.
 unsigned jobs_in_memory(const EvaluationLimits& limits);

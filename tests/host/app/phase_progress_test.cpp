@@ -18,12 +18,18 @@ TEST(ExpectedShare, NeverFallsAndNeverEnds) {
   }
   EXPECT_GT(expected_share(10, 10), 0.85);
   EXPECT_EQ(expected_share(10, 0), 0);  // nobody knows
+  EXPECT_EQ(expected_left(0, 10), 10);
+  EXPECT_LT(expected_left(9, 10), expected_left(5, 10));
+  EXPECT_GT(expected_left(30, 10), 0);
 }
 
 TEST(Minutes, HaveTwoDigitsOfSeconds) {
   EXPECT_EQ(minutes(0.4), "0:00");
   EXPECT_EQ(minutes(59.6), "1:00");
   EXPECT_EQ(minutes(3675), "61:15");
+  EXPECT_EQ(rough_time(31), "35 s");
+  EXPECT_EQ(rough_time(370), "6 min");
+  EXPECT_EQ(rough_time(9000), "2.5 h");
 }
 
 // A short phase says nothing; a long one what it is, also while nobody calls.

@@ -17,14 +17,15 @@ TEST(SearchBudget, FollowsEffortAndPoints) {
   EXPECT_GT(search_budget(kQuick, 1'000, kDecimations, {}), 1u);
   EXPECT_EQ(search_budget(kNormal, 1'000, kOneReference, 77), 77u);
   EXPECT_EQ(search_budget(kDeep, 1'000'000, kOneReference, 77), 308u);
-  // From one reference: ten minutes on two cores, and no more for more points than it is made of.
+  // From one reference: ten minutes on two cores.
   EXPECT_EQ(search_budget(kNormal, 3, kOneReference, {}), 16u);
   EXPECT_EQ(search_budget(kNormal, 40'000, kOneReference, {}), 16u);
   EXPECT_EQ(search_budget(kDeep, 40'000, kOneReference, {}), 64u);
   const std::uint64_t large = search_budget(kNormal, 240'000, kOneReference, {});
   EXPECT_GE(large, 2u);
   EXPECT_LT(large, search_budget(kNormal, 120'000, kOneReference, {}));
-  EXPECT_GE(search_budget(kNormal, 10'000'000, kOneReference, {}), large);
+  EXPECT_LE(search_budget(kNormal, 10'000'000, kOneReference, {}), large);
+  EXPECT_GE(search_budget(kNormal, 10'000'000, kOneReference, {}), 2u);
   EXPECT_LT(polished_candidates(10'000'000), polished_candidates(40'000));
   for (const SearchSpace space : {kSurfaces, kDecimations}) {
     const std::uint64_t normal = search_budget(kNormal, 100'000, space, {});
@@ -32,6 +33,25 @@ TEST(SearchBudget, FollowsEffortAndPoints) {
     EXPECT_EQ(search_budget(kDeep, 3, space, {}), 4 * normal);
     EXPECT_EQ(search_budget(kNormal, 200'000, space, {}), normal / 2);
     EXPECT_EQ(search_budget(kNormal, 100'000'000, space, {}), normal / 5);
+  }
+}
+
+TEST(ExpectedSeconds, FollowRoundsAndPoints) {
+  using enum SearchSpace;
+  EXPECT_EQ(expected_seconds(kOneReference, 40'000, 0, 0, 2), 0);
+  for (const SearchSpace space : {kOneReference, kSurfaces, kDecimations}) {
+    const double one = expected_seconds(space, 40'000, 1, 0, 4);
+    EXPECT_GT(one, 1);
+    EXPECT_EQ(expected_seconds(space, 40'000, 4, 0, 4), one);
+    EXPECT_EQ(expected_seconds(space, 40'000, 5, 0, 4), 2 * one);
+    EXPECT_GT(expected_seconds(space, 80'000, 1, 0, 4), one);
+    EXPECT_GT(expected_seconds(space, 40'000, 1, 1, 4), 2 * one);
+  }
+  // What a person waits for by default.
+  for (const std::size_t points : {1'000u, 100'000u, 10'000'000u}) {
+    const std::uint64_t budget = search_budget(SearchEffort::kNormal, points, kOneReference, {});
+    EXPECT_LT(expected_seconds(kOneReference, points, budget, polished_candidates(points), 2), 900)
+        << points;
   }
 }
 
