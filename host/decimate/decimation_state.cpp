@@ -85,11 +85,17 @@ bool DecimationState::reassign(const Interrupted& interrupted) {
   return true;
 }
 
-// Within slightly more than the known distance, so that the point's triangle is found again, or
-// anywhere if it was taken from it. The hint is for points that have none.
+// Within slightly more than the known distance, so that the point's triangle is found again. The
+// hint is for points that have none. If the triangle was taken from it, the hint is enough where it
+// is within the limit, and the nearest is found wherever it is otherwise.
 SlotTree::Nearest DecimationState::nearest_of(std::uint32_t point, std::uint32_t hint) const {
   const std::uint32_t owner = assigned_.owner(point);
-  const bool has_none = owner == kNoIndex && !assigned_.detached(point);
+  const bool detached = assigned_.detached(point);
+  if (detached && hint != kNoIndex) {
+    const double squared = squared_distance(points_[point], mesh_.corners(hint));
+    if (squared <= squared_limit_) return {hint, squared};
+  }
+  const bool has_none = owner == kNoIndex && !detached;
   const double known = has_none ? std::max(squared_limit_, guards_.squared_reach)
                                 : assigned_.squared_distance(point);
   return tree_.nearest(mesh_, points_[point],

@@ -79,7 +79,7 @@ class DecimationState {
   void tighten();
   // Until attach_others(), points that are no guides have no triangle. O(points).
   void detach_others();
-  // Every point has a triangle again. Those beyond the limit become guides; returns how many did.
+  // Every point has a triangle again, one within the limit where there is one. Those beyond the limit become guides; returns how many did.
   // O(points log triangles), or O(1) where all points are guides.
   std::size_t attach_others();
   // Every point, triangle and triangle of the reference has to keep its limit from now on. Returns

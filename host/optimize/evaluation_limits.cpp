@@ -18,12 +18,12 @@ constexpr std::uint64_t kMemoryPerPoint = 8192;
 // Of each SearchSpace. From one reference, deep decimations gain more than evaluations do.
 constexpr std::array<std::uint64_t, 3> kNormalBudget = {40, 16, 60}, kQuickBudget = {1, 1, 12};
 constexpr std::uint64_t kDeepTimes = 4;
-constexpr std::size_t kManyPoints = 100'000;
+constexpr std::size_t kManyPoints = 100'000, kVeryManyPoints = 6'000'000;
 constexpr std::uint64_t kLeastShare = 5;  // of the budget remains, one in so many
 // With one reference: about the processor's seconds of a decimation for each point that the
 // reference is made of and for each that is measured, of all decimations of a run, and how many of
 // the normal ones a deep one takes.
-constexpr double kSecondsPerPoint = 0.8e-3, kSecondsPerMeasured = 1.2e-5;
+constexpr double kSecondsPerPoint = 0.8e-3, kSecondsPerMeasured = 2e-5;
 constexpr double kSeconds = 1200, kDeepDecimations = 1.6;
 // Of the other spaces, for a point: of a reconstruction, and of an evaluation without bounds.
 constexpr double kSurfaceSeconds = 1.5e-4, kChainSeconds = 4e-4;
@@ -54,6 +54,7 @@ bool is_thinned(std::size_t points, std::size_t reference_points) {
 }
 
 std::size_t polished_candidates(std::size_t points) {
+  if (points > kVeryManyPoints) return 0;
   return points > kManyPoints ? kFewPolished : kManyPolished;
 }
 
