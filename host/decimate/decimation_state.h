@@ -73,14 +73,14 @@ class DecimationState {
   bool loosened() const { return permitted_ > 1; }
   // The greatest squared distance / limit^2 that points may have, 1 unless loosened.
   double permitted() const { return permitted_; }
-  // Ends loosening. What is beyond its limit may stay as
-  // far, and edits do not increase the number of triangles that break the back bound. O((triangles
-  // + points) log triangles).
+  // Ends loosening. What is beyond its limit may stay as far, and edits do not increase the number
+  // of triangles that break the back bound. O((triangles + points) log triangles).
   void tighten();
   // Until attach_others(), points that are no guides have no triangle. O(points).
   void detach_others();
-  // Every point has a triangle again, one within the limit where there is one. Those beyond the limit become guides; returns how many did.
-  // O(points log triangles), or O(1) where all points are guides.
+  // Every point has a triangle again, one within the limit where there is one. Those beyond the
+  // limit become guides; returns how many did. O(points log triangles), or O(1) where all points
+  // are guides.
   std::size_t attach_others();
   // Every point, triangle and triangle of the reference has to keep its limit from now on. Returns
   // false, and changes nothing, where some do not. O(points + triangles).

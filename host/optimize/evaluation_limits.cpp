@@ -26,7 +26,7 @@ constexpr std::uint64_t kLeastShare = 5;  // of the budget remains, one in so ma
 constexpr double kSecondsPerPoint = 0.8e-3, kSecondsPerMeasured = 2e-5;
 constexpr double kSeconds = 1200, kDeepDecimations = 1.6;
 // Of the other spaces, for a point: of a reconstruction, and of an evaluation without bounds.
-constexpr double kSurfaceSeconds = 1.5e-4, kChainSeconds = 4e-4;
+constexpr double kSurfaceSeconds = 1.5e-4, kChainSeconds = 1.5e-4;
 constexpr std::size_t kManyPolished = 4, kFewPolished = 2;
 
 double decimation_seconds(std::size_t points) {
