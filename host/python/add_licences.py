@@ -12,12 +12,14 @@ import tempfile
 
 def packages_of(libraries):
     """The packages that the libraries of these names (without auditwheel's hash) come from."""
-    named = [re.sub(r"-[0-9a-f]{8}(?=\.so|-)", "", library.name) for library in libraries]
+    named = [re.sub(r"-[0-9a-f]{8}(?=\.)", "", library.name) for library in libraries]
     cache = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
-    paths = dict(re.findall(r"^\s+(\S+) \(.*\) => (\S+)$", cache, re.MULTILINE))
+    # auditwheel names a library as its file is named, not as the loader finds it.
+    files = [pathlib.Path(path).resolve() for path in re.findall(r" => (\S+)$", cache, re.MULTILINE)]
+    file_of = {file.name: file for file in files}
     packages = set()
     for name in named:
-        real = pathlib.Path(paths[name]).resolve()
+        real = file_of[name]
         for path in (str(real), str(real).removeprefix("/usr")):
             found = subprocess.run(["dpkg", "-S", path], capture_output=True, text=True)
             if found.returncode == 0:
