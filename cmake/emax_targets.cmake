@@ -5,13 +5,23 @@
 
 option(EMAX_UNITY "Compile the sources of a target several at a time, which takes less time" ON)
 
-# emax_alone(<source>...): sources, from the root, that no others are compiled with: a second program
-# has them in another form, or the compiler warns wrongly where it sees them together.
+# emax_alone(<source>...): sources of this folder that no others are compiled with.
 function(emax_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# emax_faulty_alone(<source>...): those of them that hold deliberate faults, with which tests and fuzz
+# targets have them a second time. They are alone in every build, so that the others are always
+# together with the same ones.
+function(emax_faulty_alone)
   foreach(source ${ARGN})
-    get_filename_component(folder ${PROJECT_SOURCE_DIR}/${source} DIRECTORY)
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} DIRECTORY ${folder}
-      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    get_filename_component(path ${source} ABSOLUTE)
+    if(EXISTS ${path})  # others are made by the build
+      file(STRINGS ${path} holds REGEX "deliberate_fault\\.h" LIMIT_COUNT 1)
+      if(holds)
+        emax_alone(${source})
+      endif()
+    endif()
   endforeach()
 endfunction()
 
@@ -99,6 +109,7 @@ function(emax_library target)
   endforeach()
   set_property(GLOBAL APPEND PROPERTY EMAX_LIBRARIES "${room} ${target}")
   if(ARG_SOURCES)
+    emax_faulty_alone(${ARG_SOURCES})
     add_library(${target} STATIC ${ARG_SOURCES})
     emax_flags(${target})
     emax_export_room(${target} PUBLIC ${room})
@@ -142,7 +153,6 @@ function(emax_test name)
   endif()
   set(left_out ${ARG_SLOW})
   if(ARG_FAULTS)
-    emax_alone(${ARG_FAULTS})
     list(TRANSFORM ARG_FAULTS PREPEND ${PROJECT_SOURCE_DIR}/)
     add_library(${name}_broken OBJECT ${ARG_FAULTS})
     emax_flags(${name}_broken)

@@ -17,7 +17,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kTargetVertices = 34962, kTargetIndices = 34963;  // ARRAY_BUFFER and so on
-constexpr int kPoints = 0;                                      // the mode of a primitive
+constexpr int kPointsMode = 0;                                  // of a primitive
 
 OrderedJson xyz(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -69,7 +69,7 @@ OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const
         });
   }
   if (mesh.triangles.empty()) {
-    primitive["mode"] = kPoints;
+    primitive["mode"] = kPointsMode;
     return primitive;
   }
   primitive["indices"] =
