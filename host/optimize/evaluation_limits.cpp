@@ -37,7 +37,9 @@ double decimation_seconds(std::size_t points) {
 
 std::uint64_t budget_from_one_reference(std::size_t points) {
   const auto most = static_cast<double>(kNormalBudget[1]);
-  const double polishing = kDeepDecimations * static_cast<double>(polished_candidates(points));
+  // Where nothing is decimated deep that time is saved.
+  const double polishing =
+      kDeepDecimations * static_cast<double>(std::max(polished_candidates(points), kFewPolished));
   const double decimations = kSeconds / decimation_seconds(std::max<std::size_t>(points, 1));
   return static_cast<std::uint64_t>(std::clamp(decimations - polishing, 2.0, most));
 }
