@@ -22,8 +22,8 @@ constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 
 // Squared distance / limit^2 of edges and of triangles' middles under loosened limits.
 constexpr double kLoosenedEdge = 2;
-// Guides for each triangle of an edit that are enough for its steps, and for those of Newton.
-constexpr std::size_t kGuidesOfTriangle = 400, kGuidesOfNewton = 20;
+// Guides for each triangle of an edit that are enough for the steps of Newton.
+constexpr std::size_t kGuidesOfNewton = 20;
 
 Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
   if (t[1] == vertex) return {t[1], t[2], t[0]};
@@ -66,20 +66,17 @@ void LocalSearch::take_points() {
   samples_.take(removed_, added_, vertex_, other_);
 }
 
-// Of many guides an even share is enough; finish() tests all points. Hoppe's energy is one of all.
+// Of many guides an even share is enough for Newton's steps; finish() tests all points.
 void LocalSearch::choose_guiding_points() {
-  const bool newton = steps_ == Steps::kNewton;
-  const std::size_t enough = (newton ? kGuidesOfNewton : kGuidesOfTriangle) * added_.size();
-  const bool many = ids_.size() > enough && (newton || spring_ == 0);
-  const std::size_t stride = many ? ids_.size() / enough : 1;
+  const std::size_t enough = kGuidesOfNewton * added_.size();
+  const std::size_t stride =
+      steps_ == Steps::kNewton && ids_.size() > enough ? ids_.size() / enough : 1;
   guiding_ids_.clear();
   guiding_.clear();
   for (std::size_t i = stride / 2; i < ids_.size(); i += stride) {
     guiding_ids_.push_back(ids_[i]);
     guiding_.push_back(state_.point(ids_[i]));
   }
-  // Edits with shares of different sizes are compared with each other.
-  weight_ = newton ? 1 : static_cast<double>(stride);
 }
 
 bool LocalSearch::prepare_collapse(std::uint32_t a, std::uint32_t b) {
@@ -198,8 +195,7 @@ double LocalSearch::spring_after(const Point& position) const {
 double LocalSearch::energy_before(int power) const {
   double energy = spring_ * lengths_before_ / state_.squared_limit();
   for (const std::uint32_t p : guiding_ids_) {
-    energy +=
-        weight_ * power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
+    energy += power_of(state_.assigned().squared_distance(p) / state_.squared_limit(), power);
   }
   if (watch_back_) {
     for (const std::uint32_t v : {vertex_, other_}) {
@@ -270,7 +266,7 @@ bool LocalSearch::measure_at(const Point& position, int power, double most, Fit&
   const double scale = 1 / state_.squared_limit();
   for (std::size_t i = 0; i < guiding_.size(); ++i) {
     const double squared = guiding_.squared[i] * scale;
-    fit.energy += weight_ * power_of(squared, power);
+    fit.energy += power_of(squared, power);
     fit.worst = std::max(fit.worst, squared);
   }
   if (!(fit.energy < most)) return false;
@@ -303,7 +299,7 @@ bool LocalSearch::step(const Options& options, double damping, Fit& at) const {
     const double squared = guiding_.squared[i] * scale;
     if (squared < least) continue;
     const double importance =
-        weight_ * (1e-4 + (options.power > 2 ? power_of(squared * unit, options.power - 2) : 1));
+        1e-4 + (options.power > 2 ? power_of(squared * unit, options.power - 2) : 1);
     const Foot foot =
         foot_on(frames_[static_cast<std::size_t>(guiding_.nearest[i])], guiding_.at(i));
     if (foot.weight == 0) continue;
@@ -459,7 +455,6 @@ bool LocalSearch::answer_all(bool limit, MeshEdit& edit) {
   constexpr std::size_t kPiece = 4096;
   const bool measured = guiding_ids_.size() == ids_.size();
   if (!(measured ? answer(ids_, guiding_, limit, edit) : answer(ids_, limit, edit))) return false;
-  if (state_.assigned().all_are_guides() || state_.loosened()) return true;
   others_.clear();
   for (const std::uint32_t slot : removed_) {
     state_.assigned().for_each_other(slot, [&](std::uint32_t p) { others_.push_back(p); });

@@ -116,7 +116,6 @@ class LocalSearch {
   LocalPoints points_;
   std::vector<std::uint32_t> guiding_ids_;  // of the points that the energy is a sum over
   LocalPoints guiding_;
-  double weight_ = 1;       // of each of them in the energy
   BackBound::Sight sight_;  // of the moving vertex at the position last measured
   std::vector<LocalFrame> frames_;
 };
