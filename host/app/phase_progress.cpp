@@ -55,8 +55,7 @@ double reading_seconds(const std::filesystem::path& file) {
 }
 
 double reference_seconds(std::size_t points) {
-  const std::size_t made_of = is_thinned(points) ? kReferencePoints : points;
-  return 1.5e-4 * static_cast<double>(made_of) + joining_seconds(points);
+  return 1.5e-4 * static_cast<double>(points_of_reference(points)) + joining_seconds(points);
 }
 
 double joining_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }

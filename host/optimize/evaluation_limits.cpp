@@ -30,7 +30,7 @@ constexpr double kSurfaceSeconds = 1.5e-4, kChainSeconds = 1.5e-4;
 constexpr std::size_t kManyPolished = 4, kFewPolished = 2;
 
 double decimation_seconds(std::size_t points) {
-  const std::size_t made_of = is_thinned(points) ? kReferencePoints : points;
+  const std::size_t made_of = points_of_reference(points);
   return kSecondsPerPoint * static_cast<double>(made_of) +
          kSecondsPerMeasured * static_cast<double>(points - made_of);
 }
@@ -53,6 +53,10 @@ std::uint64_t memory_for_workers() {
 
 bool is_thinned(std::size_t points, std::size_t reference_points) {
   return 2 * points > 3 * reference_points;
+}
+
+std::size_t points_of_reference(std::size_t points) {
+  return is_thinned(points) ? kReferencePoints : points;
 }
 
 std::size_t polished_candidates(std::size_t points) {
@@ -94,7 +98,8 @@ std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace
 double expected_seconds(SearchSpace space, std::size_t points, std::uint64_t evaluations,
                         std::size_t polished, unsigned jobs) {
   const auto rounds = [&](std::uint64_t runs) {
-    return static_cast<double>((runs + jobs - 1) / jobs);
+    const std::uint64_t filled = (runs + jobs - 1) / jobs;
+    return static_cast<double>(filled);
   };
   const auto all = static_cast<double>(points);
   const double decimation = decimation_seconds(points);

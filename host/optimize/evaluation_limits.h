@@ -30,6 +30,7 @@ enum class SearchSpace { kSurfaces, kOneReference, kDecimations };
 // half as many again.
 inline constexpr std::size_t kReferencePoints = 160'000;
 bool is_thinned(std::size_t points, std::size_t reference_points = kReferencePoints);
+std::size_t points_of_reference(std::size_t points);
 
 // How many of the best candidates are decimated deep in the end: 4, of large clouds 2, of more than
 // six million points none, as they alone would take ten minutes. What that gains differs from one
