@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "host/files/file_content.h"
+#include "host/files/las_reference_system.h"
 #include "host/scan_crates/scan_crates.h"
 #include "sw_model/base/deliberate_fault.h"
 
@@ -103,32 +104,14 @@ LasHeader read_las_header(const InputStream& input) {
   return h;
 }
 
-// The unit of lengths that GeoTIFF keys name, if it is one of ours.
-std::optional<Unit> unit_of(std::span<const std::uint8_t> keys) {
-  constexpr std::uint16_t kProjectedLinearUnits = 3076;
-  for (std::size_t at = 8; at + 8 <= keys.size(); at += 8) {
-    if (load<std::uint16_t>(&keys[at]) != kProjectedLinearUnits) continue;
-    switch (load<std::uint16_t>(&keys[at + 6])) {
-      case 9001:
-        return unit_named("m");
-      case 9002:
-        return unit_named("ft");
-      case 9003:
-        return unit_named("us-ft");
-      default:
-        return std::nullopt;
-    }
-  }
-  return std::nullopt;
-}
-
 struct Records {
-  std::optional<Unit> unit;
+  std::optional<LasLengths> keys, text;
   std::optional<std::vector<std::uint8_t>> laz;
 };
 
 Records read_records(const InputStream& input, const LasHeader& header) {
   constexpr std::uint64_t kRecordHeader = 54;
+  constexpr std::uint16_t kKeys = 34735, kText = 2112;
   if (header.records > (header.offset - header.header_bytes) / kRecordHeader) {
     input.fail(fmt::format("the header promises {} records, but there is room for {}",
                            header.records, (header.offset - header.header_bytes) / kRecordHeader),
@@ -151,16 +134,36 @@ Records read_records(const InputStream& input, const LasHeader& header) {
     const auto kind = load<std::uint16_t>(&bytes[18]);
     const std::string_view user(reinterpret_cast<const char*>(&bytes[2]), 16);
     const bool is_laz = kind == 22204 && user.starts_with("laszip encoded");
-    const bool is_keys = kind == 34735 && user.starts_with("LASF_Projection");
-    if (is_laz || is_keys) {
+    const bool is_projection = user.starts_with("LASF_Projection");
+    if (is_laz || (is_projection && (kind == kKeys || kind == kText))) {
       std::vector<std::uint8_t> content(length);
       input.read(at, content);
-      if (is_keys) records.unit = unit_of(content);
-      if (is_laz) records.laz = std::move(content);
+      if (is_laz) {
+        records.laz = std::move(content);
+      } else if (kind == kKeys) {
+        records.keys = lengths_of_keys(content);
+      } else {
+        records.text =
+            lengths_of_text({reinterpret_cast<const char*>(content.data()), content.size()});
+      }
     }
     at += length;
   }
   return records;
+}
+
+// Text counts before keys, as from LAS 1.4 on.
+std::optional<Unit> unit_of(const InputStream& input, const Records& records) {
+  const LasLengths lengths = records.text ? *records.text : records.keys.value_or(LasLengths{});
+  if (lengths.angles) {
+    input.fail("its coordinates are longitudes and latitudes", "project them, as to UTM");
+  }
+  if (lengths.unit && lengths.heights && lengths.unit != lengths.heights) {
+    input.fail(fmt::format("its heights are in {}, but the rest is in {}", lengths.heights->name,
+                           lengths.unit->name),
+               "convert it to one unit");
+  }
+  return lengths.unit;
 }
 
 class PointReader {
@@ -182,7 +185,9 @@ class PointReader {
 
  private:
   void add(const std::uint8_t* record) {
-    const unsigned type = header_.format < kFirstExtendedFormat ? record[15] & 0x1fu : record[16];
+    const bool extended = header_.format >= kFirstExtendedFormat;
+    const unsigned type = extended ? record[16] : record[15] & 0x1fu;
+    const bool withheld = (record[15] & (extended ? 0x04u : 0x80u)) != 0 && header_.minor > 0;
     Point point;
     for (int k = 0; k < 3; ++k) {
       point[k] = load<std::int32_t>(record + 4 * k) * header_.scale[k] + header_.shift[k];
@@ -194,7 +199,9 @@ class PointReader {
                               content_.index_of_next()),
                   kExportAgain);
     }
-    if (left_out_[type]) {
+    if (withheld) {
+      content_.leave_out("withheld");
+    } else if (left_out_[type]) {
       content_.leave_out(fmt::format("of class {}", type));
     } else {
       content_.add_vertex(point, "point", content_.index_of_next());
@@ -216,7 +223,7 @@ FileContent read_las(const InputStream& input, const CloudReadOptions& options) 
   const Records records = read_records(input, header);
   FileContent content;
   content.has_classes = true;
-  content.unit = records.unit;
+  content.unit = unit_of(input, records);
   content.resolution = header.scale.norm() / 2;
   PointReader reader(input, header, options, content);
 

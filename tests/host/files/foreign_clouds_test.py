@@ -116,6 +116,21 @@ def check_las(folder):
     altered(one_zero, one_zero.name, 25, b"\0")
     expect_points("1.0", read(one_zero)[1], laspy.read(folder / "one_zero.las").xyz)
 
+    # Withheld points, and the unit of well-known text.
+    for version, format_id in (("1.2", 3), ("1.4", 7)):
+        las = las_of(version, format_id)
+        las.withheld = (np.arange(COUNT) % 3 == 0).astype(np.uint8)
+        las.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(
+            'PROJCS["UTM",GEOGCS["WGS 84",UNIT["degree",0.0174532925199433]],UNIT["metre",1]]'))
+        for ending in (".las", ".laz"):
+            path = folder / f"withheld{version}{ending}"
+            las.write(path)
+            again = laspy.read(path)
+            told, points = read(path)
+            expect_points(path.name, points, again.xyz[np.asarray(again.withheld) == 0])
+            expect(told["left_out"] == f"{(COUNT + 2) // 3} withheld", f"{path}: {told}")
+            expect(told["unit"] == "m", f"{path}: {told}")
+
     # Chunks of any number of points, and many of them.
     header = laspy.LasHeader(version="1.4", point_format=7)
     header.scales = [0.001] * 3

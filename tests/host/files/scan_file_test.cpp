@@ -103,7 +103,7 @@ TEST_F(ScanFile, PtxRefusesPosesThatAreNoRotations) {
 }
 
 TEST_F(ScanFile, LasScalesShiftsAndLeavesClassesOut) {
-  const std::string bytes = las_bytes({{0, 0, 0, 2}, {100, -7, 1, 0x80 | 7}, {5, 6, 7, 31}});
+  const std::string bytes = las_bytes({{0, 0, 0, 2}, {100, -7, 1, 0x40 | 7}, {5, 6, 7, 31}});
   const PointCloud cloud = read("a.las", bytes);
   EXPECT_EQ(cloud.points, (std::vector<Point>{{1, 2, 3},
                                               {100 * 0.01 + 1, -7 * 0.01 + 2, 1 * 0.01 + 3},
@@ -129,23 +129,89 @@ TEST_F(ScanFile, LasOverflowIsNotFinite) {
   expect_refused("a.las", bytes, "point 1: a coordinate is NaN or infinite", "--skip-invalid");
 }
 
+// One point, and this record of its reference system.
+std::string las_with_record(std::uint16_t kind, std::string_view content) {
+  std::string record(54, '\0');
+  record.replace(2, 15, "LASF_Projection");
+  put(record, 18, kind);
+  put(record, 20, static_cast<std::uint16_t>(content.size()));
+  record += content;
+  std::string bytes = las_bytes({{0, 0, 0, 0}});
+  bytes.insert(227, record);
+  put(bytes, 96, static_cast<std::uint32_t>(227 + record.size()));
+  put(bytes, 100, std::uint32_t{1});
+  return bytes;
+}
+
+std::string las_with_keys(std::initializer_list<std::pair<int, int>> keys) {
+  std::string content(8 + 8 * keys.size(), '\0');
+  std::size_t at = 8;
+  for (const auto& [key, value] : keys) {
+    put(content, at, static_cast<std::uint16_t>(key));
+    put(content, at + 6, static_cast<std::uint16_t>(value));
+    at += 8;
+  }
+  return las_with_record(34735, content);
+}
+
 TEST_F(ScanFile, LasNamesTheUnitOfItsKeys) {
   for (const auto& [code, unit] : {std::pair(9001, "m"), std::pair(9002, "ft"),
                                    std::pair(9003, "us-ft"), std::pair(9999, "")}) {
-    std::string bytes = las_bytes({{0, 0, 0, 0}});
-    std::string record(54 + 16, '\0');
-    record.replace(2, 15, "LASF_Projection");
-    put(record, 18, std::uint16_t{34735});
-    put(record, 20, std::uint16_t{16});
-    put(record, 54 + 8, std::uint16_t{3076});
-    put(record, 54 + 14, static_cast<std::uint16_t>(code));
-    bytes.insert(227, record);
-    put(bytes, 96, static_cast<std::uint32_t>(227 + record.size()));
-    put(bytes, 100, std::uint32_t{1});
+    std::string bytes = las_with_keys({{1024, 1}, {3076, code}, {4099, code}});
     EXPECT_EQ(read("a.las", bytes).unit, unit_named(unit));
-    put(bytes, 227 + 20, std::uint16_t{17});
+    put(bytes, 227 + 20, std::uint16_t{33});
     expect_refused("a.las", bytes, "record 0 ends behind", "export");
   }
+  EXPECT_EQ(read("a.las", las_with_keys({{3076, 9003}, {4099, 9999}})).unit, unit_named("us-ft"));
+  expect_refused("a.las", las_with_keys({{1024, 2}}), "longitudes and latitudes", "project");
+  expect_refused("a.las", las_with_keys({{3076, 9003}, {4099, 9001}}),
+                 "its heights are in m, but the rest is in us-ft", "convert");
+}
+
+TEST_F(ScanFile, LasNamesTheUnitOfItsText) {
+  const std::string round =
+      R"(GEOGCS["NAD83",DATUM["D",SPHEROID["GRS 1980",6378137,298.257222101]],)"
+      R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])";
+  const auto flat = [&](std::string_view unit) {
+    return R"(PROJCS["New York [Long Island], PROJCS[",)" + round +
+           R"(,PROJECTION["Lambert"],PARAMETER["false_easting",984250],)" + std::string(unit) +
+           R"(,AXIS["X",EAST],AUTHORITY["EPSG","2263"]])";
+  };
+  const auto unit_of = [&](const std::string& text) {
+    return read("a.las", las_with_record(2112, text)).unit;
+  };
+  EXPECT_EQ(unit_of(flat(R"(UNIT["metre",1])")), unit_named("m"));
+  EXPECT_EQ(unit_of(flat(R"(UNIT["foot",0.3048,AUTHORITY["EPSG","9002"]])")), unit_named("ft"));
+  for (const char* const foot : {"0.3048006096", "0.304800609601219", "0.30480061"}) {
+    EXPECT_EQ(unit_of(flat(R"(Unit [ "US survey foot", )" + std::string(foot) + " ]")),
+              unit_named("us-ft"));
+  }
+  EXPECT_EQ(unit_of(flat(R"(UNIT["rod",5.0292])")), std::nullopt);
+  const auto both = [&](std::string_view heights) {
+    return R"(COMPD_CS["both",)" + flat(R"(UNIT["metre",1])") + R"(,VERT_CS["NAVD88",)" +
+           std::string(heights) + R"(,AXIS["Up",UP]]])";
+  };
+  EXPECT_EQ(unit_of(both(R"(UNIT["metre",1.0])")), unit_named("m"));
+  // Version 2 of the text, where a unit may be said of each axis.
+  EXPECT_EQ(unit_of(R"(PROJCRS["UTM",BASEGEOGCRS["WGS 84"],CONVERSION["16N",)"
+                    R"(PARAMETER["x",500,LENGTHUNIT["kilometre",1000]]],CS[Cartesian,2],)"
+                    R"(AXIS["E",east,LENGTHUNIT["foot",0.3048]],AXIS["N",north]])"),
+            unit_named("ft"));
+  for (const char* const text : {"", "]]))", "UNIT[", "PROJCS[\"a", "PROJCS[UNIT]", "PROJCS,2"}) {
+    EXPECT_EQ(unit_of(text), std::nullopt) << text;
+  }
+  expect_refused("a.las", las_with_record(2112, round), "longitudes and latitudes", "project");
+  expect_refused("a.las", las_with_record(2112, both(R"(UNIT["foot",0.3048])")),
+                 "its heights are in ft, but the rest is in m", "convert");
+}
+
+TEST_F(ScanFile, LasLeavesWithheldPointsOut) {
+  std::string bytes = las_bytes({{0, 0, 0, 2}, {1, 0, 0, 0x80 | 2}, {2, 0, 0, 0x60 | 2}});
+  const PointCloud cloud = read("a.las", bytes);
+  EXPECT_EQ(cloud.file_index, (Indices{0, 2}));
+  EXPECT_EQ(describe(cloud.left_out), "1 withheld");
+  bytes[25] = 0;  // LAS 1.0 has no such flag
+  EXPECT_EQ(read("a.las", bytes).points.size(), 3u);
 }
 
 TEST_F(ScanFile, LazIsReadAsItsWriterReadsIt) {
