@@ -30,6 +30,7 @@ void Finish::start(const Genes& free, const Evaluation& evaluation, double radiu
   running_ = true;
   radius_ = radius;
   penalty_ = 0;
+  scaled_ = false;
   failures_ = 0;
   predicts_well_ = false;
   told(free, evaluation);
@@ -190,6 +191,21 @@ LocalModel Finish::fit(const std::vector<std::size_t>& chosen) {
   return model;
 }
 
+// Divides each constraint by how much it changes across the domain, as the first model has it, so
+// that no constraint outweighs the others in the greatest violation.
+void Finish::scale_constraints(const LocalModel& model) {
+  scaled_ = true;
+  const Eigen::Index count = model.gradients.cols() - 1;
+  if (count < 2) return;
+  constexpr double kLeast = 1e-6;  // of the greatest: a constraint may not change at all here
+  Vector scales = model.gradients.rightCols(count).colwise().norm().transpose();
+  scales = scales.cwiseMax(kLeast * scales.maxCoeff());
+  if (!(scales.minCoeff() > 0) || !scales.allFinite()) return;
+  scales /= std::exp(scales.array().log().mean());
+  space_->scale(scales);
+  for (LocalPoint& point : points_) space_->scale(point, scales);
+}
+
 std::optional<Genes> Finish::propose() {
   constexpr int kMostRounds = 100;
   for (int round = 0; running_; ++round) {
@@ -208,7 +224,12 @@ std::optional<Genes> Finish::propose() {
       running_ = false;
       break;
     }
-    const LocalModel model = fit(selection.points);
+    LocalModel model = fit(selection.points);
+    if (!scaled_) {
+      scale_constraints(model);
+      hessians_.clear();
+      model = fit(selection.points);
+    }
     const LocalStep step = best_step(*space_, *centre(), model, radius_, penalty_);
     // A penalty that was fitted far away would make every curved constraint a wall.
     constexpr double kAmple = 10;

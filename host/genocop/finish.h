@@ -53,6 +53,7 @@ class Finish {
   void judge_step(const Trial& trial, const LocalPoint* point);
   Selection select() const;
   LocalModel fit(const std::vector<std::size_t>& chosen);
+  void scale_constraints(const LocalModel& model);
   void shrink(double factor);
 
   const LinearDomain& domain_;
@@ -62,6 +63,7 @@ class Finish {
   bool running_ = false;
   double radius_ = 0;
   double penalty_ = 0;
+  bool scaled_ = false;  // the constraints are
   std::vector<LocalPoint> points_;
   std::size_t centre_ = 0;
   std::vector<Eigen::MatrixXd> hessians_;  // of the last models

@@ -47,6 +47,19 @@ LocalSpace::LocalSpace(const LinearDomain& domain, const Problem& problem,
     widths_[i] = domain.gene(k).upper - domain.gene(k).lower;
   }
   if (single_) constraints_.emplace_back();
+  scales_ = Vector::Ones(static_cast<Eigen::Index>(constraints_.size()));
+}
+
+void LocalSpace::scale(const Vector& scales) {
+  scales_ = scales_.cwiseProduct(scales);
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    constraints_[c].tolerance /= scales[static_cast<Eigen::Index>(c)];
+  }
+}
+
+void LocalSpace::scale(LocalPoint& point, const Vector& scales) const {
+  point.responses.tail(scales.size()).array() /= scales.array();
+  point.violation = violation(point.responses);
 }
 
 Vector LocalSpace::position(const Genes& free) const {
@@ -87,6 +100,7 @@ std::optional<LocalPoint> LocalSpace::point(const Genes& free, const Evaluation&
     responses[static_cast<Eigen::Index>(c) + 1] =
         single_ ? evaluation.violation : evaluation.constraints[c];
   }
+  responses.tail(scales_.size()).array() /= scales_.array();
   if (!responses.allFinite()) return std::nullopt;
   const double worst = violation(responses);
   return LocalPoint{free, position(free), std::move(responses), worst};
@@ -220,8 +234,10 @@ void linearize(const LocalModel& model, const std::vector<NonlinearConstraint>& 
   const auto add_row = [&](double sign, std::size_t c, double tolerance) {
     const auto response = static_cast<Eigen::Index>(c) + 1;
     const Vector gradient = sign * model.gradient(c + 1, at);
+    // The tolerance of an equality may be scaled below the margin.
+    const double margin = tolerance > 0 ? std::min(kMargin, tolerance / 2) : kMargin;
     program.rows.row(r) = gradient.transpose() * radius;
-    program.bounds[r] = tolerance - kMargin - sign * responses[response] + gradient.dot(at);
+    program.bounds[r] = tolerance - margin - sign * responses[response] + gradient.dot(at);
     if (curved) curvature += sign * multipliers[r] * model.hessians[c + 1];
     ++r;
   };

@@ -36,6 +36,10 @@ class LocalSpace {
   // single values are not known.
   std::optional<LocalPoint> point(const Genes& free, const Evaluation& evaluation) const;
   double violation(const Eigen::VectorXd& responses) const;
+  // Divides the values of the nonlinear constraints by these, from now on. The other function does
+  // it for a point from before.
+  void scale(const Eigen::VectorXd& scales);
+  void scale(LocalPoint& point, const Eigen::VectorXd& scales) const;
 
   // The domain and the linear constraints as rows * step <= bounds, within `radius` of the centre.
   void linear_rows(const Genes& centre, double radius, Eigen::MatrixXd& rows,
@@ -48,7 +52,8 @@ class LocalSpace {
   std::vector<bool> is_rest_;
   Eigen::VectorXd widths_;
   std::vector<NonlinearConstraint> constraints_;
-  bool single_;  // only the greatest violation is known
+  Eigen::VectorXd scales_;  // that the constraints' values are divided by
+  bool single_;             // only the greatest violation is known
 };
 
 // Models of all responses around a centre: value + gradient' s + s' hessian s / 2.

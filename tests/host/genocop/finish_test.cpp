@@ -52,6 +52,30 @@ TEST(Finish, ReachesTheOptimumOfSmoothFunctions) {
   }
 }
 
+// A constraint may be told in any unit.
+TEST(Finish, ConstraintsOfOtherScalesCostNoTrials) {
+  for (const auto& bench : {benchmark::g05(), benchmark::g07(), benchmark::g10()}) {
+    SCOPED_TRACE(bench.name);
+    const Genes start = LinearDomain(bench.problem).inside();
+    const Outcome outcome = finish(bench.problem, bench.evaluate, start, 600);
+    Problem scaled = bench.problem;
+    const auto factor = [](std::size_t c) { return c % 2 == 0 ? 1e4 : 1e-3; };
+    for (std::size_t c = 0; c < scaled.nonlinear.size(); ++c) {
+      scaled.nonlinear[c].tolerance *= factor(c);
+    }
+    const auto evaluate = [&](const Genes& g) {
+      const Evaluation e = bench.evaluate(g);
+      std::vector<double> values = e.constraints;
+      for (std::size_t c = 0; c < values.size(); ++c) values[c] *= factor(c);
+      return make_evaluation(scaled.nonlinear, e.objective, values);
+    };
+    const Outcome other = finish(scaled, evaluate, start, 600);
+    EXPECT_NEAR(other.best.objective, bench.optimum, 1e-4 * std::max(1.0, std::abs(bench.optimum)));
+    EXPECT_TRUE(other.ended);
+    EXPECT_LT(other.evaluations, 3 * outcome.evaluations / 2);
+  }
+}
+
 TEST(Finish, WithoutConstraintsAQuadraticBowlTakesFewTrials) {
   Problem p;
   p.genes = benchmark::continuous_genes(6, -1, 1);
