@@ -69,6 +69,7 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
   const LocalPoint* added = nullptr;
   if (points_.empty() || space_->same_rest(free, *centre())) {
     std::optional<LocalPoint> point = space_->point(free, evaluation);
+    if (!point) space_->failed(free);
     if (point && (own || points_.empty() ||
                   (point->at - points_[centre_].at).cwiseAbs().maxCoeff() <= kNear * radius_)) {
       points_.push_back(std::move(*point));
@@ -78,18 +79,18 @@ void Finish::told(const Genes& free, const Evaluation& evaluation) {
   if (own) {
     const Trial trial = std::move(*found);
     trials_.erase(found);
-    if (trial.reduction) {
-      judge_step(trial, added);
-    } else if (added == nullptr) {
-      shrink(0.5);  // the trial gave no point for the models
+    if (added == nullptr) {
+      shrink(0.9);  // it failed, and the space keeps the next ones away from it
+    } else if (trial.reduction) {
+      judge_step(trial, *added);
     }
   }
   if (added != nullptr) choose_centre();
 }
 
-void Finish::judge_step(const Trial& trial, const LocalPoint* point) {
+void Finish::judge_step(const Trial& trial, const LocalPoint& point) {
   const double length = (trial.at - points_[centre_].at).cwiseAbs().maxCoeff();
-  const double gained = point == nullptr ? -1 : merit(points_[centre_]) - merit(*point);
+  const double gained = merit(points_[centre_]) - merit(point);
   const double ratio = gained / *trial.reduction;
   predicts_well_ = ratio >= 0.2;
   // The steps may fail because of curvature from models farther away.
@@ -164,6 +165,7 @@ Finish::Selection Finish::select() const {
     for (const Vector& direction : {Vector(Vector::Unit(n, axis)), Vector(open.normalized())}) {
       for (const double sign : {1.0, -1.0}) {
         Genes free = space_->moved(points_[centre_].free, sign * radius_ * direction);
+        if (space_->nears_a_failure(points_[centre_].free, free)) continue;
         const Vector step = space_->position(free) - origin;
         const double gain = rest(step).norm();
         // A gain that is just enough could count as too small at the next call because of rounding.

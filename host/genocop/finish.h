@@ -50,7 +50,7 @@ class Finish {
 
   double merit(const LocalPoint& point) const;
   void choose_centre();
-  void judge_step(const Trial& trial, const LocalPoint* point);
+  void judge_step(const Trial& trial, const LocalPoint& point);
   Selection select() const;
   LocalModel fit(const std::vector<std::size_t>& chosen);
   void scale_constraints(const LocalModel& model);

@@ -39,6 +39,8 @@ void LinearStep::told(const Genes& free, const Evaluation& evaluation) {
   }
   if (auto point = region->second.space.point(free, evaluation)) {
     region->second.points.push_back(std::move(*point));
+  } else {
+    region->second.space.failed(free);
   }
 }
 

@@ -114,14 +114,42 @@ double LocalSpace::violation(const Vector& responses) const {
   return worst;
 }
 
+bool LocalSpace::nears_a_failure(const Genes& centre, const Genes& free) const {
+  const Vector at = position(centre), step = position(free) - at;
+  return std::ranges::any_of(failed_, [&](const Vector& failure) {
+    const Vector way = failure - at;
+    return way.dot(step) > 0.5 * way.squaredNorm();
+  });
+}
+
+// The nearest failures that a step within `radius` may come near to.
+std::vector<Vector> LocalSpace::ways_to_failures(const Vector& at, double radius) const {
+  std::vector<Vector> ways;
+  for (const Vector& failure : failed_) {
+    const Vector way = failure - at;
+    if (way.squaredNorm() > 0 && way.cwiseAbs().maxCoeff() <= 2 * radius) ways.push_back(way);
+  }
+  std::ranges::stable_sort(ways, {}, [](const Vector& way) { return way.squaredNorm(); });
+  const auto most = static_cast<std::size_t>(2 * size());
+  if (ways.size() > most) ways.resize(most);
+  return ways;
+}
+
 void LocalSpace::linear_rows(const Genes& centre, double radius, Matrix& rows,
                              Vector& bounds) const {
   const Eigen::Index n = size();
   const auto& given = domain_.rows();
-  const auto linear = static_cast<Eigen::Index>(given.size());
+  const Vector at = position(centre);
+  const std::vector<Vector> ways = ways_to_failures(at, radius);
+  const auto linear = static_cast<Eigen::Index>(given.size() + ways.size());
   rows = Matrix::Zero(linear + 2 * n, n);
   bounds.resize(linear + 2 * n);
-  for (Eigen::Index r = 0; r < linear; ++r) {
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    const auto r = static_cast<Eigen::Index>(given.size() + w);
+    rows.row(r) = ways[w].normalized().transpose();
+    bounds[r] = 0.5 * ways[w].norm();
+  }
+  for (Eigen::Index r = 0; r < static_cast<Eigen::Index>(given.size()); ++r) {
     const auto& row = given[static_cast<std::size_t>(r)];
     double left = row.bound;
     for (std::size_t k = 0; k < centre.size(); ++k) left -= row.weights[k] * centre[k];
@@ -132,7 +160,6 @@ void LocalSpace::linear_rows(const Genes& centre, double radius, Matrix& rows,
     if (length > 0) rows.row(r) /= length;
     bounds[r] = std::max(left, 0.0) / (length > 0 ? length : 1);
   }
-  const Vector at = position(centre);
   for (Eigen::Index i = 0; i < n; ++i) {
     rows(linear + 2 * i, i) = 1;
     bounds[linear + 2 * i] = std::min(radius, 1 - at[i]);

@@ -36,20 +36,29 @@ class LocalSpace {
   // single values are not known.
   std::optional<LocalPoint> point(const Genes& free, const Evaluation& evaluation) const;
   double violation(const Eigen::VectorXd& responses) const;
+  // Notes an evaluation that failed here. Steps then stay nearer to their centre than to it.
+  void failed(const Genes& free) { failed_.push_back(position(free)); }
+  // Whether a step from `centre` to `free` would not.
+  bool nears_a_failure(const Genes& centre, const Genes& free) const;
+
   // Divides the values of the nonlinear constraints by these, from now on. The other function does
   // it for a point from before.
   void scale(const Eigen::VectorXd& scales);
   void scale(LocalPoint& point, const Eigen::VectorXd& scales) const;
 
-  // The domain and the linear constraints as rows * step <= bounds, within `radius` of the centre.
+  // The linear constraints, what the failures leave and last the domain as rows * step <= bounds,
+  // within `radius` of the centre.
   void linear_rows(const Genes& centre, double radius, Eigen::MatrixXd& rows,
                    Eigen::VectorXd& bounds) const;
   const std::vector<NonlinearConstraint>& constraints() const { return constraints_; }
 
  private:
+  std::vector<Eigen::VectorXd> ways_to_failures(const Eigen::VectorXd& at, double radius) const;
+
   const LinearDomain& domain_;
   std::vector<std::size_t> coordinates_;
   std::vector<bool> is_rest_;
+  std::vector<Eigen::VectorXd> failed_;
   Eigen::VectorXd widths_;
   std::vector<NonlinearConstraint> constraints_;
   Eigen::VectorXd scales_;  // that the constraints' values are divided by

@@ -29,6 +29,36 @@ TEST(LocalModel, LeastSquaresFindLinearResponsesExactly) {
   EXPECT_LT((model.gradients - gradients).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST(LocalSpace, StepsStayNearerToTheirCentreThanToFailures) {
+  Problem problem;
+  problem.genes = benchmark::continuous_genes(3, 0, 1);
+  const LinearDomain domain(problem);
+  const Genes centre(3, 0.5);
+  LocalSpace space(domain, problem, domain.movable(), centre);
+  const Matrix failures = random_matrix(4, 3, 9) * 0.4;
+  for (Eigen::Index f = 0; f < failures.rows(); ++f) {
+    space.failed(space.moved(centre, failures.row(f).transpose()));
+  }
+  constexpr double kRadius = 0.3;
+  Matrix rows;
+  Vector bounds;
+  space.linear_rows(centre, kRadius, rows, bounds);
+  const Matrix steps = random_matrix(500, 3, 10) * kRadius;
+  int barred = 0;
+  for (Eigen::Index s = 0; s < steps.rows(); ++s) {
+    const Vector step = steps.row(s).transpose();
+    bool nearer = false;
+    for (Eigen::Index f = 0; f < failures.rows(); ++f) {
+      nearer = nearer || (step - failures.row(f).transpose()).norm() < step.norm();
+    }
+    EXPECT_EQ((rows * step - bounds).maxCoeff() > 0, nearer);
+    EXPECT_EQ(space.nears_a_failure(centre, space.moved(centre, step)), nearer);
+    barred += nearer;
+  }
+  EXPECT_GT(barred, 50);
+  EXPECT_LT(barred, 450);
+}
+
 // As many points as a quadratic function has coefficients leave nothing open.
 TEST(LocalModel, EnoughPointsGiveAQuadraticFunctionBack) {
   constexpr Eigen::Index kN = 4;
