@@ -115,23 +115,22 @@ double LocalSpace::violation(const Vector& responses) const {
 }
 
 bool LocalSpace::nears_a_failure(const Genes& centre, const Genes& free) const {
-  const Vector at = position(centre), step = position(free) - at;
-  return std::ranges::any_of(failed_, [&](const Vector& failure) {
-    const Vector way = failure - at;
+  const Vector step = position(free) - position(centre);
+  return std::ranges::any_of(ways_to_failures(centre, HUGE_VAL), [&](const Vector& way) {
     return way.dot(step) > 0.5 * way.squaredNorm();
   });
 }
 
-// The nearest failures that a step within `radius` may come near to.
-std::vector<Vector> LocalSpace::ways_to_failures(const Vector& at, double radius) const {
+// To those that a step within `radius` may come near to, nearest first.
+std::vector<Vector> LocalSpace::ways_to_failures(const Genes& centre, double radius) const {
+  const Vector at = position(centre);
   std::vector<Vector> ways;
-  for (const Vector& failure : failed_) {
-    const Vector way = failure - at;
+  for (const Genes& failure : failed_) {
+    if (!same_rest(failure, centre)) continue;
+    const Vector way = position(failure) - at;
     if (way.squaredNorm() > 0 && way.cwiseAbs().maxCoeff() <= 2 * radius) ways.push_back(way);
   }
   std::ranges::stable_sort(ways, {}, [](const Vector& way) { return way.squaredNorm(); });
-  const auto most = static_cast<std::size_t>(2 * size());
-  if (ways.size() > most) ways.resize(most);
   return ways;
 }
 
@@ -140,7 +139,8 @@ void LocalSpace::linear_rows(const Genes& centre, double radius, Matrix& rows,
   const Eigen::Index n = size();
   const auto& given = domain_.rows();
   const Vector at = position(centre);
-  const std::vector<Vector> ways = ways_to_failures(at, radius);
+  std::vector<Vector> ways = ways_to_failures(centre, radius);
+  ways.resize(std::min(ways.size(), static_cast<std::size_t>(2 * n)));
   const auto linear = static_cast<Eigen::Index>(given.size() + ways.size());
   rows = Matrix::Zero(linear + 2 * n, n);
   bounds.resize(linear + 2 * n);

@@ -37,7 +37,7 @@ class LocalSpace {
   std::optional<LocalPoint> point(const Genes& free, const Evaluation& evaluation) const;
   double violation(const Eigen::VectorXd& responses) const;
   // Notes an evaluation that failed here. Steps then stay nearer to their centre than to it.
-  void failed(const Genes& free) { failed_.push_back(position(free)); }
+  void failed(const Genes& free) { failed_.push_back(free); }
   // Whether a step from `centre` to `free` would not.
   bool nears_a_failure(const Genes& centre, const Genes& free) const;
 
@@ -53,12 +53,12 @@ class LocalSpace {
   const std::vector<NonlinearConstraint>& constraints() const { return constraints_; }
 
  private:
-  std::vector<Eigen::VectorXd> ways_to_failures(const Eigen::VectorXd& at, double radius) const;
+  std::vector<Eigen::VectorXd> ways_to_failures(const Genes& centre, double radius) const;
 
   const LinearDomain& domain_;
   std::vector<std::size_t> coordinates_;
   std::vector<bool> is_rest_;
-  std::vector<Eigen::VectorXd> failed_;
+  std::vector<Genes> failed_;
   Eigen::VectorXd widths_;
   std::vector<NonlinearConstraint> constraints_;
   Eigen::VectorXd scales_;  // that the constraints' values are divided by

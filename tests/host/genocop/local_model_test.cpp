@@ -31,10 +31,11 @@ TEST(LocalModel, LeastSquaresFindLinearResponsesExactly) {
 
 TEST(LocalSpace, StepsStayNearerToTheirCentreThanToFailures) {
   Problem problem;
-  problem.genes = benchmark::continuous_genes(3, 0, 1);
+  problem.genes = benchmark::continuous_genes(4, 0, 1);
   const LinearDomain domain(problem);
-  const Genes centre(3, 0.5);
-  LocalSpace space(domain, problem, domain.movable(), centre);
+  const Genes centre(4, 0.5), elsewhere = {0.5, 0.5, 0.51, 0.6};
+  LocalSpace space(domain, problem, {0, 1, 2}, centre);  // the last gene is held
+  space.failed(elsewhere);
   const Matrix failures = random_matrix(4, 3, 9) * 0.4;
   for (Eigen::Index f = 0; f < failures.rows(); ++f) {
     space.failed(space.moved(centre, failures.row(f).transpose()));
