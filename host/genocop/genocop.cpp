@@ -80,6 +80,7 @@ Genocop::Genocop(Problem problem, Settings settings, std::uint64_t seed)
   if (auto continuous = coordinates(domain_, false);
       settings_.finish && !monotone_ && !problem_.stepped && !continuous.empty()) {
     finish_.emplace(domain_, problem_, std::move(continuous));
+    if (settings_.differential) differential_.emplace(domain_);
   }
   take_known();
   make_starts();
@@ -160,11 +161,19 @@ void Genocop::tell(std::uint64_t index, Evaluation evaluation) {
   ++told_;
   Record& record = records_[index];
   record.evaluation = evaluation;
+  if (record.role == Role::kDifferential) {  // no result of the descent
+    ++descent_.gained;
+    ++descent_.after_starts;
+  }
   if (record.repeated) return;
   learn(record.free, evaluation);
   const Individual individual{index, record.free, evaluation, {}};
   const bool is_best = evaluation.evaluated_ok && offer_best(index, record.free, evaluation);
   if (record.role == Role::kLinear) linear_->judge(is_best);
+  if (record.role == Role::kDifferential) {
+    differential_->told(record.member, record.free, evaluation);
+    return;
+  }
   if (index < descent_.first) return;  // its populations are gone
   if (evaluation.evaluated_ok) note_gain(evaluation);
 

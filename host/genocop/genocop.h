@@ -10,6 +10,7 @@
 
 #include <emax/genocop.h>
 #include "host/genocop/adaptive_frequencies.h"
+#include "host/genocop/differential_evolution.h"
 #include "host/genocop/finish.h"
 #include "host/genocop/linear_step.h"
 #include "host/genocop/monotone_step.h"
@@ -22,7 +23,8 @@ namespace emax {
 struct Candidate {
   std::uint64_t index = 0;
   Genes genes;
-  // "start", "climb", "finish", "linear_model", "repair", "sample" or the operator's name
+  // "start", "climb", "finish", "linear_model", "repair", "differential", "sample" or the
+  // operator's name
   std::string_view origin;
   // The earlier candidate with the same genes, if a bounded number of draws found nothing new. Tell
   // its evaluation again instead of evaluating the genes again.
@@ -76,7 +78,7 @@ class Genocop {
   const std::vector<Individual>& reference_population() const { return references_; }
 
  private:
-  enum class Role { kSearch, kClimb, kRepair, kLinear, kFinish };
+  enum class Role { kSearch, kClimb, kRepair, kLinear, kFinish, kDifferential };
   using SortKey = std::pair<int, double>;
   struct Bred {  // the operator's entry and the better parent
     std::size_t entry;
@@ -89,6 +91,7 @@ class Genocop {
     bool repeated;
     std::optional<RepairChain> chain;
     std::optional<Bred> bred;
+    std::size_t member;  // of the differential evolution
     std::optional<Evaluation> evaluation;
   };
   struct Proposal {
@@ -97,6 +100,7 @@ class Genocop {
     Role role = Role::kSearch;
     std::optional<RepairChain> chain = std::nullopt;
     std::optional<Bred> bred = std::nullopt;
+    std::size_t member = 0;
   };
   struct Descent {                   // from its starts until nothing more is gained
     std::uint64_t first = 0;         // its first candidate
@@ -130,7 +134,9 @@ class Genocop {
   std::optional<Proposal> next_repair(RandomStream& random);
   std::optional<Proposal> next_linear(RandomStream& random);
   std::optional<Proposal> next_finish(RandomStream& random);
+  double many_genes() const;
   double share_of_finish() const;
+  std::optional<Proposal> next_differential(RandomStream& random);
   bool start_finish();
   std::optional<Proposal> offspring(RandomStream& random);
   double remaining() const;  // of the budget that is left: 1 - t/T
@@ -146,6 +152,7 @@ class Genocop {
   std::optional<MonotoneStep> monotone_;
   std::optional<LinearStep> linear_;
   std::optional<Finish> finish_;
+  std::optional<DifferentialEvolution> differential_;
   AdaptiveFrequencies frequencies_;
   std::deque<Genes> starts_;   // not yet asked
   std::uint64_t sampled_ = 0;  // points of Sobol's sequence that were starts

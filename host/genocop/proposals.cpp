@@ -104,7 +104,7 @@ Candidate Genocop::ask() {
   if (monotone_) monotone_->asked(proposal.free);
   if (proposal.role == Role::kFinish) finish_->asked(proposal.free);
   records_.push_back({std::move(proposal.free), proposal.role, candidate.same_as || candidate.known,
-                      std::move(proposal.chain), proposal.bred, std::nullopt});
+                      std::move(proposal.chain), proposal.bred, proposal.member, std::nullopt});
   return candidate;
 }
 
@@ -141,6 +141,7 @@ Genocop::Proposal Genocop::propose(RandomStream& random) {
     starts_.pop_front();
     if (is_new(start)) return {start, "start"};
   } else if (settings_.first_phase || !references_.empty()) {
+    if (std::optional<Proposal> trial = next_differential(random)) return std::move(*trial);
     if (monotone_) {
       if (std::optional<Genes> trial = monotone_->climb(); trial && is_new(*trial)) {
         return {std::move(*trial), "climb", Role::kClimb};
@@ -189,13 +190,38 @@ std::optional<Genocop::Proposal> Genocop::next_finish(RandomStream& random) {
   return std::nullopt;
 }
 
+// From 0 for eight genes towards 1.
+double Genocop::many_genes() const {
+  constexpr double kFewGenes = 8;
+  const double few = std::min(1.0, kFewGenes / static_cast<double>(domain_.movable().size()));
+  return 1 - few * few;
+}
+
 // With many genes the points that a model needs would leave a short search only a few steps. Where
 // the model predicts well, the other strategies get less.
 double Genocop::share_of_finish() const {
-  constexpr double kFewGenes = 8;
   if (!finish_->predicts_well()) return settings_.finish_share;
-  const double few = std::min(1.0, kFewGenes / static_cast<double>(domain_.movable().size()));
-  return 1 - (1 - settings_.finish_share) * few * few;
+  return 1 - (1 - settings_.finish_share) * (1 - many_genes());
+}
+
+// Where the genes are many, one local search ends in one local optimum and the next in another.
+// Differential evolution then crosses between all of them.
+std::optional<Genocop::Proposal> Genocop::next_differential(RandomStream& random) {
+  const bool has_ended = descent_.first > 0 || finished_.size() > 1;
+  if (!differential_ || !has_ended || many_genes() == 0) return std::nullopt;
+  if (!random.chance(many_genes())) return std::nullopt;
+  const auto start = [&] {
+    const auto index = static_cast<std::uint32_t>(sampled_++);
+    return domain_.from_unit_cube(sobol_point(seed_, index, domain_.size()), random);
+  };
+  for (int draw = 0; draw < kRedraws; ++draw) {
+    std::optional<DifferentialEvolution::Trial> trial = differential_->propose(start, random);
+    if (!trial) break;
+    if (!is_new(trial->free)) continue;
+    return Proposal{std::move(trial->free), "differential", Role::kDifferential, {}, {},
+                    trial->member};
+  }
+  return std::nullopt;
 }
 
 // Starts a local search at the best point of the populations that is far enough from the starts and

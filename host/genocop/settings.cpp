@@ -6,7 +6,7 @@ namespace emax {
 
 std::span<const SettingInfo> setting_infos() {
   using S = Settings;
-  static const std::array<SettingInfo, 32> infos = {{
+  static const std::array<SettingInfo, 33> infos = {{
       {"budget", &S::budget, 1, 1e9, "evaluations, including every trial"},
       {"look_ahead", &S::look_ahead, 1, 1e6,
        "candidate i depends on the results up to i - look_ahead; at least the number of workers; "
@@ -61,6 +61,9 @@ std::span<const SettingInfo> setting_infos() {
       {"restart_after", &S::restart_after, 0, 1e9,
        "evaluations without gain after which populations and local searches begin anew; 0: never; "
        "only where local searches run"},
+      {"differential", &S::differential, 0, 0,
+       "differential evolution beside the descents after the first, with more than eight genes; "
+       "only where local searches run"},
       {"first_phase", &S::first_phase, 0, 0,
        "minimise the violation while nothing is feasible; false: draw at random"},
       {"adaptive_frequencies", &S::adaptive_frequencies, 0, 0,
@@ -93,7 +96,7 @@ Settings Settings::original() {
   settings.max_repair_tries = 100;
   settings.repair_only_promising = false;
   settings.frequency_of(uniform_mutation) = 0;
-  settings.monotone_step = settings.linear_model = settings.finish = false;
+  settings.monotone_step = settings.linear_model = settings.finish = settings.differential = false;
   settings.restart_after = 0;
   settings.adaptive_frequencies = settings.sobol_starts = false;
   settings.cache = false;

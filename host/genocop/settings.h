@@ -19,9 +19,10 @@ enum class RepairMethod {
 };
 
 // All settings that the search depends on besides problem and seed. The strategies that are not in
-// Genocop III are monotone_step, linear_model, finish, restart_after, adaptive_frequencies,
-// sobol_starts, first_phase, cache, replace_worse_only with share_feasible, repair_only_promising,
-// the value-aware repair and the uniform mutation (from Genocop). Each has its own setting.
+// Genocop III are monotone_step, linear_model, finish, restart_after, differential,
+// adaptive_frequencies, sobol_starts, first_phase, cache, replace_worse_only with share_feasible,
+// repair_only_promising, the value-aware repair and the uniform mutation (from Genocop). Each has
+// its own setting.
 struct Settings {
   std::size_t budget = 150;  // T of the operators whose steps shrink
   // The budgets that the search had before this one, ascending. T of candidate i is the first of
@@ -62,6 +63,7 @@ struct Settings {
   double finish_share = 0.6;         // of the candidates while one runs; more with many genes
   double finish_radius = 0.1;        // the first trust region, of the domains
   std::size_t restart_after = 300;   // evaluations without gain, where local searches run; 0: never
+  bool differential = true;          // evolution beside later descents, with many genes
   bool first_phase = true;           // while nothing is feasible, minimise the violation
   bool adaptive_frequencies = true;  // of the operators
   double frequency_floor = 0.3;      // of the offspring, divided equally among the operators

@@ -33,7 +33,7 @@ RANDOM = "random search"
 SEARCHES = ["emax", "emax, look-ahead 16"]
 LOOK_AHEAD_BUDGETS = [200, 1000, 5000]  # where every evaluation is dear
 ABLATIONS = ["without finish", "without linear model", "without both", "without monotone step",
-             "without restarts", "without adaptive frequencies", "without Sobol starts", "without first phase", "without cache",
+             "without restarts", "without differential evolution", "without adaptive frequencies", "without Sobol starts", "without first phase", "without cache",
              "without uniform mutation", "replacement as published", "repair at random", "repair of every point",
              "populations 70/70"]
 ABLATION_BUDGETS = [200, 1000]

@@ -36,6 +36,7 @@ const std::vector<Way>& ways() {
       {"without both", [](Settings& s) { s.finish = s.linear_model = false; }},
       {"without monotone step", [](Settings& s) { s.monotone_step = false; }},
       {"without restarts", [](Settings& s) { s.restart_after = 0; }},
+      {"without differential evolution", [](Settings& s) { s.differential = false; }},
       {"without adaptive frequencies", [](Settings& s) { s.adaptive_frequencies = false; }},
       {"without Sobol starts", [](Settings& s) { s.sobol_starts = false; }},
       {"without first phase", [](Settings& s) { s.first_phase = false; }},

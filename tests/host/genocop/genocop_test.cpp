@@ -357,6 +357,11 @@ TEST(Genocop, EveryStrategyIsASwitchAndRepeatable) {
   Settings ten = base;
   ten.frequency_of(uniform_mutation) = 0;
   EXPECT_NE(trail(hard, ten), all);
+  base.budget = 1500;
+  Settings alone = base;
+  alone.differential = false;
+  EXPECT_NE(trail(benchmark::g01(), alone), trail(benchmark::g01(), base));
+  base.budget = 300;
   Settings without = base;
   without.monotone_step = false;
   EXPECT_NE(trail(benchmark::staircase(), without), trail(benchmark::staircase(), base));
