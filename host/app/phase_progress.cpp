@@ -58,9 +58,9 @@ double reference_seconds(std::size_t points) {
   return 1.5e-4 * static_cast<double>(points_of_reference(points)) + joining_seconds(points);
 }
 
-double joining_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }
+double joining_seconds(std::size_t points) { return 6e-6 * static_cast<double>(points); }
 
-double certifying_seconds(std::size_t points) { return 1e-5 * static_cast<double>(points); }
+double certifying_seconds(std::size_t points) { return 2e-6 * static_cast<double>(points); }
 
 PhaseProgress::PhaseProgress()
     : terminal_(standard_error_is_terminal()), thread_([this] { speak(); }) {}
