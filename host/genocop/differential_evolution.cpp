@@ -48,20 +48,12 @@ Genes DifferentialEvolution::child(const Member& member, const Member& base, con
 std::optional<DifferentialEvolution::Trial> DifferentialEvolution::propose(
     const std::function<Genes()>& start, RandomStream& random) {
   const std::size_t member = next_;
-  const auto advance = [&] { next_ = (next_ + 1) % members_.size(); };
-  if (starts_ < members_.size()) {
-    ++starts_;
-    advance();
-    return Trial{start(), member};
-  }
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (i != member && members_[i]) others.push_back(i);
   }
-  if (!members_[member]) {  // it failed, or it is in flight
-    advance();
-    return Trial{start(), member};
-  }
+  next_ = (next_ + 1) % members_.size();
+  if (!members_[member]) return Trial{start(), member};
   std::array<std::size_t, 3> chosen{};
   if (others.size() < chosen.size()) return std::nullopt;
   for (std::size_t& choice : chosen) {
@@ -69,7 +61,6 @@ std::optional<DifferentialEvolution::Trial> DifferentialEvolution::propose(
     choice = others[at];
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
   }
-  advance();
   return Trial{child(*members_[member], *members_[chosen[0]], *members_[chosen[1]],
                      *members_[chosen[2]], random),
                member};
@@ -81,10 +72,7 @@ void DifferentialEvolution::told(std::size_t member, const Genes& free,
   std::optional<Member>& old = members_[member];
   if (old && !at_least_as_good(evaluation, old->evaluation)) return;
   old = Member{free, evaluation};
-  if (member == 0 && all_alike()) {
-    std::ranges::fill(members_, std::nullopt);
-    starts_ = 0;
-  }
+  if (member == 0 && all_alike()) std::ranges::fill(members_, std::nullopt);
 }
 
 bool DifferentialEvolution::all_alike() const {

@@ -43,9 +43,8 @@ class DifferentialEvolution {
   bool all_alike() const;
 
   const LinearDomain& domain_;
-  std::vector<std::optional<Member>> members_;  // nothing: not evaluated yet
+  std::vector<std::optional<Member>> members_;  // nothing: none was evaluated yet
   std::size_t next_ = 0;
-  std::size_t starts_ = 0;  // members whose first point was asked for
 };
 
 }  // namespace emax

@@ -119,6 +119,14 @@ TEST(DifferentialEvolution, FailuresTakeNoPlaceAndStartsAreMadeAnew) {
     evolution.told(trial->member, trial->free, Evaluation{});
   }
   EXPECT_EQ(starts, 2 * evolution.size());
+  // Where a single member is known, no trial can be made of it, but the others are still asked for.
+  const auto first = evolution.propose(start, random);
+  evolution.told(first->member, first->free, {true, 1, -1});
+  for (std::size_t i = 1; i < evolution.size(); ++i) {
+    EXPECT_TRUE(evolution.propose(start, random));
+  }
+  EXPECT_FALSE(evolution.propose(start, random));
+  EXPECT_TRUE(evolution.propose(start, random));
 }
 
 // 3^10 local optima; also that a population which has become one point begins anew.
