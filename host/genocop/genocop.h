@@ -127,6 +127,7 @@ class Genocop {
 
   // proposals.cpp: candidates that are asked for
   void make_starts();
+  Genes next_of_sobol(RandomStream& random);
   void make_more_starts(std::size_t count);
   bool descent_is_over() const;
   void begin_anew();

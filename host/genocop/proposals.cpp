@@ -59,13 +59,15 @@ void Genocop::begin_anew() {
   descent_.after_starts = asked() + starts_.size();
 }
 
+Genes Genocop::next_of_sobol(RandomStream& random) {
+  const auto index = static_cast<std::uint32_t>(sampled_++);
+  return domain_.from_unit_cube(sobol_point(seed_, index, domain_.size()), random);
+}
+
 void Genocop::make_more_starts(std::size_t count) {
   RandomStream random(seed_, asked(), RandomStream::Purpose::kStart);
   if (settings_.sobol_starts) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto index = static_cast<std::uint32_t>(sampled_++);
-      starts_.push_back(domain_.from_unit_cube(sobol_point(seed_, index, domain_.size()), random));
-    }
+    for (std::size_t i = 0; i < count; ++i) starts_.push_back(next_of_sobol(random));
     return;
   }
   std::vector<std::vector<double>> positions(count, std::vector<double>(domain_.size()));
@@ -210,10 +212,7 @@ std::optional<Genocop::Proposal> Genocop::next_differential(RandomStream& random
   const bool has_ended = descent_.first > 0 || finished_.size() > 1;
   if (!differential_ || !has_ended || many_genes() == 0) return std::nullopt;
   if (!random.chance(many_genes())) return std::nullopt;
-  const auto start = [&] {
-    const auto index = static_cast<std::uint32_t>(sampled_++);
-    return domain_.from_unit_cube(sobol_point(seed_, index, domain_.size()), random);
-  };
+  const auto start = [&] { return next_of_sobol(random); };
   for (int draw = 0; draw < kRedraws; ++draw) {
     std::optional<DifferentialEvolution::Trial> trial = differential_->propose(start, random);
     if (!trial) break;

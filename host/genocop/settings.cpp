@@ -62,7 +62,7 @@ std::span<const SettingInfo> setting_infos() {
        "evaluations without gain after which populations and local searches begin anew; 0: never; "
        "only where local searches run"},
       {"differential", &S::differential, 0, 0,
-       "differential evolution beside the descents after the first, with more than eight genes; "
+       "differential evolution once a local search has ended, with more than eight genes; "
        "only where local searches run"},
       {"first_phase", &S::first_phase, 0, 0,
        "minimise the violation while nothing is feasible; false: draw at random"},

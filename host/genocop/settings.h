@@ -63,7 +63,7 @@ struct Settings {
   double finish_share = 0.6;         // of the candidates while one runs; more with many genes
   double finish_radius = 0.1;        // the first trust region, of the domains
   std::size_t restart_after = 300;   // evaluations without gain, where local searches run; 0: never
-  bool differential = true;          // evolution beside later descents, with many genes
+  bool differential = true;          // evolution beside the descents, with many genes
   bool first_phase = true;           // while nothing is feasible, minimise the violation
   bool adaptive_frequencies = true;  // of the operators
   double frequency_floor = 0.3;      // of the offspring, divided equally among the operators
