@@ -14,49 +14,59 @@
 namespace emax {
 namespace {
 
-using Reader = FileContent (*)(const InputFile&);
-using StreamReader = FileContent (*)(const InputStream&, const CloudReadOptions&);
+using Reader = void (*)(const InputStream&, FileContent&);
 
+constexpr std::string_view kNotFinite = "not finite";
 constexpr std::array<std::string_view, 14> kEndings{".ply", ".pcd", ".xyz", ".asc", ".txt",
                                                     ".pts", ".obj", ".off", ".las", ".laz",
                                                     ".e57", ".ptx", ".glb", ".3mf"};
-// Those of the other endings.
-constexpr std::array<std::pair<std::string_view, StreamReader>, 3> kStreamReaders{
-    {{".las", read_las}, {".laz", read_las}, {".e57", read_e57}}};
-constexpr std::array<std::pair<std::string_view, Reader>, 11> kCloudReaders{{{".ply", read_ply},
-                                                                             {".pcd", read_pcd},
-                                                                             {".xyz", read_xyz},
-                                                                             {".asc", read_xyz},
-                                                                             {".txt", read_xyz},
-                                                                             {".pts", read_pts},
-                                                                             {".obj", read_obj},
-                                                                             {".off", read_off},
-                                                                             {".glb", read_glb},
-                                                                             {".3mf", read_threemf},
-                                                                             {".ptx", read_ptx}}};
+// Those of all endings but .las and .laz, whose points have classes.
+constexpr std::array<std::pair<std::string_view, Reader>, 12> kCloudReaders{
+    {{".ply", read_ply},
+     {".pcd", read_pcd},
+     {".xyz", read_xyz},
+     {".asc", read_xyz},
+     {".txt", read_xyz},
+     {".pts", read_pts},
+     {".obj", read_whole<read_obj>},
+     {".off", read_whole<read_off>},
+     {".glb", read_whole<read_glb>},
+     {".3mf", read_whole<read_threemf>},
+     {".ptx", read_ptx},
+     {".e57", read_e57}}};
 
-constexpr auto kEndingOf = [](const auto& reader) { return reader.first; };
-
-FileContent read_content(const std::filesystem::path& path, const CloudReadOptions& options) {
+void read_content(const std::filesystem::path& path, const CloudReadOptions& options,
+                  FileContent& content) {
   const std::string ending = format_ending(path);
-  const auto of_stream = std::ranges::find(kStreamReaders, ending, kEndingOf);
-  if (of_stream != kStreamReaders.end()) {
-    const InputStream input(path);
-    if (input.size() == 0) input.fail("the file is empty", "export it again");
-    check_ending_fits(input, input.head(), ending);
-    return of_stream->second(input, options);
-  }
-  const InputFile input = read_input(path);
-  const auto known = std::ranges::find(kCloudReaders, ending, kEndingOf);
-  if (known == kCloudReaders.end()) {
+  const InputStream input(path);
+  input.require_content();
+  if (std::ranges::find(kEndings, ending) == kEndings.end()) {
     input.fail(fmt::format("unknown ending \"{}\"", printable(ending)),
                fmt::format("clouds are read from {}", fmt::join(kEndings, ", ")));
   }
-  check_ending_fits(input, input.bytes, ending);
-  return known->second(input);
+  check_ending_fits(input, input.head(), ending);
+  const auto ending_of = [](const auto& reader) { return reader.first; };
+  const auto known = std::ranges::find(kCloudReaders, ending, ending_of);
+  if (known == kCloudReaders.end()) {
+    read_las(input, options, content);
+  } else {
+    known->second(input, content);
+  }
 }
 
-void drop_invalid(PointCloud& cloud) {
+// Throws Error for a file without a point that is kept, and for options that do not fit it.
+void check_content(const NamedInput& input, const CloudReadOptions& options,
+                   const FileContent& content) {
+  if (!options.left_out_classes.empty() && !content.has_classes) {
+    input.fail("--class: only LAS and LAZ files have classes", "leave the option out");
+  }
+  if (content.points() > 0) return;
+  if (content.left_out.empty()) input.fail("holds no points", "export it again");
+  input.fail(fmt::format("every point is left out: {}", describe(content.left_out)),
+             "check the options and the export");
+}
+
+void drop_points_that_are_not_finite(PointCloud& cloud) {
   std::size_t kept = 0;
   std::vector<std::uint32_t> file_index;
   auto scan = cloud.scans.begin();
@@ -70,10 +80,25 @@ void drop_invalid(PointCloud& cloud) {
     ++kept;
   }
   for (; scan != cloud.scans.end(); ++scan) scan->begin = kept;
-  cloud.left_out.push_back({"not finite", cloud.points.size() - kept});
+  cloud.left_out.push_back({std::string(kNotFinite), cloud.points.size() - kept});
   cloud.file_index = std::move(file_index);
   cloud.points.resize(kept);
   if (has_normals) cloud.normals.resize(kept);
+}
+
+// Drops the points with a NaN or infinite coordinate if that is asked for, else throws Error.
+void drop_invalid(const NamedInput& input, const CloudReadOptions& options,
+                  const std::string& first_invalid, PointCloud& cloud) {
+  if (first_invalid.empty()) return;
+  if (!options.skip_invalid) {
+    input.fail(fmt::format("{}: a coordinate is NaN or infinite", first_invalid),
+               "mend the file, or leave such points out with --skip-invalid");
+  }
+  drop_points_that_are_not_finite(cloud);
+}
+
+void require_points(const NamedInput& input, std::uint64_t points) {
+  if (points == 0) input.fail("every point has a NaN or infinite coordinate", "export it again");
 }
 
 // The first of the points with the greatest `measure`, and that measure.
@@ -101,33 +126,50 @@ std::string describe(const std::vector<LeftOut>& left_out) {
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options) {
   if (std::filesystem::is_directory(path)) return read_scan_folder(path, options);
   const NamedInput input{path.string()};
-  FileContent content = read_content(path, options);
-  if (!options.left_out_classes.empty() && !content.has_classes) {
-    input.fail("--class: only LAS and LAZ files have classes", "leave the option out");
-  }
-  if (content.vertices.empty()) {
-    if (content.left_out.empty()) input.fail("holds no points", "export it again");
-    input.fail(fmt::format("every point is left out: {}", describe(content.left_out)),
-               "check the options and the export");
-  }
+  FileContent content;
+  read_content(path, options, content);
+  check_content(input, options, content);
 
   PointCloud cloud{
       std::move(content.vertices), std::move(content.normals),  std::move(content.file_index),
       std::move(content.scans),    std::move(content.left_out), content.unit,
       content.resolution};
-  if (!content.first_invalid.empty()) {
-    if (!options.skip_invalid) {
-      input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
-                 "mend the file, or leave such points out with --skip-invalid");
-    }
-    drop_invalid(cloud);
-    if (cloud.points.empty()) {
-      input.fail("every point has a NaN or infinite coordinate", "export it again");
-    }
-  }
+  drop_invalid(input, options, content.first_invalid, cloud);
+  require_points(input, cloud.points.size());
   const auto is_usable = [](const Point& n) { return n.allFinite() && !n.isZero(0); };
   if (!std::ranges::all_of(cloud.normals, is_usable)) cloud.normals.clear();
   return cloud;
+}
+
+PointCloud read_cloud_in_pieces(const std::filesystem::path& path, const CloudReadOptions& options,
+                                std::size_t piece_points,
+                                const std::function<void(PointCloud)>& take) {
+  if (std::filesystem::is_directory(path)) {
+    return read_scan_folder_in_pieces(path, options, piece_points, take);
+  }
+  const NamedInput input{path.string()};
+  FileContent content;
+  std::uint64_t points = 0, not_finite = 0;
+  content.take_pieces(piece_points, [&](FileContent& c) {
+    PointCloud piece;
+    piece.first_index = static_cast<std::uint32_t>(c.points_given - c.vertices.size());
+    piece.points = std::move(c.vertices);
+    piece.file_index = std::move(c.file_index);
+    drop_invalid(input, options, c.first_invalid, piece);
+    for (const LeftOut& part : piece.left_out) not_finite += part.points;
+    points += piece.points.size();
+    if (!piece.points.empty()) take(std::move(piece));
+  });
+  read_content(path, options, content);
+  content.give_piece();
+  check_content(input, options, content);
+  require_points(input, points);
+  if (not_finite > 0) content.left_out.push_back({std::string(kNotFinite), not_finite});
+  PointCloud rest;
+  rest.left_out = std::move(content.left_out);
+  rest.unit = content.unit;
+  rest.resolution = content.resolution;
+  return rest;
 }
 
 void check_cloud(const PointCloud& cloud, std::string_view file) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,6 +36,14 @@ std::span<const std::string_view> cloud_endings();
 // are applied. LAS, LAZ and E57 files are read in pieces. A folder is read as one cloud
 // (scan_folder.h); `path` may be compressed or standard input as InputStream's may.
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options = {});
+
+// As read_cloud(), but gives the points to `take` in file order, `piece_points` or fewer at a time,
+// and holds no more of them; without normals. Returns the rest of what the file says, without
+// points and scans. Files of .obj .off .glb .3mf and compressed .pcd
+// are held whole.
+PointCloud read_cloud_in_pieces(const std::filesystem::path& path, const CloudReadOptions& options,
+                                std::size_t piece_points,
+                                const std::function<void(PointCloud)>& take);
 
 // "120 empty cells, 3 not finite"
 std::string describe(const std::vector<LeftOut>& left_out);

@@ -60,7 +60,7 @@ void read_scan(const InputStream& input, E57File& file, std::size_t index, FileC
   // At least a bit of each point is in the file.
   check_count(input, scan.records, "points", 1, 8 * input.size());
   check_count(input, content.index_of_next() + scan.records, "points", 1, ~std::uint64_t{0});
-  content.scans.push_back({scan.name.empty() ? name : scan.name, content.vertices.size()});
+  content.scans.push_back({scan.name.empty() ? name : scan.name, content.points()});
   Point greatest = Point::Zero();
   file.read_points(index, [&](std::span<const double> points,
                               std::span<const std::uint8_t> states) {
@@ -80,8 +80,7 @@ void read_scan(const InputStream& input, E57File& file, std::size_t index, FileC
 
 }  // namespace
 
-FileContent read_e57(const InputStream& input, const CloudReadOptions& /*options*/) {
-  FileContent content;
+void read_e57(const InputStream& input, FileContent& content) {
   content.unit = unit_named("m");
   std::string place;
   try {
@@ -93,7 +92,6 @@ FileContent read_e57(const InputStream& input, const CloudReadOptions& /*options
   } catch (const CrateRefusal& refusal) {
     input.fail(place + refusal.what(), kExportAgain);
   }
-  return content;
 }
 
 }  // namespace emax

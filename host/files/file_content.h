@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -47,19 +49,42 @@ struct FileContent {
   // A mesh is read with vertices of equal coordinates merged.
   bool repeats_vertices = false;
 
+  // Gives the points to `take` as they come, at most `points` at a time, and holds no more than
+  // these; normals and triangles are not kept.
+  void take_pieces(std::size_t points, std::function<void(FileContent&)> take) {
+    piece_points = points;
+    take_piece = std::move(take);
+  }
+  bool points_only() const { return take_piece != nullptr; }
+  void give_piece() {
+    if (vertices.empty()) return;
+    points_given += vertices.size();
+    take_piece(*this);
+    vertices.clear();
+    file_index.clear();
+  }
+  // Takes the content of a file that was read whole.
+  void take(FileContent whole);
+  // The points that were added so far.
+  std::uint64_t points() const { return points_given + vertices.size(); }
+  void expect_points(std::uint64_t count) {
+    vertices.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(count, piece_points)));
+  }
+
   void add_vertex(const Point& point, std::string_view place, std::uint64_t number) {
     if (first_invalid.empty() && !point.allFinite()) {
       first_invalid = std::string(place) + ' ' + std::to_string(number);
     }
     if (left_out_points > 0) file_index.push_back(index_of_next());
     vertices.push_back(point);
+    if (vertices.size() == piece_points) give_piece();
   }
 
   // The next point of the file is left out.
   void leave_out(std::string_view reason) {
     if (left_out_points == 0) {
       file_index.resize(vertices.size());
-      std::iota(file_index.begin(), file_index.end(), 0u);
+      std::iota(file_index.begin(), file_index.end(), static_cast<std::uint32_t>(points_given));
     }
     ++left_out_points;
     const auto known = std::ranges::find(left_out, reason, &LeftOut::reason);
@@ -72,10 +97,13 @@ struct FileContent {
 
   // The index in the file of the point that is added or left out next.
   std::uint32_t index_of_next() const {
-    return static_cast<std::uint32_t>(vertices.size() + left_out_points);
+    return static_cast<std::uint32_t>(points() + left_out_points);
   }
 
   std::uint64_t left_out_points = 0;
+  std::uint64_t points_given = 0;
+  std::size_t piece_points = std::numeric_limits<std::size_t>::max();
+  std::function<void(FileContent&)> take_piece;
 
   void note_attribute(std::string_view name) {
     if (std::ranges::find(attributes, name) == attributes.end()) attributes.emplace_back(name);
@@ -96,6 +124,7 @@ void add_polygon(FileContent& content, std::span<const std::int64_t> polygon,
            std::to_string(vertex_count) + " - 1");
     }
   }
+  if (content.points_only()) return;
   const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon[i]); };
   if (polygon.size() > 3) content.fans.emplace_back(content.triangles.size(), polygon.size() - 2);
   for (std::size_t i = 2; i < polygon.size(); ++i) {
@@ -122,7 +151,7 @@ void add_strips(FileContent& content, std::span<const std::int64_t> corners,
       const bool is_stitch = a == b || b == c || c == a;
       // The indices of triangles that are left out are checked, too.
       add_polygon(content, triangle, vertex_count, fail);
-      if (is_stitch) content.triangles.pop_back();
+      if (is_stitch && !content.points_only()) content.triangles.pop_back();
     }
     begin = end + 1;
   }
@@ -135,7 +164,6 @@ void check_count(const NamedInput& input, std::uint64_t count, std::string_view 
 
 // One reader for each format. The readers are strict: everything that the header promises must be
 // there, and nothing may follow it. Only after the data of a PCD file there may be padding.
-FileContent read_ply(const InputFile& input);  // ascii, binary little and big endian
 FileContent read_off(const InputFile& input);  // [C][N]OFF
 FileContent read_obj(const InputFile& input);  // v, vn, f; other elements are ignored
 FileContent read_stl(const InputFile& input);  // ascii, binary; equal vertices merged
@@ -144,21 +172,30 @@ FileContent read_glb(const InputFile& input);
 // What is built of a 3MF package (core and production specification), with all transforms applied.
 FileContent read_threemf(const InputFile& input);
 FileContent read_dxf(const InputFile& input);  // ascii; the 3DFACEs
-FileContent read_pcd(const InputFile& input);  // ascii, binary, binary_compressed
+
+// Those of the formats of great clouds read a file from front to back and give its points in pieces
+// where `content` asks for these. Only PCD's compressed data is held whole.
+void read_ply(const InputStream& input, FileContent& content);  // ascii, binary of both endians
+void read_pcd(const InputStream& input, FileContent& content);  // ascii, binary, binary_compressed
 // Columns: x y z, then any others (intensity, colour, normal in any order), as many in every row.
 // The first three columns after x y z that hold a unit vector in every row are the normal. Columns
 // are separated by blanks, commas or semicolons, the same throughout the file. Decimal commas are
 // refused.
-FileContent read_xyz(const InputFile& input);
+void read_xyz(const InputStream& input, FileContent& content);
 // As read_xyz, but the four columns after x y z (intensity and colour) are never part of a normal,
 // and the first line may hold the count.
-FileContent read_pts(const InputFile& input);
+void read_pts(const InputStream& input, FileContent& content);
 // Several scans, each with a grid of cells and a pose. Empty cells (0 0 0) are left out.
-FileContent read_ptx(const InputFile& input);
+void read_ptx(const InputStream& input, FileContent& content);
+// A reader of whole files as one of those above.
+template <auto kRead>
+void read_whole(const InputStream& input, FileContent& content) {
+  content.take(kRead(read_input(input)));
+}
 
 // LAS 1.0 to 1.4 and LAZ, every point format. The classes of `options` are left out.
-FileContent read_las(const InputStream& input, const CloudReadOptions& options);
+void read_las(const InputStream& input, const CloudReadOptions& options, FileContent& content);
 // Several scans, each with a pose. Points that are marked as invalid are left out.
-FileContent read_e57(const InputStream& input, const CloudReadOptions& options);
+void read_e57(const InputStream& input, FileContent& content);
 
 }  // namespace emax

@@ -20,14 +20,6 @@ namespace {
 
 constexpr std::size_t kHeadBytes = 4096;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 // The ending of the format that the first bytes indicate; empty if they indicate none.
 std::string_view ending_by_content(std::string_view bytes) {
   if (bytes.starts_with("ASTM-E57")) return ".e57";
@@ -120,6 +112,13 @@ std::uint64_t InputStream::size_of(int descriptor) const {
 
 InputStream::~InputStream() { close(descriptor_); }
 
+void InputStream::require_content() const {
+  if (size_ > 0) return;
+  char byte = 0;
+  if (pread(descriptor_, &byte, 1, 0) < 0) fail_to_read(*this, errno);
+  fail("the file is empty", "export it again");
+}
+
 void InputStream::read(std::uint64_t offset, std::span<std::uint8_t> to) const {
   while (!to.empty()) {
     const ssize_t n = pread(descriptor_, to.data(), to.size(), static_cast<off_t>(offset));
@@ -137,8 +136,9 @@ std::string InputStream::head() const {
   return bytes;
 }
 
-InputFile read_input(const std::filesystem::path& path) {
-  const InputStream file(path);
+InputFile read_input(const std::filesystem::path& path) { return read_input(InputStream(path)); }
+
+InputFile read_input(const InputStream& file) {
   InputFile input{{file.name}, {}};
   // One byte more than the size, so that the end of the file is found without growing the buffer.
   std::size_t used = 0;
@@ -181,95 +181,6 @@ void check_ending_fits(const NamedInput& input, std::string_view head, std::stri
         fmt::format("the ending is {} but the content is that of a {} file", ending, content),
         fmt::format("rename it to {}", content));
   }
-}
-
-bool TextLines::next() {
-  const std::string_view bytes = input_.bytes;
-  while (offset_ < bytes.size()) {
-    const std::size_t end = std::min(bytes.find('\n', offset_), bytes.size());
-    text_ = bytes.substr(offset_, end - offset_);
-    offset_ = std::min(end + 1, bytes.size());
-    ++line_;
-    if (comments_ != Comments::kNone) text_ = text_.substr(0, text_.find('#'));
-    if (comments_ == Comments::kHashOrSlashes) text_ = text_.substr(0, text_.find("//"));
-    text_ = trimmed(text_);
-    if (text_.empty()) continue;
-    split();
-    return true;
-  }
-  return false;
-}
-
-void TextLines::require_next(std::string_view wanted) {
-  if (!next()) fail_at_end(wanted);
-}
-
-void TextLines::require_next(std::string_view item, std::size_t index, std::size_t count) {
-  if (!next()) fail_at_end(fmt::format("{} {} of {}", item, index, count));
-}
-
-void TextLines::fail_at_end(std::string_view wanted) const {
-  input_.fail(fmt::format("the file ends after line {} where {} must follow", line_, wanted),
-              kExportAgain);
-}
-
-void TextLines::set_separator(char separator) {
-  separator_ = separator;
-  split();
-}
-
-void TextLines::split() {
-  fields_.clear();
-  if (separator_ != ' ') {
-    for (std::size_t begin = 0; begin <= text_.size();) {
-      const std::size_t end = std::min(text_.find(separator_, begin), text_.size());
-      fields_.push_back(trimmed(text_.substr(begin, end - begin)));
-      begin = end + 1;
-    }
-    return;
-  }
-  const char* at = text_.data();
-  const char* const end = at + text_.size();
-  while (at != end) {
-    const char* const begin = at;
-    while (at != end && !is_blank(*at)) ++at;
-    fields_.emplace_back(begin, static_cast<std::size_t>(at - begin));
-    while (at != end && is_blank(*at)) ++at;
-  }
-}
-
-double TextLines::number(std::size_t i) const {
-  const std::optional<double> value = parse_double(fields_[i]);
-  if (value) return *value;
-  if (is_decimal_comma(fields_[i])) fail_at_decimal_comma(fields_[i]);
-  fail(fmt::format("\"{}\" is not a 64-bit number", printable(fields_[i])));
-}
-
-void TextLines::fail_at_decimal_comma(std::string_view text) const {
-  fail(fmt::format("\"{}\" has a decimal comma", printable(text)),
-       "export the file with decimal points, or replace the commas by points");
-}
-
-std::int64_t TextLines::integer(std::size_t i) const {
-  const std::optional<std::int64_t> value = parse_integer(fields_[i]);
-  if (!value) fail(fmt::format("\"{}\" is not a whole number", printable(fields_[i])));
-  return *value;
-}
-
-std::uint64_t TextLines::count(std::size_t i) const {
-  const std::int64_t value = integer(i);
-  if (value < 0) fail(fmt::format("{} is negative", value));
-  return static_cast<std::uint64_t>(value);
-}
-
-Point TextLines::point(std::size_t i) const {
-  const double x = number(i);
-  const double y = number(i + 1);
-  return {x, y, number(i + 2)};
-}
-
-void TextLines::fail(std::string_view what, std::string_view remedy) const {
-  input_.fail(fmt::format("line {}: {}", line_, what), remedy);
 }
 
 std::string printable(std::string_view text) {

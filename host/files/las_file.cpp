@@ -218,10 +218,9 @@ class PointReader {
 
 }  // namespace
 
-FileContent read_las(const InputStream& input, const CloudReadOptions& options) {
+void read_las(const InputStream& input, const CloudReadOptions& options, FileContent& content) {
   const LasHeader header = read_las_header(input);
   const Records records = read_records(input, header);
-  FileContent content;
   content.has_classes = true;
   content.unit = unit_of(input, records);
   content.resolution = header.scale.norm() / 2;
@@ -233,14 +232,14 @@ FileContent read_las(const InputStream& input, const CloudReadOptions& options) 
       input.fail("the record that describes its compression is missing", kExportAgain);
     }
     check_count(input, header.points, "points", 1, std::uint64_t{1} << 32);
-    if (header.points == 0) return content;
+    if (header.points == 0) return;
     try {
       read_laz(input.descriptor(), {*records.laz, header.offset, header.point_bytes, header.points},
                [&](std::span<const std::uint8_t> points) { reader.read(points); });
     } catch (const CrateRefusal& refusal) {
       input.fail(refusal.what(), kExportAgain);
     }
-    return content;
+    return;
   }
   if (!EMAX_FAULT(kTrustsCounts)) {
     check_count(input, header.points, "points", header.point_bytes, room);
@@ -250,7 +249,7 @@ FileContent read_las(const InputStream& input, const CloudReadOptions& options) 
                            room / header.point_bytes),
                kExportAgain);
   }
-  content.vertices.reserve(header.points);
+  content.expect_points(header.points);
   constexpr std::uint64_t kPiece = 1 << 16;
   std::vector<std::uint8_t> piece;
   for (std::uint64_t i = 0; i < header.points; i += kPiece) {
@@ -258,7 +257,6 @@ FileContent read_las(const InputStream& input, const CloudReadOptions& options) 
     input.read(header.offset + i * header.point_bytes, piece);
     reader.read(piece);
   }
-  return content;
 }
 
 }  // namespace emax

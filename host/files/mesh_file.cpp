@@ -16,13 +16,18 @@
 namespace emax {
 namespace {
 
-using Reader = FileContent (*)(const InputFile&);
+using Reader = void (*)(const InputStream&, FileContent&);
 
 // In the order of MeshFormat.
 constexpr std::array<std::string_view, 7> kMeshEndings{".ply", ".obj", ".stl", ".off",
                                                        ".glb", ".3mf", ".dxf"};
-constexpr std::array<Reader, 7> kMeshReaders{read_ply, read_obj,     read_stl, read_off,
-                                             read_glb, read_threemf, read_dxf};
+constexpr std::array<Reader, 7> kMeshReaders{read_ply,
+                                             read_whole<read_obj>,
+                                             read_whole<read_stl>,
+                                             read_whole<read_off>,
+                                             read_whole<read_glb>,
+                                             read_whole<read_threemf>,
+                                             read_whole<read_dxf>};
 
 std::optional<MeshFormat> format_with(std::string_view ending) {
   const auto known = std::ranges::find(kMeshEndings, ending);
@@ -35,12 +40,15 @@ std::optional<MeshFormat> format_with(std::string_view ending) {
                           printable(ending), fmt::join(kMeshEndings, ", ")));
 }
 
-FileContent read_content(const InputFile& input, const std::filesystem::path& path) {
+FileContent read_content(const InputStream& input, const std::filesystem::path& path) {
+  input.require_content();
   const std::string ending = format_ending(path);
   const std::optional<MeshFormat> format = format_with(ending);
   if (!format) fail_at_ending(path, ending);
-  check_ending_fits(input, input.bytes, ending);
-  return kMeshReaders[static_cast<std::size_t>(*format)](input);
+  check_ending_fits(input, input.head(), ending);
+  FileContent content;
+  kMeshReaders[static_cast<std::size_t>(*format)](input, content);
+  return content;
 }
 
 // Meshes of depth images have a vertex for every pixel, NaN where nothing was seen. Such a vertex
@@ -71,7 +79,7 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 TriangleMesh read_mesh(const std::filesystem::path& path) { return read_mesh_file(path).mesh; }
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
-  const InputFile input = read_input(path);
+  const InputStream input(path);
   FileContent content = read_content(input, path);
   if (content.triangles.empty()) {
     input.fail("holds no triangles", "give a mesh, a cloud cannot stand in its place");
@@ -90,7 +98,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
 }
 
 bool holds_triangles(const std::filesystem::path& path) {
-  return !read_content(read_input(path), path).triangles.empty();
+  return !read_content(InputStream(path), path).triangles.empty();
 }
 
 std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format, const MeshNotes& notes) {

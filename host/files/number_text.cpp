@@ -17,6 +17,12 @@ std::optional<Number> parse(std::string_view text) {
 
 }  // namespace
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 std::optional<double> parse_double(std::string_view text) { return parse<double>(text); }
 
 std::optional<std::int64_t> parse_integer(std::string_view text) {

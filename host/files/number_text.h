@@ -7,6 +7,13 @@
 
 namespace emax {
 
+// Blanks within a line.
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+// `text` without the blanks around it.
+std::string_view trimmed(std::string_view text);
+
 // Numbers as text, independent of the locale and strict: the whole of `text` must be the number,
 // with at most a '+' before it. Decimal and scientific notation, "nan", "inf". Returns nothing if
 // `text` is not a number, or a number that 64 bits cannot hold (1e999, 1e-999).

@@ -7,6 +7,7 @@
 
 #include "host/files/file_content.h"
 #include "host/files/number_text.h"
+#include "host/files/text_lines.h"
 
 namespace emax {
 namespace {

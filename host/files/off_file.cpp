@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/files/file_content.h"
+#include "host/files/text_lines.h"
 
 namespace emax {
 

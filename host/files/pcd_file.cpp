@@ -12,6 +12,7 @@
 
 #include "host/files/file_content.h"
 #include "host/files/number_text.h"
+#include "host/files/text_lines.h"
 
 namespace emax {
 namespace {
@@ -35,7 +36,7 @@ struct PcdHeader {
   std::vector<Field> fields;
   std::uint64_t points = 0;
   Data data = Data::kText;
-  std::size_t body = 0;
+  std::uint64_t body = 0;
   std::size_t last_line = 0;
 
   std::size_t point_bytes() const {
@@ -63,7 +64,7 @@ void check_field(const TextLines& lines, const Field& field) {
   }
 }
 
-PcdHeader read_pcd_header(const InputFile& input) {
+PcdHeader read_pcd_header(const InputStream& input) {
   TextLines lines(input, TextLines::Comments::kHash);
   PcdHeader header;
   std::optional<std::uint64_t> width, height, points;
@@ -188,11 +189,11 @@ double load(const Field& field, const char* bytes) {
 }
 
 // The decompressed body: all values of the first field, then all of the second, ...
-std::string decompress(const InputFile& input, const PcdHeader& header, std::uint64_t wanted) {
-  const std::size_t room = input.bytes.size() - header.body;
+std::string decompress(const InputStream& input, const PcdHeader& header, std::uint64_t wanted) {
+  const std::uint64_t room = input.size() - header.body;
   std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
   if (room < sizeof sizes) input.fail("the file ends before its compressed data", kExportAgain);
-  std::memcpy(sizes.data(), input.bytes.data() + header.body, sizeof sizes);
+  input.read(header.body, {reinterpret_cast<std::uint8_t*>(sizes.data()), sizeof sizes});
   if (sizes[0] > room - sizeof sizes) {
     input.fail(fmt::format("{} bytes of compressed data are promised, {} follow", sizes[0],
                            room - sizeof sizes),
@@ -204,9 +205,10 @@ std::string decompress(const InputFile& input, const PcdHeader& header, std::uin
         fmt::format("{} bytes of data cannot be the promised {} points", sizes[1], header.points),
         kExportAgain);
   }
+  std::vector<std::uint8_t> compressed(sizes[0]);
+  input.read(header.body + sizeof sizes, compressed);
   std::string data(sizes[1], '\0');
-  if (lzf_decompress(input.bytes.data() + header.body + sizeof sizes, sizes[0], data.data(),
-                     sizes[1]) != sizes[1]) {
+  if (lzf_decompress(compressed.data(), sizes[0], data.data(), sizes[1]) != sizes[1]) {
     input.fail("the compressed data are damaged", kExportAgain);
   }
   return data;
@@ -225,20 +227,21 @@ bool is_point(const TextLines& lines, std::size_t columns) {
 // Writers pad the data to whole pages of memory. Bytes after the last point are therefore ignored,
 // as the Point Cloud Library's reader ignores them. A further line of text that is a point is
 // refused, because it contradicts the header.
-FileContent read_pcd(const InputFile& input) {
+void read_pcd(const InputStream& input, FileContent& content) {
   const PcdHeader header = read_pcd_header(input);
   const auto coordinates = find_three(header, {"x", "y", "z"});
   if (!coordinates) {
     input.fail("the header has no FIELDS x, y and z",
                "it is no PCD file with coordinates, export it with these fields");
   }
-  const auto normal = find_three(header, {"normal_x", "normal_y", "normal_z"});
-  const std::size_t room = input.bytes.size() - header.body;
+  const auto normal = content.points_only()
+                          ? std::nullopt
+                          : find_three(header, {"normal_x", "normal_y", "normal_z"});
+  const std::uint64_t room = input.size() - header.body;
   const std::size_t point_bytes = header.point_bytes();
 
-  FileContent content;
   const auto add_all = [&](std::string_view place, auto&& value, auto&& number) {
-    content.vertices.reserve(header.points);
+    content.expect_points(header.points);
     const auto three = [&](const ThreePlaces& at, std::size_t i) {
       Point point;
       for (int k = 0; k < 3; ++k) point[k] = value(at[static_cast<std::size_t>(k)], i);
@@ -269,19 +272,20 @@ FileContent read_pcd(const InputFile& input) {
     if (lines.next() && is_point(lines, header.columns())) {
       lines.fail(fmt::format("more points than the {} of the header", header.points));
     }
-    return content;
+    return;
   }
 
   if (header.data == Data::kBinary) {
     check_count(input, header.points, "points", point_bytes, room);
-    const char* const body = input.bytes.data() + header.body;
+    InputWindow window(input);
     add_all(
         "vertex",
         [&](const Place& p, std::size_t i) {
-          return load(*p.field, body + i * point_bytes + p.offset);
+          const std::uint64_t at = header.body + i * point_bytes + p.offset;
+          return load(*p.field, window.bytes(at, p.field->size).data());
         },
         vertex_number);
-    return content;
+    return;
   }
 
   // The format itself has 32-bit sizes here.
@@ -294,7 +298,6 @@ FileContent read_pcd(const InputFile& input) {
         return load(*p.field, body.data() + header.points * p.offset + i * p.field->size);
       },
       vertex_number);
-  return content;
 }
 
 }  // namespace emax

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "host/files/file_content.h"
+#include "host/files/text_lines.h"
 
 namespace emax {
 namespace {
@@ -60,7 +61,7 @@ struct PlyHeader {
   bool text = false;
   bool big_endian = false;
   std::vector<Element> elements;
-  std::size_t body = 0;       // offset of the first byte of values
+  std::uint64_t body = 0;     // offset of the first byte of values
   std::size_t last_line = 0;  // of the header
 };
 
@@ -79,7 +80,7 @@ Property parse_property(const TextLines& lines) {
   return {std::string(lines[2]), parse_type(lines, 1, false), {}};
 }
 
-PlyHeader read_ply_header(const InputFile& input) {
+PlyHeader read_ply_header(const InputStream& input) {
   TextLines lines(input, TextLines::Comments::kNone);
   if (!lines.next() || lines.line() != 1 || lines.text() != "ply") {
     input.fail("does not begin with \"ply\"",
@@ -127,7 +128,7 @@ class TextValues {
   static std::size_t least_bytes(Type) { return 2; }  // a digit and the byte that ends it
   static std::size_t slack() { return 1; }            // the last digit may end the file
 
-  TextValues(const InputFile& input, const PlyHeader& header)
+  TextValues(const InputStream& input, const PlyHeader& header)
       : lines_(input, TextLines::Comments::kNone, header.body, header.last_line) {}
 
   void begin_item(const Element& element, std::uint64_t index) {
@@ -167,8 +168,8 @@ class BinaryValues {
   static std::size_t least_bytes(Type type) { return size_of(type); }
   static std::size_t slack() { return 0; }
 
-  BinaryValues(const InputFile& input, const PlyHeader& header)
-      : input_(input), at_(header.body), swap_(header.big_endian) {
+  BinaryValues(const InputStream& input, const PlyHeader& header)
+      : window_(input), at_(header.body), swap_(header.big_endian) {
     static_assert(std::endian::native == std::endian::little);
   }
 
@@ -209,18 +210,18 @@ class BinaryValues {
     at_ += count * size_of(type);
   }
   bool has_room(Type type, std::uint64_t count) const {
-    return count <= (input_.bytes.size() - at_) / size_of(type);
+    return count <= (window_.size() - at_) / size_of(type);
   }
   void end_item() {}
   void end() {
-    if (at_ != input_.bytes.size()) {
-      input_.fail(fmt::format("{} bytes follow the last element", input_.bytes.size() - at_),
-                  kExportAgain);
+    if (at_ != window_.size()) {
+      window_.input().fail(fmt::format("{} bytes follow the last element", window_.size() - at_),
+                           kExportAgain);
     }
   }
   std::uint64_t place(std::uint64_t index) const { return index; }
   [[noreturn]] void fail(std::string_view what) const {
-    input_.fail(fmt::format("{} {}: {}", element_->name, index_, what), kExportAgain);
+    window_.input().fail(fmt::format("{} {}: {}", element_->name, index_, what), kExportAgain);
   }
 
  private:
@@ -230,16 +231,17 @@ class BinaryValues {
 
   template <class Word>
   Word take() {
-    if (input_.bytes.size() - at_ < sizeof(Word)) fail_at_end();
+    const std::string_view held = window_.bytes(at_, sizeof(Word));
+    if (held.size() < sizeof(Word)) fail_at_end();
     std::array<char, sizeof(Word)> bytes;
-    std::memcpy(bytes.data(), input_.bytes.data() + at_, sizeof(Word));
+    std::memcpy(bytes.data(), held.data(), sizeof(Word));
     at_ += sizeof(Word);
     if (swap_) std::ranges::reverse(bytes);
     return std::bit_cast<Word>(bytes);
   }
 
-  const InputFile& input_;
-  std::size_t at_;
+  InputWindow window_;
+  std::uint64_t at_;
   bool swap_;
   const Element* element_ = nullptr;
   std::uint64_t index_ = 0;
@@ -313,10 +315,10 @@ std::optional<std::array<std::size_t, 3>> find_three(const Element& element,
 template <class Values>
 class Body {
  public:
-  Body(const InputFile& input, const PlyHeader& header)
-      : input_(input), header_(header), values_(input, header) {}
+  Body(const InputStream& input, const PlyHeader& header, FileContent& content)
+      : input_(input), header_(header), values_(input, header), content_(content) {}
 
-  FileContent read() {
+  void read() {
     const auto is_vertex = [](const Element& e) { return e.name == "vertex"; };
     const auto vertex = std::ranges::find_if(header_.elements, is_vertex);
     const auto coordinates =
@@ -325,7 +327,7 @@ class Body {
       input_.fail("no element \"vertex\" with the properties x, y and z",
                   "export the cloud with coordinates under these names");
     }
-    std::uint64_t bytes_left = input_.bytes.size() - header_.body + Values::slack();
+    std::uint64_t bytes_left = input_.size() - header_.body + Values::slack();
     for (const Element& element : header_.elements) {
       const std::uint64_t least = least_item_bytes(element);
       if (element.count > 0 && least == 0) {
@@ -346,7 +348,6 @@ class Body {
     }
     values_.end();
     note_attributes(header_, content_);
-    return std::move(content_);
   }
 
  private:
@@ -366,8 +367,9 @@ class Body {
   }
 
   void read_vertices(const Element& element, const std::array<std::size_t, 3>& coordinates) {
-    const auto normal = find_three(element, {"nx", "ny", "nz"});
-    content_.vertices.reserve(element.count);
+    const auto normal =
+        content_.points_only() ? std::nullopt : find_three(element, {"nx", "ny", "nz"});
+    content_.expect_points(element.count);
     if (normal) content_.normals.reserve(element.count);
     std::vector<double> item(element.properties.size());
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -413,18 +415,18 @@ class Body {
     }
   }
 
-  const InputFile& input_;
+  const InputStream& input_;
   const PlyHeader& header_;
   Values values_;
-  FileContent content_;
+  FileContent& content_;
 };
 
 }  // namespace
 
-FileContent read_ply(const InputFile& input) {
+void read_ply(const InputStream& input, FileContent& content) {
   const PlyHeader header = read_ply_header(input);
-  return header.text ? Body<TextValues>(input, header).read()
-                     : Body<BinaryValues>(input, header).read();
+  header.text ? Body<TextValues>(input, header, content).read()
+              : Body<BinaryValues>(input, header, content).read();
 }
 
 }  // namespace emax

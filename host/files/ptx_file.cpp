@@ -6,6 +6,7 @@
 
 #include "host/files/file_content.h"
 #include "host/files/pose.h"
+#include "host/files/text_lines.h"
 
 namespace emax {
 namespace {
@@ -50,9 +51,8 @@ Pose read_pose(TextLines& lines) {
 
 }  // namespace
 
-FileContent read_ptx(const InputFile& input) {
+void read_ptx(const InputStream& input, FileContent& content) {
   TextLines lines(input, TextLines::Comments::kNone);
-  FileContent content;
   lines.require_next("the number of columns");
   do {
     if (lines.size() != 1) {
@@ -61,16 +61,15 @@ FileContent read_ptx(const InputFile& input) {
     const std::uint64_t columns = lines.count(0);
     const std::uint64_t rows = read_one_count(lines, "the number of rows");
     const Pose pose = read_pose(lines);
-    const std::uint64_t room = (input.bytes.size() - lines.offset() + 1) / kLeastLineBytes;
+    const std::uint64_t room = (input.size() - lines.offset() + 1) / kLeastLineBytes;
     if (columns != 0 && rows > room / columns) {
       lines.fail(fmt::format("{} x {} cells are promised, but the rest of the file has room for {}",
                              columns, rows, room),
                  kExportAgain);
     }
     const std::uint64_t cells = columns * rows;
-    check_count(input, content.index_of_next() + cells, "points", 1, input.bytes.size());
-    content.scans.push_back(
-        {fmt::format("scan {}", content.scans.size()), content.vertices.size()});
+    check_count(input, content.index_of_next() + cells, "points", 1, input.size());
+    content.scans.push_back({fmt::format("scan {}", content.scans.size()), content.points()});
 
     std::size_t width = 0;
     double farthest = 0;
@@ -94,7 +93,6 @@ FileContent read_ptx(const InputFile& input) {
     if (width > 4) content.note_attribute(kColours);
     content.resolution = std::max(content.resolution, pose.defect() / 2 * farthest);
   } while (lines.next());
-  return content;
 }
 
 }  // namespace emax

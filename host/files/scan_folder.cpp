@@ -16,10 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The points that the file of this cloud holds, those that were left out included.
-std::uint64_t points_in_file(const PointCloud& cloud) {
-  return std::accumulate(cloud.left_out.begin(), cloud.left_out.end(),
-                         std::uint64_t{cloud.points.size()},
+std::uint64_t left_out_points(const PointCloud& cloud) {
+  return std::accumulate(cloud.left_out.begin(), cloud.left_out.end(), std::uint64_t{0},
                          [](std::uint64_t sum, const LeftOut& part) { return sum + part.points; });
 }
 
@@ -27,14 +25,52 @@ std::string unit_text(const std::optional<Unit>& unit) {
   return unit ? fmt::format("is in {}", unit->name) : "states no unit";
 }
 
+// What the clouds of a folder say beside their points.
+class JoinedFacts {
+ public:
+  explicit JoinedFacts(std::string first) : first_(std::move(first)) {}
+
+  // `kept`: the points of the file that are not left out.
+  void add(const fs::path& file, const PointCloud& cloud, std::uint64_t kept) {
+    if (points_ > 0 && cloud.unit != whole_.unit) {
+      throw Error(fmt::format("{}: {}, but {} {}; convert them to one unit", file.string(),
+                              unit_text(cloud.unit), first_, unit_text(whole_.unit)));
+    }
+    const std::uint64_t points = kept + left_out_points(cloud);
+    if (points > std::numeric_limits<std::uint32_t>::max() - points_) {
+      throw Error(
+          fmt::format("{}: the folder has more points than 32-bit indices can name; split "
+                      "the folder",
+                      file.string()));
+    }
+    for (const LeftOut& part : cloud.left_out) {
+      const auto known = std::ranges::find(whole_.left_out, part.reason, &LeftOut::reason);
+      known != whole_.left_out.end() ? void(known->points += part.points)
+                                     : whole_.left_out.push_back(part);
+    }
+    whole_.unit = cloud.unit;
+    whole_.resolution = std::max(whole_.resolution, cloud.resolution);
+    points_ += points;
+  }
+
+  std::uint64_t points() const { return points_; }  // of all files so far
+  PointCloud finish() { return std::move(whole_); }
+
+ private:
+  std::string first_;
+  PointCloud whole_;
+  std::uint64_t points_ = 0;
+};
+
 // Puts clouds one behind the other.
 class Joined {
  public:
-  void add(const std::string& name, PointCloud cloud) {
+  // `before`: the points of the files before.
+  void add(const std::string& name, PointCloud cloud, std::uint64_t before) {
     const std::size_t begin = whole_.points.size();
     const bool has_normals = !cloud.normals.empty() && (begin == 0 || !whole_.normals.empty());
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-      index_.push_back(static_cast<std::uint32_t>(points_ + cloud.index_in_file(i)));
+      index_.push_back(static_cast<std::uint32_t>(before + cloud.index_in_file(i)));
     }
     whole_.points.insert(whole_.points.end(), cloud.points.begin(), cloud.points.end());
     whole_.normals.insert(whole_.normals.end(), cloud.normals.begin(), cloud.normals.end());
@@ -44,19 +80,12 @@ class Joined {
       whole_.scans.push_back(
           {scan.name.empty() ? name : name + '/' + scan.name, begin + scan.begin});
     }
-    for (const LeftOut& part : cloud.left_out) {
-      const auto known = std::ranges::find(whole_.left_out, part.reason, &LeftOut::reason);
-      known != whole_.left_out.end() ? void(known->points += part.points)
-                                     : whole_.left_out.push_back(part);
-    }
-    whole_.unit = cloud.unit;
-    whole_.resolution = std::max(whole_.resolution, cloud.resolution);
-    points_ += points_in_file(cloud);
   }
 
-  const PointCloud& whole() const { return whole_; }
-  std::uint64_t points() const { return points_; }
-  PointCloud finish() {
+  PointCloud finish(PointCloud facts) {
+    whole_.left_out = std::move(facts.left_out);
+    whole_.unit = std::move(facts.unit);
+    whole_.resolution = facts.resolution;
     if (!whole_.left_out.empty()) whole_.file_index = std::move(index_);
     return std::move(whole_);
   }
@@ -64,7 +93,6 @@ class Joined {
  private:
   PointCloud whole_;
   std::vector<std::uint32_t> index_;  // of each point among those of all files
-  std::uint64_t points_ = 0;          // of all files
 };
 
 }  // namespace
@@ -90,25 +118,36 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
 }
 
 PointCloud read_scan_folder(const fs::path& folder, const CloudReadOptions& options) {
-  Joined joined;
   const std::vector<fs::path> files = scans_in(folder);
+  JoinedFacts facts(files.front().filename().string());
+  Joined joined;
   for (const fs::path& file : files) {
     PointCloud cloud = read_cloud(file, options);
-    const std::optional<Unit>& unit = joined.whole().unit;
-    if (file != files.front() && cloud.unit != unit) {
-      throw Error(fmt::format("{}: {}, but {} {}; convert them to one unit", file.string(),
-                              unit_text(cloud.unit), files.front().filename().string(),
-                              unit_text(unit)));
-    }
-    if (points_in_file(cloud) > std::numeric_limits<std::uint32_t>::max() - joined.points()) {
-      throw Error(
-          fmt::format("{}: the folder has more points than 32-bit indices can name; split "
-                      "the folder",
-                      file.string()));
-    }
-    joined.add(file.filename().string(), std::move(cloud));
+    const std::uint64_t before = facts.points();
+    facts.add(file, cloud, cloud.points.size());
+    joined.add(file.filename().string(), std::move(cloud), before);
   }
-  return joined.finish();
+  return joined.finish(facts.finish());
+}
+
+PointCloud read_scan_folder_in_pieces(const fs::path& folder, const CloudReadOptions& options,
+                                      std::size_t piece_points,
+                                      const std::function<void(PointCloud)>& take) {
+  const std::vector<fs::path> files = scans_in(folder);
+  JoinedFacts facts(files.front().filename().string());
+  for (const fs::path& file : files) {
+    const auto before = static_cast<std::uint32_t>(facts.points());
+    std::uint64_t kept = 0;
+    const PointCloud rest =
+        read_cloud_in_pieces(file, options, piece_points, [&](PointCloud piece) {
+          piece.first_index += before;
+          for (std::uint32_t& index : piece.file_index) index += before;
+          kept += piece.points.size();
+          take(std::move(piece));
+        });
+    facts.add(file, rest, kept);
+  }
+  return facts.finish();
 }
 
 std::string sha256_of_folder(const fs::path& folder) {

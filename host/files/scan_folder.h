@@ -19,6 +19,11 @@ std::vector<std::filesystem::path> scans_in(const std::filesystem::path& folder)
 // named "file/scan". Throws Error naming the file that cannot be read, and where the units differ.
 PointCloud read_scan_folder(const std::filesystem::path& folder, const CloudReadOptions& options);
 
+// The same in pieces, as read_cloud_in_pieces().
+PointCloud read_scan_folder_in_pieces(const std::filesystem::path& folder,
+                                      const CloudReadOptions& options, std::size_t piece_points,
+                                      const std::function<void(PointCloud)>& take);
+
 // The SHA-256 of the lines that `sha256sum` prints for these files in the folder: it holds their
 // names, too.
 std::string sha256_of_folder(const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "host/files/file_content.h"
+#include "host/files/text_lines.h"
 #include "host/geometry/merge_vertices.h"
 #include "sw_model/base/deliberate_fault.h"
 

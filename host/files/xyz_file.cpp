@@ -7,6 +7,7 @@
 
 #include "host/files/file_content.h"
 #include "host/files/number_text.h"
+#include "host/files/text_lines.h"
 
 namespace emax {
 namespace {
@@ -42,9 +43,8 @@ struct NormalColumns {
 
 // Reads rows from the current line of `lines` on. No column before `first_normal` is part of a
 // normal.
-FileContent read_rows(const InputFile& input, TextLines& lines, std::size_t first_normal,
-                      std::optional<std::uint64_t> count) {
-  FileContent content;
+void read_rows(const InputStream& input, TextLines& lines, std::size_t first_normal,
+               std::optional<std::uint64_t> count, FileContent& content) {
   lines.set_separator(separator_of(lines));
   const std::size_t columns = lines.size();
   if (columns < 3) {
@@ -52,40 +52,42 @@ FileContent read_rows(const InputFile& input, TextLines& lines, std::size_t firs
                "export x y z, or check that this is a text file of points");
   }
   std::vector<NormalColumns> candidates;
-  for (std::size_t k = first_normal; k + 3 <= columns; ++k) candidates.push_back({k, {}});
+  for (std::size_t k = first_normal; k + 3 <= columns && !content.points_only(); ++k) {
+    candidates.push_back({k, {}});
+  }
   do {
-    if (count && content.vertices.size() == *count) {
+    if (count && content.points() == *count) {
       lines.fail(fmt::format("more lines than the {} points of the first line", *count));
     }
     if (lines.size() != columns) {
       lines.fail(fmt::format("{} columns where the first point has {}", lines.size(), columns));
     }
-    content.add_vertex(lines.point(0), "line", lines.line());
+    const Point point = lines.point(0);
+    content.add_vertex(point, "line", lines.line());
     for (std::size_t k = 3; k < columns; ++k) lines.number(k);
     // The row of an invalid point may have an invalid normal. It does not exclude these columns.
     std::erase_if(candidates, [&](NormalColumns& candidate) {
       candidate.normals.push_back(lines.point(candidate.first));
-      return !is_unit(candidate.normals.back()) && content.vertices.back().allFinite();
+      return !is_unit(candidate.normals.back()) && point.allFinite();
     });
   } while (lines.next());
-  if (count && content.vertices.size() != *count) {
-    input.fail(fmt::format("the first line promises {} points, {} follow", *count,
-                           content.vertices.size()),
-               kExportAgain);
+  if (count && content.points() != *count) {
+    input.fail(
+        fmt::format("the first line promises {} points, {} follow", *count, content.points()),
+        kExportAgain);
   }
   if (!candidates.empty()) content.normals = std::move(candidates.front().normals);
-  return content;
 }
 
 }  // namespace
 
-FileContent read_xyz(const InputFile& input) {
+void read_xyz(const InputStream& input, FileContent& content) {
   TextLines lines(input, TextLines::Comments::kHashOrSlashes);
   lines.require_next("a point");
-  return read_rows(input, lines, 3, std::nullopt);
+  read_rows(input, lines, 3, std::nullopt, content);
 }
 
-FileContent read_pts(const InputFile& input) {
+void read_pts(const InputStream& input, FileContent& content) {
   TextLines lines(input, TextLines::Comments::kHashOrSlashes);
   lines.require_next("the number of points");
   std::optional<std::uint64_t> count;
@@ -93,7 +95,7 @@ FileContent read_pts(const InputFile& input) {
     count = lines.count(0);
     lines.require_next(fmt::format("the first of {} points", *count));
   }
-  return read_rows(input, lines, 7, count);
+  read_rows(input, lines, 7, count, content);
 }
 
 }  // namespace emax

@@ -35,9 +35,12 @@ struct PointCloud {
   // The farthest that rounding to the numbers of the file may have moved a point. It is 0 where the
   // numbers have 64 bits, and for text and meshes, where it is not known.
   double resolution = 0;
+  // The index in the file of the first point where file_index is empty: not 0 in a piece of a
+  // cloud.
+  std::uint32_t first_index = 0;
 
   std::uint32_t index_in_file(std::size_t i) const {
-    return file_index.empty() ? static_cast<std::uint32_t>(i) : file_index[i];
+    return file_index.empty() ? first_index + static_cast<std::uint32_t>(i) : file_index[i];
   }
 };
 
