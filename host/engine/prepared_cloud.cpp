@@ -22,7 +22,10 @@ Eigen::AlignedBox3d widened(const FloatBox& box) {
 }  // namespace
 
 PreparedCloud::PreparedCloud(std::span<const Point> cloud)
-    : normalization_(normalization_of(cloud)), points_(normalized_points(cloud, normalization_)) {
+    : PreparedCloud(cloud, normalization_of(cloud)) {}
+
+PreparedCloud::PreparedCloud(std::span<const Point> cloud, const Normalization& normalization)
+    : normalization_(normalization), points_(normalized_points(cloud, normalization)) {
   const std::size_t packets = (points_.size() + kPacketPoints - 1) / kPacketPoints;
   packets_.reserve(packets);
   boxes_.reserve(packets);

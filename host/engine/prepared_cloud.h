@@ -24,6 +24,8 @@ class PreparedCloud {
 
   // Throws std::invalid_argument as normalization_of does.
   explicit PreparedCloud(std::span<const Point> cloud);
+  // Of some points of a cloud, which is normalised as a whole.
+  PreparedCloud(std::span<const Point> points, const Normalization& normalization);
 
   const Normalization& normalization() const { return normalization_; }
   std::span<const Vector3<float>> points() const { return points_; }

@@ -1,62 +1,112 @@
 #include "host/report/error_statistics.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "host/engine/nearest_rank.h"
 
 namespace emax {
 namespace {
 
-double quantile_of(std::span<const double> sorted, double percent) {
-  return sorted[nearest_rank(percent / 100, sorted.size()) - 1];
+// Distances are not negative, so that they are ordered as the bits of their numbers.
+std::uint64_t bits_of(double distance) { return std::bit_cast<std::uint64_t>(distance + 0.0); }
+
+constexpr unsigned kDigitBits = 13;
+constexpr unsigned kDigits = 5;  // five have 65 bits
+
+// A number that is sought by its rank, of which some leading digits are known.
+struct Sought {
+  std::size_t rank;  // from 1, among the numbers with these digits
+  std::uint64_t digits = 0;
+};
+
+// The distances of the given ranks, from 1 in ascending order: their digits one after the other, by
+// counting how many distances have which next digit.
+std::vector<double> distances_of_ranks(const DistancePieces& distances,
+                                       const std::vector<std::size_t>& ranks) {
+  std::vector<Sought> sought;
+  for (const std::size_t rank : ranks) sought.push_back({rank});
+  for (unsigned known = 0; known < kDigits; ++known) {
+    std::vector<std::uint64_t> prefixes;
+    for (const Sought& s : sought) prefixes.push_back(s.digits);
+    std::ranges::sort(prefixes);
+    prefixes.erase(std::unique(prefixes.begin(), prefixes.end()), prefixes.end());
+    std::vector<std::array<std::size_t, 1u << kDigitBits>> counts(prefixes.size());
+    const unsigned below = kDigitBits * (kDigits - 1 - known);
+    distances([&](std::span<const double> piece) {
+      for (const double distance : piece) {
+        const std::uint64_t digits = bits_of(distance) >> below;
+        const std::uint64_t prefix = digits >> kDigitBits;
+        const auto at = std::ranges::lower_bound(prefixes, prefix);
+        if (at == prefixes.end() || *at != prefix) continue;
+        ++counts[static_cast<std::size_t>(at - prefixes.begin())]
+                [digits & ((1u << kDigitBits) - 1)];
+      }
+    });
+    for (Sought& s : sought) {
+      const auto at = std::ranges::lower_bound(prefixes, s.digits) - prefixes.begin();
+      const auto& of_digit = counts[static_cast<std::size_t>(at)];
+      std::uint64_t digit = 0;
+      for (; s.rank > of_digit[digit]; ++digit) s.rank -= of_digit[digit];
+      s.digits = s.digits << kDigitBits | digit;
+    }
+  }
+  std::vector<double> found;
+  for (const Sought& s : sought) found.push_back(std::bit_cast<double>(s.digits));
+  return found;
 }
 
-std::vector<ErrorStatistics::Bin> histogram_of(std::span<const double> sorted) {
+// Equal bins up to `reach`, and one up to `maximum`; and how many distances exceed the limit.
+void count(const DistancePieces& distances, double reach, std::optional<double> limit,
+           ErrorStatistics& s) {
   constexpr std::size_t kEqual = kHistogramBins - 1;
-  const double reach = quantile_of(sorted, kHistogramReach);
-  std::vector<ErrorStatistics::Bin> bins;
-  std::size_t below = 0;
-  const auto add = [&](double up_to) {
-    const std::size_t end = static_cast<std::size_t>(
-        std::upper_bound(sorted.begin(), sorted.end(), up_to) - sorted.begin());
-    bins.push_back({up_to, end - below});
-    below = end;
-  };
   for (std::size_t i = 1; i < kEqual; ++i) {
-    add(reach * static_cast<double>(i) / static_cast<double>(kEqual));
+    s.histogram.push_back({reach * static_cast<double>(i) / static_cast<double>(kEqual), 0});
   }
-  add(reach);
-  add(sorted.back());
-  return bins;
+  s.histogram.push_back({reach, 0});
+  s.histogram.push_back({s.maximum, 0});
+  if (limit) s.exceeding = 0;
+  distances([&](std::span<const double> piece) {
+    for (const double distance : piece) {
+      ++std::ranges::lower_bound(s.histogram, distance, {}, &ErrorStatistics::Bin::up_to)->count;
+      if (limit && distance > *limit) ++*s.exceeding;
+    }
+  });
 }
 
 }  // namespace
 
-ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
+ErrorStatistics statistics_of(const DistancePieces& distances, std::span<const double> percents,
                               std::optional<double> limit) {
   ErrorStatistics s;
-  s.count = distances.size();
-  std::vector<double> sorted(distances.begin(), distances.end());
-  std::ranges::sort(sorted);
-  s.maximum = sorted.back();
   double sum = 0, squares = 0;
-  for (const double d : distances) {
-    sum += d;
-    squares += d * d;
+  distances([&](std::span<const double> piece) {
+    for (const double d : piece) {
+      sum += d;
+      squares += d * d;
+      s.maximum = std::max(s.maximum, d);
+    }
+    s.count += piece.size();
+  });
+  const double number = static_cast<double>(s.count);
+  s.mean = std::min(sum / number, s.maximum);
+  s.rms = std::min(std::sqrt(squares / number), s.maximum);
+  std::vector<std::size_t> ranks = {nearest_rank(kHistogramReach / 100, s.count)};
+  for (const double percent : percents) ranks.push_back(nearest_rank(percent / 100, s.count));
+  const std::vector<double> values = distances_of_ranks(distances, ranks);
+  for (std::size_t i = 0; i < percents.size(); ++i) {
+    s.quantiles.push_back({percents[i], values[i + 1]});
   }
-  const double count = static_cast<double>(s.count);
-  s.mean = std::min(sum / count, s.maximum);
-  s.rms = std::min(std::sqrt(squares / count), s.maximum);
-  for (const double percent : percents) {
-    s.quantiles.push_back({percent, quantile_of(sorted, percent)});
-  }
-  s.histogram = histogram_of(sorted);
-  if (limit) {
-    s.exceeding = static_cast<std::size_t>(sorted.end() -
-                                           std::upper_bound(sorted.begin(), sorted.end(), *limit));
-  }
+  count(distances, values.front(), limit, s);
   return s;
+}
+
+ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
+                              std::optional<double> limit) {
+  return statistics_of([&](const auto& take) { take(distances); }, percents, limit);
 }
 
 }  // namespace emax

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sw_model/base/error.h"
 #include "sw_model/base/flush_mode.h"
@@ -28,10 +29,10 @@ std::vector<bool> marked(std::size_t points, std::span<const std::uint32_t> excl
   return is_excluded;
 }
 
-void require_finite(std::span<const Point> cloud) {
+void require_finite(std::span<const Point> cloud, std::size_t first_index) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!(cloud[i].array().abs() < 1e150).all()) {  // also for NaN
-      throw Error("point " + std::to_string(i) +
+      throw Error("point " + std::to_string(first_index + i) +
                   " is not finite or beyond 1e150: nothing can be certified of it");
     }
   }
@@ -66,78 +67,123 @@ std::vector<std::uint32_t> along_a_curve(std::span<const Point> cloud,
   return order;
 }
 
-// The greatest distance so far, and the lowest index of a point that has it.
+// The greatest distance so far, and of the points that have it the one of the lowest index.
 struct Worst {
   double upper = -1;
   std::size_t point = std::numeric_limits<std::size_t>::max();
+  Point at = Point::Zero();
 
-  void raise(double distance, std::size_t at) {
-    if (distance < upper || (distance == upper && at > point)) return;
-    upper = distance;
-    point = at;
+  void raise(const Worst& other) {
+    if (other.upper < upper || (other.upper == upper && other.point > point)) return;
+    *this = other;
   }
   // A point with any triangle within this cannot be the worst.
-  double enough(std::size_t at) const {
-    return at > point ? upper : std::nextafter(upper, -std::numeric_limits<double>::infinity());
+  double enough(std::size_t index) const {
+    return index > point ? upper : std::nextafter(upper, -std::numeric_limits<double>::infinity());
   }
 };
 
 constexpr std::size_t kPiece = 4096;  // points
 
-Worst worst_of(std::span<const Point> cloud, std::span<const std::uint32_t> order,
-               const ExactMesh& mesh, std::size_t threads) {
-  Worst worst;
+}  // namespace
+
+struct PiecewiseCertificate::State {
+  explicit State(const ExactMesh& m) : mesh(m) {}
+
+  const ExactMesh& mesh;
   std::mutex mutex;
-  in_pieces(threads, order.size(), kPiece, [&](std::size_t, std::size_t first, std::size_t last) {
+  Worst worst;
+  std::size_t points = 0;
+  std::vector<std::pair<std::uint32_t, double>> excluded;
+
+  void search(std::span<const Point> cloud, std::size_t first_index,
+              std::span<const std::uint32_t> order) {
     Worst mine;
     {
       const std::lock_guard lock(mutex);
       mine = worst;
     }
     std::optional<std::uint32_t> near;
-    for (const std::uint32_t i : order.subspan(first, last - first)) {
-      const double enough = mine.enough(i);
+    for (const std::uint32_t i : order) {
+      const double enough = mine.enough(first_index + i);
       if (near && mesh.is_within(cloud[i], *near, enough)) continue;
       const ExactMesh::Nearest nearest = mesh.nearest(cloud[i], enough, near.value_or(~0u));
       near = nearest.triangle;
-      if (nearest.distance.upper > enough) mine.raise(nearest.distance.upper, i);
+      if (nearest.distance.upper > enough) {
+        mine.raise({nearest.distance.upper, first_index + i, cloud[i]});
+      }
     }
     const std::lock_guard lock(mutex);
-    worst.raise(mine.upper, mine.point);
+    worst.raise(mine);
+  }
+};
+
+PiecewiseCertificate::PiecewiseCertificate(const ExactMesh& mesh)
+    : state_(std::make_unique<State>(mesh)) {}
+PiecewiseCertificate::~PiecewiseCertificate() = default;
+
+void PiecewiseCertificate::add(std::span<const Point> piece, std::size_t first,
+                               std::span<const std::uint32_t> excluded, std::size_t threads) {
+  require_no_flush("the certificate");
+  const std::vector<bool> is_excluded = marked(piece.size(), excluded);
+  if (piece.empty()) return;
+  require_finite(piece, first);
+  const std::vector<std::uint32_t> order = along_a_curve(piece, is_excluded);
+  in_pieces(threads, order.size(), kPiece, [&](std::size_t, std::size_t begin, std::size_t end) {
+    state_->search(piece, first, std::span(order).subspan(begin, end - begin));
   });
-  return worst;
+  std::vector<std::pair<std::uint32_t, double>> left_out;
+  for (const std::uint32_t i : excluded) {
+    left_out.emplace_back(static_cast<std::uint32_t>(first + i),
+                          state_->mesh.distance(piece[i]).upper);
+  }
+  const std::lock_guard lock(state_->mutex);
+  state_->points += piece.size() - excluded.size();
+  state_->excluded.insert(state_->excluded.end(), left_out.begin(), left_out.end());
 }
 
-}  // namespace
+CertifiedError PiecewiseCertificate::finish() {
+  require_no_flush("the certificate");
+  if (state_->points == 0) {
+    throw Error("no point is left to certify: give a cloud, exclude less");
+  }
+  CertifiedError result;
+  result.points = state_->points;
+  result.worst_point = state_->worst.point;
+  // Computed once more without a seed: the lower end depends on the triangles that a search met.
+  const DistanceBounds distance = state_->mesh.distance(state_->worst.at);
+  result.e_max_upper = distance.upper;
+  result.e_max_lower = distance.lower;
+  result.e_max_upper_all = result.e_max_upper;
+  std::ranges::sort(state_->excluded);
+  for (const auto& [index, upper] : state_->excluded) {
+    result.excluded.push_back(index);
+    result.excluded_distances.push_back(upper);
+    result.e_max_upper_all = std::max(result.e_max_upper_all, upper);
+  }
+  return result;
+}
 
 CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
                        std::span<const std::uint32_t> excluded, std::size_t threads) {
-  require_no_flush("the certificate");
-  const std::vector<bool> is_excluded = marked(cloud.size(), excluded);
-  require_finite(cloud);
-  CertifiedError result;
-  result.points = cloud.size() - excluded.size();
-  if (result.points == 0) throw Error("no point is left to certify: give a cloud, exclude less");
-
-  result.worst_point = worst_of(cloud, along_a_curve(cloud, is_excluded), mesh, threads).point;
-  // Computed once more without a seed: the lower end depends on the triangles that a search met.
-  const DistanceBounds distance = mesh.distance(cloud[result.worst_point]);
-  result.e_max_upper = distance.upper;
-  result.e_max_lower = distance.lower;
-
-  result.excluded.assign(excluded.begin(), excluded.end());
-  result.e_max_upper_all = result.e_max_upper;
+  PiecewiseCertificate certificate(mesh);
+  certificate.add(cloud, 0, excluded, threads);
+  CertifiedError result = certificate.finish();
+  // In the order in which they were given.
+  const std::vector<double> ascending = std::move(result.excluded_distances);
+  result.excluded_distances.clear();
   for (const std::uint32_t index : excluded) {
-    result.excluded_distances.push_back(mesh.distance(cloud[index]).upper);
-    result.e_max_upper_all = std::max(result.e_max_upper_all, result.excluded_distances.back());
+    const auto at = std::ranges::lower_bound(result.excluded, index) - result.excluded.begin();
+    result.excluded_distances.push_back(ascending[static_cast<std::size_t>(at)]);
   }
+  result.excluded.assign(excluded.begin(), excluded.end());
   return result;
 }
 
 CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
                        std::span<const std::uint32_t> excluded, std::size_t threads) {
   require_no_flush("the certificate");
-  require_finite(cloud);
+  require_finite(cloud, 0);
   return certify(cloud, ExactMesh(mesh), excluded, threads);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,28 @@ CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
                        std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
 CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
                        std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
+
+// The same of a cloud that comes in pieces, in any order: certify() is one piece.
+class PiecewiseCertificate {
+ public:
+  // The mesh must outlive the certificate.
+  explicit PiecewiseCertificate(const ExactMesh& mesh);
+  ~PiecewiseCertificate();
+  PiecewiseCertificate(const PiecewiseCertificate&) = delete;
+  PiecewiseCertificate& operator=(const PiecewiseCertificate&) = delete;
+
+  // Points `first`, `first` + 1, ... of the cloud; `excluded` are those of them that do not count,
+  // by their indices in the piece. Several threads may add pieces at a time. Throws as certify(),
+  // with the points' indices in the cloud.
+  void add(std::span<const Point> piece, std::size_t first,
+           std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
+  // Once all pieces are there. The excluded are given by their indices in the cloud, ascending.
+  // Throws Error where nothing is left to certify.
+  CertifiedError finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace emax

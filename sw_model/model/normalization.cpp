@@ -17,9 +17,14 @@ Normalization normalization_of(std::span<const Point> cloud) {
       throw std::invalid_argument("the cloud has a coordinate that is not finite");
     box.extend(p);
   }
+  return normalization_of_box(box.min(), box.max());
+}
+
+Normalization normalization_of_box(const Point& lower, const Point& upper) {
+  require_no_flush("normalising");
   Normalization normalization;
-  normalization.origin = box.min() + (box.max() - box.min()) / 2;
-  const double half_extent = box.sizes().maxCoeff() / 2;
+  normalization.origin = lower + (upper - lower) / 2;
+  const double half_extent = (upper - lower).maxCoeff() / 2;
   if (half_extent > 0) {
     // frexp gives half_extent = m 2^e with m in [1/2, 1); m = 1/2 exactly belongs to the upper end.
     int exponent = 0;

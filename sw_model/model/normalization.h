@@ -26,6 +26,9 @@ constexpr double kMaxNormalizedCoordinate = 0x1p32;
 // Throws std::invalid_argument for an empty cloud or one that is not finite.
 Normalization normalization_of(std::span<const Point> cloud);
 
+// Of a cloud in this box, whose corners are finite.
+Normalization normalization_of_box(const Point& lower, const Point& upper);
+
 // The cloud as the kernel reads it: normalised in double, rounded once to binary32. O(n).
 std::vector<Vector3<float>> normalized_points(std::span<const Point> cloud,
                                               const Normalization& normalization);

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "host/engine/nearest_rank.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {
@@ -59,11 +61,41 @@ TEST(ErrorStatistics, KeepsItsOrderWithManyAndWithEqualNumbers) {
   EXPECT_EQ(s.exceeding, static_cast<std::size_t>(
                              std::ranges::count_if(distances, [](double d) { return d > 0.25; })));
 
-  const std::vector<double> zeros(7, 0.0);
+  const std::vector<double> zeros(7, -0.0);
   const ErrorStatistics none = statistics_of(zeros, kUsualQuantiles, 0.0);
   EXPECT_EQ(none.maximum, 0);
   EXPECT_EQ(none.exceeding, 0u);
   EXPECT_EQ(none.histogram.front().count, 7u);
+}
+
+// Against sorting all of them.
+TEST(ErrorStatistics, QuantilesAreThoseOfTheSortedDistances) {
+  test::Random random(302);
+  std::vector<double> distances(3001);
+  for (double& d : distances) {
+    d = random.uniform(0, 1) < 0.3 ? 1 + 1e-15 * random.uniform(0, 100)
+                                   : std::exp(random.uniform(-700, 700));
+  }
+  std::vector<double> percents;
+  for (int i = 0; i <= 1000; ++i) percents.push_back(i / 10.0);
+  const ErrorStatistics whole = statistics_of(distances, percents);
+  const ErrorStatistics pieces = statistics_of(
+      [&](const auto& take) {
+        const std::span<const double> all = distances;
+        take(all.first(1));
+        take(all.subspan(1, 2000));
+        take(all.subspan(2001));
+      },
+      percents);
+  std::vector<double> sorted = distances;
+  std::ranges::sort(sorted);
+  for (std::size_t i = 0; i < percents.size(); ++i) {
+    const std::size_t rank = nearest_rank(percents[i] / 100, sorted.size());
+    EXPECT_EQ(whole.quantiles[i].value, sorted[rank - 1]) << percents[i];
+    EXPECT_EQ(pieces.quantiles[i].value, sorted[rank - 1]) << percents[i];
+  }
+  EXPECT_EQ(pieces.mean, whole.mean);
+  EXPECT_EQ(pieces.rms, whole.rms);
 }
 
 }  // namespace

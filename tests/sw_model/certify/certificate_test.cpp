@@ -55,6 +55,40 @@ TEST(Certificate, EqualsBruteForceAndTheLowestWorstPoint) {
   }
 }
 
+void expect_equal(const CertifiedError& a, const CertifiedError& b) {
+  EXPECT_EQ(a.e_max_upper, b.e_max_upper);
+  EXPECT_EQ(a.e_max_lower, b.e_max_lower);
+  EXPECT_EQ(a.worst_point, b.worst_point);
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.excluded, b.excluded);
+  EXPECT_EQ(a.excluded_distances, b.excluded_distances);
+  EXPECT_EQ(a.e_max_upper_all, b.e_max_upper_all);
+}
+
+TEST(Certificate, PiecesInAnyOrderGiveThatOfTheWhole) {
+  for (const test::Stimulus& s : test::all_stimuli(74)) {
+    SCOPED_TRACE(s.name + ", seed 74");
+    const std::span<const Point> cloud = s.cloud;
+    std::vector<std::uint32_t> excluded;
+    for (std::uint32_t i = 3; i < cloud.size(); i += 7) excluded.push_back(i);
+    const ExactMesh mesh(s.mesh());
+    const CertifiedError whole = certify(cloud, mesh, excluded);
+    for (const std::size_t size : {std::size_t{1}, std::size_t{10}, cloud.size()}) {
+      PiecewiseCertificate pieces(mesh);
+      for (std::size_t last = cloud.size(); last > 0;) {  // the last piece first
+        const std::size_t first = last - std::min(size, last);
+        std::vector<std::uint32_t> of_piece;
+        for (const std::uint32_t i : excluded) {
+          if (i >= first && i < last) of_piece.push_back(static_cast<std::uint32_t>(i - first));
+        }
+        pieces.add(cloud.subspan(first, last - first), first, of_piece);
+        last = first;
+      }
+      expect_equal(pieces.finish(), whole);
+    }
+  }
+}
+
 // A bumpy sphere and three points far from it.
 test::Stimulus with_outliers() {
   test::Stimulus s = test::bumpy_sphere(12, 16, 300, 72);
