@@ -87,6 +87,15 @@ void add_level(CLI::App& command, int& level) {
       ->check(CLI::IsMember({20, 30, 40, 50}));
 }
 
+void add_memory(CLI::App& command, std::optional<std::uint64_t>& memory) {
+  command
+      .add_option("--memory", memory,
+                  "a cloud that needs more memory than this is not kept but read in pieces, with "
+                  "the same result: bytes, or N MB, N GB (default: half of what is free)")
+      ->transform(CLI::AsSizeValue(false))
+      ->transform(not_negative());  // CLI11 runs this one first
+}
+
 void add_points_and_json(CLI::App& command, std::string& excluded_share, CloudReadOptions& reading,
                          std::string& json) {
   add_json(command, json);
@@ -346,6 +355,7 @@ void add_error(CLI::App& app, CommandLine& line) {
       "--deviations", error.deviations,
       "write the mesh with the greatest deviation of the points at each triangle and vertex: .ply "
       ".glb");
+  add_memory(command, error.memory);
   add_quiet(command, line);
   add_examples(command,
                "  emax error scan.ply part.ply  the greatest distance, quantiles, histogram\n"

@@ -69,8 +69,9 @@ struct ErrorOptions {
   std::string reference;          // a mesh or a cloud; empty: the cloud itself
   std::vector<double> quantiles;  // percent; empty: the usual ones
   std::size_t worst = 5;
-  std::string color, color_mesh;  // PLY files; empty: none
-  std::string deviations;         // PLY or GLB; empty: none
+  std::string color, color_mesh;        // PLY files; empty: none
+  std::string deviations;               // PLY or GLB; empty: none
+  std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
 };
 int run_error(const ErrorOptions& options);
 

@@ -44,6 +44,10 @@ void CpuTwin::measure(MeshView mesh, const MeasuredError& by_device) {
   const auto start = std::chrono::steady_clock::now();
   const MeasuredError here = constraint_.measure(mesh, was_interrupted);
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  require_same(here, by_device);
+}
+
+void require_same(const MeasuredError& here, const MeasuredError& by_device) {
   if (here.kept != by_device.kept || here.excluded != by_device.excluded) {
     throw DeviceFailure(
         fmt::format("the device gives e_max^2 bits 0x{:08x}, the CPU 0x{:08x}; this is a defect of "

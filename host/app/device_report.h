@@ -14,6 +14,9 @@ namespace emax {
 // the instructions that the CPU's search uses.
 std::string describe_counters(const std::optional<DeviceCounters>& counters);
 
+// Throws DeviceFailure if the device's error is not that of this processor.
+void require_same(const MeasuredError& here, const MeasuredError& by_device);
+
 // Repeats a device's work on the CPU and measures the time.
 class CpuTwin {
  public:

@@ -12,6 +12,7 @@
 #include "host/app/error_findings.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/phase_progress.h"
 #include "host/app/reference_text.h"
 #include "host/app/report_output.h"
 #include "host/files/atomic_file.h"
@@ -46,6 +47,18 @@ void check_outputs(const ErrorOptions& options) {
   check_distinct(
       {json, options.color, options.color_mesh, options.deviations, report.report, report.picture},
       {options.common.cloud, options.mesh, options.reference});
+}
+
+// Throws Error if an option needs all points at a time and they are not in memory.
+void require_room(const ErrorOptions& options, const ScanPieces& scan) {
+  if (options.common.device != "cpu") scan.require_in_memory("--device");
+  if (options.two_sided && options.reference.empty()) {
+    scan.require_in_memory("--two-sided without --reference");
+  }
+  if (!options.color.empty()) scan.require_in_memory("--color");
+  if (!options.deviations.empty()) scan.require_in_memory("--deviations");
+  if (!options.common.report.report.empty()) scan.require_in_memory("--report");
+  if (!options.common.report.picture.empty()) scan.require_in_memory("--picture");
 }
 
 ErrorReference read_reference(const ErrorOptions& options, const Scan& scan) {
@@ -97,7 +110,7 @@ struct DeviceFindings {
 
 void print(Facts& facts, const ErrorFindings& f, const DeviceFindings& d,
            const ErrorOptions& options, const Scan& scan, const TriangleMesh& mesh) {
-  facts.add("cloud", "{}", describe(scan));
+  facts.add("cloud", "{}", describe(scan, f.points));
   print_left_out(facts, scan.cloud);
   print_doubtful_unit(facts, scan.width, scan.unit);
   facts.add("mesh", "{}: {} triangles; {}", options.mesh, grouped(mesh.triangles.size()),
@@ -185,7 +198,14 @@ int run_error(const ErrorOptions& options) {
   MeshFile file = read_mesh_file(options.mesh);
   TriangleMesh& mesh = file.mesh;
   drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
-  const Scan scan = read_scan(options.common.cloud, options.common.reading, options.common.unit);
+  question.memory = options.memory.value_or(question.memory);
+  PhaseProgress phase;
+  phase.begin("reading the cloud", reading_seconds(options.common.cloud));
+  const ScanPieces pieces(options.common.cloud, options.common.reading, options.common.unit,
+                          question.memory, was_interrupted);
+  phase.end();
+  const Scan& scan = pieces.scan();
+  require_room(options, pieces);
   require_unit_of(scan, options.mesh, file.unit);
   if (question.tolerance) question.tolerance = question.tolerance->in_unit_of(scan.unit);
   std::optional<ErrorReference> reference;
@@ -197,8 +217,10 @@ int run_error(const ErrorOptions& options) {
   question.brute_force = options.common.brute_force;
   question.device = device.get();
   question.interrupted = was_interrupted;
+  question.advance = [&phase](double share) { phase.advance(share); };
   DeviceFindings d;
-  const ErrorFindings f = find_errors(mesh, scan, reference, question,
+  phase.begin("measuring");
+  const ErrorFindings f = find_errors(mesh, pieces, reference, question,
                                       [&](ErrorConstraint& constraint, const ErrorFindings& now) {
                                         if (device) d.counters = device->counters();
                                         d.board = address.board;
@@ -207,6 +229,7 @@ int run_error(const ErrorOptions& options) {
                                         cpu.measure(mesh.view(), now.measured);
                                         d.cpu_seconds = cpu.seconds();
                                       });
+  phase.end();
   const std::optional<double>& limit = f.errors.limit;
 
   const std::string& json = options.common.json;

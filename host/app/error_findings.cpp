@@ -4,10 +4,16 @@
 #include <chrono>
 #include <cmath>
 #include <future>
-#include <numeric>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <set>
 #include <utility>
 
+#include "host/app/device_report.h"
+#include "host/measure/piece_measurement.h"
 #include "host/measure/point_distances.h"
+#include "host/report/distance_store.h"
 #include "host/report/surface_samples.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/parallel.h"
@@ -21,51 +27,129 @@ constexpr double kSurfacePrecision = 1e-3;
 constexpr double kFinest = 1e-6;  // of the width: the precision where the distance is near 0
 constexpr double kDecisionPrecision = 1e-9;
 
-// The kernel's distances. A distance that is printed, or that may lie on the other side of the
-// limit, is replaced by the exact one.
+// The points of a cloud measured piece by piece: by the kernel, and certified. A distance that is
+// printed, or that may lie on the other side of the limit, is the exact one.
 class CloudMeasurement {
  public:
-  CloudMeasurement(const Scan& scan, const ExactMesh& exact, std::vector<double> distances)
-      : scan_(scan), exact_(exact), distances_(std::move(distances)) {}
+  CloudMeasurement(const ScanPieces& scan, const TriangleMesh& mesh, const ErrorQuestion& question,
+                   std::optional<double> limit)
+      : scan_(scan),
+        question_(question),
+        limit_(limit),
+        excludable_(excludable_points(question.excluded_share, scan.points())),
+        exact_of_(std::async(std::launch::async,
+                             [&] { return std::make_unique<const ExactMesh>(mesh.view()); })),
+        kernel_(mesh.view(), scan.normalization(), question.brute_force, processor_threads()),
+        margin_(limit ? point_distance_margin(kernel_.normalization(), mesh.view(), *limit) : 0),
+        exact_(exact_of_.get()),
+        certificate_(*exact_),
+        farthest_(excludable_),
+        store_(scan.points(), question.memory / 4, scan.scan().path.string()) {}
 
-  void settle(double limit, double margin) {
-    for (std::size_t i = 0; i < distances_.size(); ++i) {
-      if (std::abs(distances_[i] - limit) <= margin) {
-        distances_[i] = exact_.distance(scan_.cloud.points[i]).upper;
-      }
-    }
+  const ExactMesh& exact() const { return *exact_; }
+  std::size_t excludable() const { return excludable_; }
+  const Normalization& normalization() const { return kernel_.normalization(); }
+  const FarthestPoints& farthest() const { return farthest_; }
+  // Of the kernel alone, as if the threads had taken turns.
+  double kernel_seconds() const { return kernel_seconds_; }
+
+  void measure() {
+    scan_.for_each(processor_threads(), [this](const ScanPieces::Piece& piece) { add(piece); });
   }
 
-  CloudErrors errors(const std::vector<double>& quantiles, std::size_t worst,
-                     std::optional<double> limit) {
-    std::vector<std::uint32_t> order(distances_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    // At least one, even if none is to be shown: it gives the maximum.
-    const auto shown = order.begin() +
-                       static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(worst, 1, order.size()));
-    const auto farther = [this](std::uint32_t a, std::uint32_t b) {
-      return distances_[a] != distances_[b] ? distances_[a] > distances_[b] : a < b;
-    };
-    std::ranges::partial_sort(order, shown, farther);
-    std::vector<FarPoint> farthest;
-    for (auto at = order.begin(); at != shown; ++at) {
-      const ExactMesh::Nearest nearest = exact_.nearest(scan_.cloud.points[*at]);
-      distances_[*at] = nearest.distance.upper;
-      farthest.push_back({scan_.cloud.index_in_file(*at), scan_.cloud.points[*at],
-                          nearest.distance.upper, nearest.triangle});
+  // `excluded`: numbers of points, ascending.
+  CertifiedError certify(std::span<const std::uint32_t> excluded) {
+    if (excludable_ == 0) return certificate_.finish();
+    scan_.for_each(processor_threads(), [&](const ScanPieces::Piece& piece) {
+      std::vector<std::uint32_t> of_piece;
+      for (std::uint32_t i = 0; i < piece.points.size(); ++i) {
+        if (std::ranges::binary_search(excluded, piece.numbers[i])) of_piece.push_back(i);
+      }
+      certificate_.add(piece.points, piece.numbers, of_piece);
+    });
+    return certificate_.finish();
+  }
+
+  CloudErrors errors(const std::vector<double>& quantiles) {
+    std::vector<FarPoint> worst;
+    for (const Shown& shown : shown_) {
+      const ExactMesh::Nearest nearest = exact_->nearest(shown.at);
+      store_.put(shown.index, {&nearest.distance.upper, 1});
+      worst.push_back({shown.number, shown.at, nearest.distance.upper, nearest.triangle});
     }
     std::ranges::stable_sort(
-        farthest, [](const FarPoint& a, const FarPoint& b) { return a.distance > b.distance; });
-    farthest.resize(std::min(worst, farthest.size()));
-    return {statistics_of(distances_, quantiles, limit), std::move(farthest)};
+        worst, [](const FarPoint& a, const FarPoint& b) { return a.distance > b.distance; });
+    worst.resize(std::min(question_.worst, worst.size()));
+    const auto all = [this](const auto& take) { store_.read(take); };
+    return {statistics_of(all, quantiles, limit_), std::move(worst)};
   }
 
-  std::vector<double> distances() && { return std::move(distances_); }
+  std::vector<double> distances() && { return store_.release(); }
 
  private:
-  const Scan& scan_;
-  const ExactMesh& exact_;
-  std::vector<double> distances_;
+  // A point that is among the farthest so far.
+  struct Shown {
+    double distance;
+    std::uint32_t number;
+    std::uint64_t index;
+    Point at;
+    // The farthest first.
+    bool operator<(const Shown& other) const {
+      return distance != other.distance ? distance > other.distance : index < other.index;
+    }
+  };
+
+  void add(const ScanPieces::Piece& piece) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<std::uint32_t> bits =
+        kernel_.squared_distances(piece.points, question_.interrupted);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    std::vector<double> distances;
+    distances.reserve(bits.size());
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      const double distance = in_file_units(kernel_.normalization(), bits[i]);
+      const bool is_open = limit_ && std::abs(distance - *limit_) <= margin_;
+      distances.push_back(is_open ? exact_->distance(piece.points[i]).upper : distance);
+    }
+    store_.put(piece.first, distances);
+    if (excludable_ == 0) certificate_.add(piece.points, piece.numbers);
+    const std::lock_guard lock(mutex_);
+    kernel_seconds_ += took.count();
+    farthest_.add(bits, piece.numbers);
+    show(piece, distances);
+    points_done_ += piece.points.size();
+    if (question_.advance) {
+      question_.advance(static_cast<double>(points_done_) / static_cast<double>(scan_.points()));
+    }
+  }
+
+  void show(const ScanPieces::Piece& piece, std::span<const double> distances) {
+    // At least one, even if none is to be shown: it gives the maximum.
+    const std::size_t most = std::max<std::size_t>(question_.worst, 1);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      const Shown point = {distances[i], piece.numbers[i], piece.first + i, piece.points[i]};
+      if (shown_.size() == most && !(point < *shown_.rbegin())) continue;
+      shown_.insert(point);
+      if (shown_.size() > most) shown_.erase(std::prev(shown_.end()));
+    }
+  }
+
+  const ScanPieces& scan_;
+  const ErrorQuestion& question_;
+  const std::optional<double> limit_;
+  const std::size_t excludable_;
+  std::future<std::unique_ptr<const ExactMesh>> exact_of_;
+  PieceMeasurement kernel_;
+  const double margin_;
+  std::unique_ptr<const ExactMesh> exact_;
+  PiecewiseCertificate certificate_;
+
+  std::mutex mutex_;  // of what follows
+  FarthestPoints farthest_;
+  std::set<Shown> shown_;
+  double kernel_seconds_ = 0;
+  std::uint64_t points_done_ = 0;
+  DistanceStore store_;  // has a lock of its own
 };
 
 SurfaceErrors measure_surface(const TriangleMesh& from, const TriangleMesh& to,
@@ -110,10 +194,24 @@ ReferenceErrors measure_reference(const TriangleMesh& mesh, const ExactMesh& exa
 }
 
 struct MeshFindings {
-  ExactMesh exact;
   MeshValidity validity;
   MeshTopology topology;
 };
+
+void measure_by_device(const TriangleMesh& mesh, const ScanPieces& scan,
+                       const ErrorQuestion& question,
+                       const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured,
+                       ErrorFindings& f) {
+  const auto start = std::chrono::steady_clock::now();
+  ErrorConstraint constraint(scan.scan().cloud.points, f.errors.limit.value_or(0),
+                             question.excluded_share, question.brute_force, processor_threads());
+  f.measured =
+      constraint.measure(mesh.view(), *question.device, {.interrupted = question.interrupted});
+  f.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (measured) measured(constraint, f);
+  f.measured.kept = in_file_indices(f.measured.kept, scan.scan().cloud);
+  f.measured.all = in_file_indices(f.measured.all, scan.scan().cloud);
+}
 
 }  // namespace
 
@@ -139,60 +237,53 @@ std::string_view ErrorFindings::exceeding() const {
 }
 
 ErrorFindings find_errors(
-    const TriangleMesh& mesh, const Scan& scan, const std::optional<ErrorReference>& reference,
-    const ErrorQuestion& question,
+    const TriangleMesh& mesh, const ScanPieces& scan,
+    const std::optional<ErrorReference>& reference, const ErrorQuestion& question,
     const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured) {
   ErrorFindings f;
   f.tolerance = question.tolerance;
-  f.errors.width = scan.width;
+  f.errors.width = scan.scan().width;
+  f.points = scan.points();
+  f.transform = scan.normalization();
   std::optional<double>& limit = f.errors.limit;
   if (f.tolerance) {
-    limit = f.tolerance->in_units(scan.width);
-    require_resolution(scan, *limit);
+    limit = f.tolerance->in_units(f.errors.width);
+    require_resolution(scan.scan(), *limit);
   }
 
   // The work that needs only the mesh runs beside the work that needs the cloud.
   auto of_mesh = std::async(std::launch::async, [&] {
-    return MeshFindings{ExactMesh(mesh.view()), check_mesh(mesh.view()), topology_of(mesh.view())};
+    return MeshFindings{check_mesh(mesh.view()), topology_of(mesh.view())};
   });
-  const auto start = std::chrono::steady_clock::now();
+  CloudMeasurement cloud(scan, mesh, question, limit);
+  cloud.measure();
+  f.excludable = cloud.excludable();
   // Without a tolerance the farthest points are excluded, whatever their distance.
-  ErrorConstraint constraint(scan.cloud.points, limit.value_or(0), question.excluded_share,
-                             question.brute_force, processor_threads());
-  f.excludable = constraint.excludable();
-  f.transform = constraint.cloud().normalization();
-  std::optional<PreparedMesh> prepared;
-  if (question.device != nullptr) {
-    f.measured =
-        constraint.measure(mesh.view(), *question.device, {.interrupted = question.interrupted});
-  } else {
-    prepared = constraint.prepare(mesh.view());
-    f.measured = constraint.measure(mesh.view(), *prepared, question.interrupted);
+  f.measured = judge(mesh.view(), f.transform, limit.value_or(0), cloud.farthest());
+  f.seconds = cloud.kernel_seconds();
+  f.certified = cloud.certify(f.measured.excluded);
+  if (scan.is_in_memory()) {
+    f.measured.excluded = in_cloud(f.measured.excluded, scan.scan().cloud);
   }
-  f.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (measured) measured(constraint, f);
+  if (question.device != nullptr) {
+    const MeasuredError by_cpu = f.measured;
+    measure_by_device(mesh, scan, question, measured, f);
+    require_same(by_cpu, f.measured);
+  }
   const MeshFindings mesh_findings = of_mesh.get();
   f.validity = mesh_findings.validity;
   f.topology = mesh_findings.topology;
-  f.certified = in_file_indices(
-      certify(scan.cloud.points, mesh_findings.exact, f.measured.excluded, processor_threads()),
-      scan.cloud);
-  f.measured.kept.worst_point = scan.cloud.index_in_file(f.measured.kept.worst_point);
 
   const std::vector<double> quantiles =
       question.quantiles.empty()
           ? std::vector<double>(kUsualQuantiles.begin(), kUsualQuantiles.end())
           : question.quantiles;
-  if (!prepared) prepared = constraint.prepare(mesh.view());
-  CloudMeasurement cloud(scan, mesh_findings.exact,
-                         constraint.distances(*prepared, question.interrupted));
-  if (limit) cloud.settle(*limit, point_distance_margin(constraint.cloud(), mesh.view(), *limit));
-  f.errors.cloud = cloud.errors(quantiles, question.worst, limit);
-  f.distances = std::move(cloud).distances();
+  f.errors.cloud = cloud.errors(quantiles);
   if (reference) {
-    f.errors.reference = measure_reference(mesh, mesh_findings.exact, *reference, scan.width,
+    f.errors.reference = measure_reference(mesh, cloud.exact(), *reference, f.errors.width,
                                            quantiles, limit, question.interrupted);
   }
+  f.distances = std::move(cloud).distances();
   return f;
 }
 
@@ -207,7 +298,7 @@ ResultReport report_of(const ErrorFindings& f, const TriangleMesh& mesh, const S
   report.triangles = mesh.triangles.size();
   report.certified = f.certified;
   report.kernel = f.measured.kept;
-  report.points = scan.cloud.points.size();
+  report.points = f.points;
   if (scan.unit) report.unit = scan.unit->name;
   report.transform = f.transform;
   report.device = "cpu";

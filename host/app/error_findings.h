@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/app/scan.h"
+#include "host/app/scan_pieces.h"
 #include "host/measure/error_constraint.h"
 #include "host/report/result_json.h"
 
@@ -29,21 +29,25 @@ struct ErrorQuestion {
   std::vector<double> quantiles;  // percent; empty: the usual ones
   std::size_t worst = 5;
   bool brute_force = false;
-  Evaluator* device = nullptr;  // nullptr: this processor
+  Evaluator* device = nullptr;               // nullptr: this processor
+  std::uint64_t memory = standard_memory();  // bytes for the distances of the points
   std::function<bool()> interrupted;
+  std::function<void(double)> advance;  // told the share of the points that are measured
 };
 
-// All results for the mesh. Indices of points are the file's.
+// All results for the mesh. Indices of points are the file's, but those of `measured.excluded` are
+// the cloud's where it is in memory.
 struct ErrorFindings {
   std::optional<Tolerance> tolerance;
   MeasuredError measured = {};
   double seconds = 0;
+  std::uint64_t points = 0;  // of the scan
   CertifiedError certified;
   MeshValidity validity;
   MeshTopology topology;
   Normalization transform;
   std::size_t excludable = 0;
-  std::vector<double> distances;  // of every point of the scan
+  std::vector<double> distances;  // of every point of the scan, where they are in memory
   ErrorReport errors;
 
   std::optional<MeshTopology> reference_topology() const {
@@ -54,11 +58,13 @@ struct ErrorFindings {
   bool feasible() const { return errors.limit && exceeding().empty(); }
 };
 
-// `mesh` has no vertex without a triangle. `measured`, if given, is called once the kernel has
-// measured the mesh. Throws Error as ErrorConstraint and require_resolution() do, and Interrupted.
+// `mesh` has no vertex without a triangle. `measured`, if given, is called once a device has
+// measured the mesh; for a device the points must be in memory. The same results wherever they are
+// and for any number of threads. Throws Error as ErrorConstraint and require_resolution() do, and
+// Interrupted.
 ErrorFindings find_errors(
-    const TriangleMesh& mesh, const Scan& scan, const std::optional<ErrorReference>& reference,
-    const ErrorQuestion& question,
+    const TriangleMesh& mesh, const ScanPieces& scan,
+    const std::optional<ErrorReference>& reference, const ErrorQuestion& question,
     const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured = nullptr);
 
 // The JSON of the findings, without what a device adds.

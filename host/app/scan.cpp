@@ -38,10 +38,11 @@ void require_unit_of(const Scan& scan, const std::filesystem::path& file,
                           scan.cloud.unit ? "" : ", or leave --unit out to compare the numbers"));
 }
 
-std::string describe(const Scan& scan) {
-  std::string text =
-      fmt::format("{}: {} points, width {}", scan.path.string(), grouped(scan.cloud.points.size()),
-                  length_text(scan.width, scan.unit));
+std::string describe(const Scan& scan) { return describe(scan, scan.cloud.points.size()); }
+
+std::string describe(const Scan& scan, std::uint64_t points) {
+  std::string text = fmt::format("{}: {} points, width {}", scan.path.string(), grouped(points),
+                                 length_text(scan.width, scan.unit));
   const std::optional<Unit>& stated = scan.cloud.unit;
   if (stated && scan.unit != stated) text += fmt::format(" (the file says {})", stated->name);
   return text;
@@ -160,6 +161,18 @@ CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud) {
 EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud) {
   result.worst_point = cloud.index_in_file(result.worst_point);
   return result;
+}
+
+std::vector<std::uint32_t> in_cloud(std::span<const std::uint32_t> in_file,
+                                    const PointCloud& cloud) {
+  std::vector<std::uint32_t> indices(in_file.begin(), in_file.end());
+  for (std::uint32_t& index : indices) {
+    if (cloud.file_index.empty()) continue;
+    const auto at = std::ranges::lower_bound(cloud.file_index, index);
+    const bool found = at != cloud.file_index.end() && *at == index;
+    index = found ? static_cast<std::uint32_t>(at - cloud.file_index.begin()) : ~0u;
+  }
+  return indices;
 }
 
 std::string grouped(std::uint64_t number) {

@@ -59,6 +59,8 @@ void require_unit_of(const Scan& scan, const std::filesystem::path& file,
 // What a command prints of its scan: "scan.ply: 1,234 points, width 5 m", and which unit was taken
 // in place of the file's.
 std::string describe(const Scan& scan);
+// The same of a scan whose points are not in memory.
+std::string describe(const Scan& scan, std::uint64_t points);
 
 // Whether the file is one of a mesh: one whose ending is used for clouds, too, counts as that if it
 // has triangles. Throws Error for a damaged file.
@@ -96,6 +98,10 @@ double parse_share(std::string_view text);
 // Replaces the cloud's indices by the file's, which differ if points were skipped.
 CertifiedError in_file_indices(CertifiedError error, const PointCloud& cloud);
 EmaxResult in_file_indices(EmaxResult result, const PointCloud& cloud);
+
+// Converts numbers of points in the file to indices of the cloud, ~0 for a point that it lacks.
+std::vector<std::uint32_t> in_cloud(std::span<const std::uint32_t> in_file,
+                                    const PointCloud& cloud);
 
 // 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);

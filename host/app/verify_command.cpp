@@ -41,19 +41,6 @@ std::filesystem::path locate(const std::string& named, const std::string& file, 
                           option));
 }
 
-// Converts indices of the file to those of the cloud as read.
-std::vector<std::uint32_t> in_cloud(std::span<const std::uint32_t> in_file,
-                                    const PointCloud& cloud) {
-  std::vector<std::uint32_t> indices(in_file.begin(), in_file.end());
-  for (std::uint32_t& index : indices) {
-    if (cloud.file_index.empty()) continue;
-    const auto at = std::ranges::lower_bound(cloud.file_index, index);
-    const bool found = at != cloud.file_index.end() && *at == index;
-    index = found ? static_cast<std::uint32_t>(at - cloud.file_index.begin()) : ~0u;
-  }
-  return indices;
-}
-
 // Another build may round the last bit differently.
 bool agree(double claimed, double found) {
   return std::abs(claimed - found) <= 1e-12 * std::abs(found);

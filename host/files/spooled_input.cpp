@@ -17,53 +17,14 @@
 #include <vector>
 
 #include "host/files/inflation_limit.h"
+#include "host/files/nameless_file.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
 namespace {
 
+constexpr std::string_view kUnpacked = "cannot be unpacked";
 constexpr std::size_t kPieceBytes = std::size_t{1} << 17;
-
-// A file without a name: it is gone when its descriptor is closed.
-class Spool {
- public:
-  explicit Spool(const NamedInput& input) : input_(input) {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path();
-    std::string pattern = (folder / "emax_XXXXXX").string();
-    descriptor_ = mkostemp(pattern.data(), O_CLOEXEC);
-    if (descriptor_ < 0) fail();
-    unlink(pattern.c_str());
-  }
-  ~Spool() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  Spool(const Spool&) = delete;
-  Spool& operator=(const Spool&) = delete;
-
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail();
-      bytes.remove_prefix(static_cast<std::size_t>(n));
-      size_ += static_cast<std::uint64_t>(n);
-    }
-  }
-  int descriptor() const { return descriptor_; }
-  std::uint64_t size() const { return size_; }
-  int release() { return std::exchange(descriptor_, -1); }
-
- private:
-  [[noreturn]] void fail() const {
-    input_.fail(fmt::format("cannot be unpacked into {} ({})",
-                            std::filesystem::temp_directory_path().string(), std::strerror(errno)),
-                "make room there, or name another folder by TMPDIR");
-  }
-
-  const NamedInput& input_;
-  int descriptor_ = -1;
-  std::uint64_t size_ = 0;
-};
 
 // The next bytes at `offset`, or as they come where that is nothing; 0 at the end.
 std::size_t read_piece(const NamedInput& input, int descriptor, std::optional<std::uint64_t> offset,
@@ -154,7 +115,7 @@ class Unzstd {
 
 template <class Inflater>
 int inflated_by(const NamedInput& input, int descriptor, std::uint64_t size) {
-  Spool spool(input);
+  NamelessFile spool(input, kUnpacked);
   InflationLimit limit(input, size);
   const auto inflater = std::make_unique<Inflater>(input);
   std::vector<char> piece(kPieceBytes);
@@ -162,7 +123,7 @@ int inflated_by(const NamedInput& input, int descriptor, std::uint64_t size) {
   while (const std::size_t n = read_piece(input, descriptor, at, piece)) {
     inflater->take({piece.data(), n}, [&](std::string_view bytes) {
       limit.spend(bytes.size());
-      spool.write(bytes);
+      spool.append(bytes);
     });
     at += n;
   }
@@ -172,10 +133,10 @@ int inflated_by(const NamedInput& input, int descriptor, std::uint64_t size) {
 
 int copied_standard_input() {
   const NamedInput input{std::string(kStandardInputInMessages)};
-  Spool spool(input);
+  NamelessFile spool(input, kUnpacked);
   std::vector<char> piece(kPieceBytes);
   while (const std::size_t n = read_piece(input, STDIN_FILENO, std::nullopt, piece)) {
-    spool.write({piece.data(), n});
+    spool.append({piece.data(), n});
   }
   const std::size_t n = read_piece(input, spool.descriptor(), 0, piece);
   const Compression compression = compression_of_content({piece.data(), n});

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "host/block_search/simd_evaluator.h"
 #include "host/measure/point_distances.h"
@@ -11,6 +11,42 @@
 #include "sw_model/model/error_bound.h"
 
 namespace emax {
+namespace {
+
+// The greatest kernel e_max^2 that proves epsilon; nothing if even 0 does not, because epsilon is
+// below the kernel's own error.
+std::optional<std::uint32_t> threshold(MeshView mesh, const Normalization& normalization,
+                                       double epsilon) {
+  double longest = 0, farthest = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto corners = mesh.corners(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
+      farthest = std::max(farthest, (corners[k] - normalization.origin).norm());
+    }
+  }
+  const double limit = normalization.length(epsilon);
+  const double reach = limit + 2 * normalization.length(longest) + normalization.length(farthest);
+  return largest_feasible_bits(limit, reach);
+}
+
+}  // namespace
+
+MeasuredError judge(MeshView mesh, const Normalization& normalization, double epsilon,
+                    const FarthestPoints& points) {
+  const std::optional<std::uint32_t> allowed = threshold(mesh, normalization, epsilon);
+  FarthestPoints::Excluded found = points.exclude(allowed.value_or(0));
+  MeasuredError measured;
+  measured.kept = found.kept;
+  measured.all = found.all;
+  measured.excluded = std::move(found.excluded);
+  measured.feasible = allowed && measured.kept.squared_bits <= *allowed;
+  const double limit = normalization.length(epsilon);
+  const double greatest = allowed ? std::max(distance_of(*allowed), limit / 1e3) : limit;
+  const double excess = distance_of(measured.kept.squared_bits) / greatest - 1;
+  measured.violation = measured.feasible ? std::min(excess, 0.0) : std::max(excess, 1e-12);
+  return measured;
+}
 
 std::size_t excludable_points(double share, std::size_t points) {
   constexpr double kRoundings = 1 + 1e-12;
@@ -27,22 +63,7 @@ ErrorConstraint::ErrorConstraint(std::span<const Point> cloud, double epsilon,
       threads_(threads) {}
 
 double ErrorConstraint::in_file_units(std::uint32_t squared_bits) const {
-  return emax::in_file_units(cloud_, squared_bits);
-}
-
-std::optional<std::uint32_t> ErrorConstraint::threshold(MeshView mesh) const {
-  const Normalization& normalization = cloud_.normalization();
-  double longest = 0, farthest = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto corners = mesh.corners(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
-      farthest = std::max(farthest, (corners[k] - normalization.origin).norm());
-    }
-  }
-  const double epsilon = normalization.length(epsilon_);
-  const double reach = epsilon + 2 * normalization.length(longest) + normalization.length(farthest);
-  return largest_feasible_bits(epsilon, reach);
+  return emax::in_file_units(cloud_.normalization(), squared_bits);
 }
 
 double ErrorConstraint::provable_distance() const {
@@ -96,42 +117,13 @@ MeasuredError ErrorConstraint::measure(MeshView mesh, Evaluator& device,
 MeasuredError ErrorConstraint::judge(
     MeshView mesh, const std::function<EmaxResult()>& worst,
     const std::function<std::vector<std::uint32_t>()>& nearest) const {
-  const std::optional<std::uint32_t> allowed = threshold(mesh);
-  MeasuredError measured;
+  FarthestPoints points(excludable_);
   if (excludable_ == 0) {
-    measured.all = measured.kept = worst();
+    points.add(worst());
   } else {
-    exclude(nearest(), allowed.value_or(0), measured);
+    points.add(nearest(), {});
   }
-  measured.feasible = allowed && measured.kept.squared_bits <= *allowed;
-  const double epsilon = cloud_.normalization().length(epsilon_);
-  const double greatest = allowed ? std::max(distance_of(*allowed), epsilon / 1e3) : epsilon;
-  const double excess = distance_of(measured.kept.squared_bits) / greatest - 1;
-  measured.violation = measured.feasible ? std::min(excess, 0.0) : std::max(excess, 1e-12);
-  return measured;
-}
-
-// Excludes the farthest points beyond `allowed`, up to the permitted number. Of equal distances the
-// higher index is excluded first.
-void ErrorConstraint::exclude(std::span<const std::uint32_t> bits, std::uint32_t allowed,
-                              MeasuredError& measured) const {
-  measured.all = worst_of(bits);
-  std::vector<std::uint32_t> order(bits.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, [&bits](std::uint32_t a, std::uint32_t b) {
-    return bits[a] != bits[b] ? bits[a] > bits[b] : a > b;
-  });
-  auto kept = order.begin();
-  while (kept - order.begin() < static_cast<std::ptrdiff_t>(excludable_) && bits[*kept] > allowed) {
-    ++kept;
-  }
-  measured.excluded.assign(order.begin(), kept);
-  std::ranges::sort(measured.excluded);
-  // Of the points with the same distance as the worst kept one, the last in the order has the
-  // lowest index.
-  auto worst = kept;
-  while (worst + 1 != order.end() && bits[*(worst + 1)] == bits[*kept]) ++worst;
-  measured.kept = {bits[*kept], *worst};
+  return emax::judge(mesh, cloud_.normalization(), epsilon_, points);
 }
 
 }  // namespace emax

@@ -7,6 +7,7 @@
 
 #include "host/block_search/block_search.h"
 #include "host/engine/error_engine.h"
+#include "host/measure/farthest_points.h"
 
 namespace emax {
 
@@ -20,6 +21,11 @@ struct MeasuredError {
                          // at most 0 when feasible
   bool operator==(const MeasuredError&) const = default;
 };
+
+// What the kernel's distances of a cloud's points from a mesh say of the bound `epsilon`, which is
+// in the cloud's unit.
+MeasuredError judge(MeshView mesh, const Normalization& normalization, double epsilon,
+                    const FarthestPoints& points);
 
 // The number of points in a share of `points`; 0.7% of 1,000 is 7, whatever the roundings.
 std::size_t excludable_points(double share, std::size_t points);
@@ -62,16 +68,10 @@ class ErrorConstraint {
   double in_file_units(std::uint32_t squared_bits) const;
 
  private:
-  // The greatest kernel e_max^2 that proves epsilon; nothing if even 0 does not, because epsilon is
-  // below the kernel's own error.
-  std::optional<std::uint32_t> threshold(MeshView mesh) const;
-
   // Calls `nearest`, which gives every d^2, if points may be excluded, else `worst`, which gives
   // the greatest.
   MeasuredError judge(MeshView mesh, const std::function<EmaxResult()>& worst,
                       const std::function<std::vector<std::uint32_t>()>& nearest) const;
-  void exclude(std::span<const std::uint32_t> squared_bits, std::uint32_t allowed,
-               MeasuredError& measured) const;
 
   PreparedCloud cloud_;
   ErrorEngine engine_;

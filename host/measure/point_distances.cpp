@@ -6,8 +6,8 @@
 
 namespace emax {
 
-double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits) {
-  return distance_of(squared_bits) / cloud.normalization().scale;
+double in_file_units(const Normalization& normalization, std::uint32_t squared_bits) {
+  return distance_of(squared_bits) / normalization.scale;
 }
 
 std::vector<double> point_distances(const PreparedCloud& cloud, MeshView mesh,
@@ -22,13 +22,12 @@ std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& eng
   std::vector<double> distances;
   distances.reserve(cloud.points().size());
   for (const std::uint32_t bits : engine.squared_distances(mesh)) {
-    distances.push_back(in_file_units(cloud, bits));
+    distances.push_back(in_file_units(cloud.normalization(), bits));
   }
   return distances;
 }
 
-double point_distance_margin(const PreparedCloud& cloud, MeshView mesh, double distance) {
-  const Normalization& normalization = cloud.normalization();
+double point_distance_margin(const Normalization& normalization, MeshView mesh, double distance) {
   Eigen::AlignedBox3d box;
   double farthest = 0;
   for (const Point& vertex : mesh.vertices) {

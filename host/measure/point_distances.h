@@ -11,7 +11,7 @@
 namespace emax {
 
 // The distance in the cloud's unit for a squared distance of the kernel.
-double in_file_units(const PreparedCloud& cloud, std::uint32_t squared_bits);
+double in_file_units(const Normalization& normalization, std::uint32_t squared_bits);
 
 // The kernel's distance of every point to the mesh, in cloud order and the cloud's unit: the square
 // roots of the values of brute force, to the bit, with any number of threads. Throws as
@@ -26,6 +26,6 @@ std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& eng
 
 // The greatest difference between such a distance of at most `distance` and the true one, in the
 // cloud's unit (docs/numerics.md). O(vertices).
-double point_distance_margin(const PreparedCloud& cloud, MeshView mesh, double distance);
+double point_distance_margin(const Normalization& normalization, MeshView mesh, double distance);
 
 }  // namespace emax

@@ -15,7 +15,8 @@ std::size_t checked_threads(std::size_t threads) {
 }
 
 Measurement measurement(const PreparedCloud& cloud, const EmaxResult& result) {
-  return {in_file_units(cloud, result.squared_bits), result.worst_point, result.squared_bits};
+  return {in_file_units(cloud.normalization(), result.squared_bits), result.worst_point,
+          result.squared_bits};
 }
 
 }  // namespace
@@ -51,20 +52,21 @@ Measurement ErrorMeter::e_max(SurfaceSpan mesh) {
 
 double ErrorMeter::quantile(SurfaceSpan mesh, double share) {
   if (!(share > 0 && share <= 1)) throw Error("share: above 0 and at most 1");
-  return in_file_units(parts_->cloud,
+  return in_file_units(parts_->cloud.normalization(),
                        parts_->engine.quantile(parts_->prepared(mesh), share).squared_bits);
 }
 
 std::vector<double> ErrorMeter::distances(SurfaceSpan mesh) {
   std::vector<double> distances;
   for (const std::uint32_t bits : parts_->engine.squared_distances(parts_->prepared(mesh))) {
-    distances.push_back(in_file_units(parts_->cloud, bits));
+    distances.push_back(in_file_units(parts_->cloud.normalization(), bits));
   }
   return distances;
 }
 
 double ErrorMeter::margin(SurfaceSpan mesh, double distance) const {
-  return point_distance_margin(parts_->cloud, checked_surface(mesh, "mesh").view(), distance);
+  return point_distance_margin(parts_->cloud.normalization(), checked_surface(mesh, "mesh").view(),
+                               distance);
 }
 
 std::vector<Measurement> e_max_of_each(Coordinates cloud, std::span<const SurfaceSpan> meshes,

@@ -64,8 +64,8 @@ void bind_error(nb::module_& module) {
           TriangleMesh mesh = given.mesh;
           drop_unused_vertices(mesh.vertices, mesh.triangles);
           ErrorFindings found = find_errors(
-              mesh, cloud.scan, reference_of(cloud, reference_mesh, reference_cloud, two_sided),
-              question);
+              mesh, ScanPieces(cloud.scan),
+              reference_of(cloud, reference_mesh, reference_cloud, two_sided), question);
           auto errors = std::make_shared<Errors>();
           errors->json = to_json_text(report_of(found, mesh, cloud.scan));
           if (found.errors.limit) errors->exceeding = found.exceeding();

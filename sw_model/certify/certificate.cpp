@@ -29,10 +29,10 @@ std::vector<bool> marked(std::size_t points, std::span<const std::uint32_t> excl
   return is_excluded;
 }
 
-void require_finite(std::span<const Point> cloud, std::size_t first_index) {
+void require_finite(std::span<const Point> cloud, const PointNumbers& numbers) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!(cloud[i].array().abs() < 1e150).all()) {  // also for NaN
-      throw Error("point " + std::to_string(first_index + i) +
+      throw Error("point " + std::to_string(numbers[i]) +
                   " is not finite or beyond 1e150: nothing can be certified of it");
     }
   }
@@ -96,7 +96,7 @@ struct PiecewiseCertificate::State {
   std::size_t points = 0;
   std::vector<std::pair<std::uint32_t, double>> excluded;
 
-  void search(std::span<const Point> cloud, std::size_t first_index,
+  void search(std::span<const Point> cloud, const PointNumbers& numbers,
               std::span<const std::uint32_t> order) {
     Worst mine;
     {
@@ -105,12 +105,12 @@ struct PiecewiseCertificate::State {
     }
     std::optional<std::uint32_t> near;
     for (const std::uint32_t i : order) {
-      const double enough = mine.enough(first_index + i);
+      const double enough = mine.enough(numbers[i]);
       if (near && mesh.is_within(cloud[i], *near, enough)) continue;
       const ExactMesh::Nearest nearest = mesh.nearest(cloud[i], enough, near.value_or(~0u));
       near = nearest.triangle;
       if (nearest.distance.upper > enough) {
-        mine.raise({nearest.distance.upper, first_index + i, cloud[i]});
+        mine.raise({nearest.distance.upper, numbers[i], cloud[i]});
       }
     }
     const std::lock_guard lock(mutex);
@@ -122,20 +122,19 @@ PiecewiseCertificate::PiecewiseCertificate(const ExactMesh& mesh)
     : state_(std::make_unique<State>(mesh)) {}
 PiecewiseCertificate::~PiecewiseCertificate() = default;
 
-void PiecewiseCertificate::add(std::span<const Point> piece, std::size_t first,
+void PiecewiseCertificate::add(std::span<const Point> piece, const PointNumbers& numbers,
                                std::span<const std::uint32_t> excluded, std::size_t threads) {
   require_no_flush("the certificate");
   const std::vector<bool> is_excluded = marked(piece.size(), excluded);
   if (piece.empty()) return;
-  require_finite(piece, first);
+  require_finite(piece, numbers);
   const std::vector<std::uint32_t> order = along_a_curve(piece, is_excluded);
   in_pieces(threads, order.size(), kPiece, [&](std::size_t, std::size_t begin, std::size_t end) {
-    state_->search(piece, first, std::span(order).subspan(begin, end - begin));
+    state_->search(piece, numbers, std::span(order).subspan(begin, end - begin));
   });
   std::vector<std::pair<std::uint32_t, double>> left_out;
   for (const std::uint32_t i : excluded) {
-    left_out.emplace_back(static_cast<std::uint32_t>(first + i),
-                          state_->mesh.distance(piece[i]).upper);
+    left_out.emplace_back(numbers[i], state_->mesh.distance(piece[i]).upper);
   }
   const std::lock_guard lock(state_->mutex);
   state_->points += piece.size() - excluded.size();
@@ -167,7 +166,7 @@ CertifiedError PiecewiseCertificate::finish() {
 CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
                        std::span<const std::uint32_t> excluded, std::size_t threads) {
   PiecewiseCertificate certificate(mesh);
-  certificate.add(cloud, 0, excluded, threads);
+  certificate.add(cloud, {}, excluded, threads);
   CertifiedError result = certificate.finish();
   // In the order in which they were given.
   const std::vector<double> ascending = std::move(result.excluded_distances);
@@ -183,7 +182,7 @@ CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
 CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
                        std::span<const std::uint32_t> excluded, std::size_t threads) {
   require_no_flush("the certificate");
-  require_finite(cloud, 0);
+  require_finite(cloud, {});
   return certify(cloud, ExactMesh(mesh), excluded, threads);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sw_model/base/mesh_view.h"
+#include "sw_model/base/point_numbers.h"
 #include "sw_model/certify/exact_distance.h"
 
 namespace emax {
@@ -49,13 +50,12 @@ class PiecewiseCertificate {
   PiecewiseCertificate(const PiecewiseCertificate&) = delete;
   PiecewiseCertificate& operator=(const PiecewiseCertificate&) = delete;
 
-  // Points `first`, `first` + 1, ... of the cloud; `excluded` are those of them that do not count,
-  // by their indices in the piece. Several threads may add pieces at a time. Throws as certify(),
-  // with the points' indices in the cloud.
-  void add(std::span<const Point> piece, std::size_t first,
+  // `excluded`: those of the points that do not count, by their indices in the piece. Several
+  // threads may add pieces at a time. Throws as certify(), which names points by their numbers.
+  void add(std::span<const Point> piece, const PointNumbers& numbers,
            std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
-  // Once all pieces are there. The excluded are given by their indices in the cloud, ascending.
-  // Throws Error where nothing is left to certify.
+  // Once all pieces are there. Points are given by their numbers, the excluded ascending. Throws
+  // Error where nothing is left to certify.
   CertifiedError finish();
 
  private:

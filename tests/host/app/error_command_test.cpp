@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "host/files/cloud_file.h"
 #include "host/files/mesh_file.h"
@@ -266,6 +267,74 @@ TEST_F(ErrorCommand, EachDirectionCatchesTheFaultThatItAloneSees) {
                 .exit_code,
             0);
   EXPECT_EQ(beyond(), (Beyond{false, true, true}));
+}
+
+// Without the line that tells the time.
+std::string without_time(const std::string& output) {
+  std::string kept;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("device ")) kept += line + '\n';
+  }
+  return kept;
+}
+
+class StreamedErrorCommand : public ErrorCommand {
+ protected:
+  StreamedErrorCommand() {
+    test::write_scan(folder_.path() / "scan.xyz", 20000, 2);
+    std::filesystem::create_directory(folder_ / "scans");
+    test::write_scan(folder_ / "scans" / "a.xyz", 3000, 3);
+    test::write_scan(folder_ / "scans" / "b.xyz", 4000, 4);
+    std::ofstream(folder_ / "scans" / "a.xyz", std::ios::app) << "nan 0 0\n1 2 3\n";
+  }
+
+  // The output and the JSON are the same whether the cloud is in memory or not.
+  void expect_same(const std::string& cloud, std::vector<std::string> more) {
+    SCOPED_TRACE(cloud + ' ' + fmt::format("{}", fmt::join(more, " ")));
+    more.insert(more.begin(), {"error", cloud, "surface.off", "--json"});
+    const auto with = [&](const std::string& file, const std::string& memory) {
+      auto words = more;
+      words.insert(words.begin() + 4, file);
+      if (!memory.empty()) words.insert(words.end(), {"--memory", memory});
+      return test::run_emax(words, folder_.path());
+    };
+    const ProgramRun whole = with("whole.json", "");
+    const ProgramRun pieces = with("pieces.json", "0");
+    EXPECT_NE(whole.exit_code, 1) << whole.errors;
+    EXPECT_EQ(pieces.exit_code, whole.exit_code) << pieces.errors;
+    EXPECT_EQ(without_time(pieces.output), without_time(whole.output));
+    EXPECT_EQ(test::file_text(folder_ / "pieces.json"), test::file_text(folder_ / "whole.json"));
+  }
+};
+
+TEST_F(StreamedErrorCommand, GivesTheResultOfTheWhole) {
+  expect_same("scan.xyz", {});
+  expect_same("scan.xyz", {"--max-error", "1%", "--worst", "0", "--quantile", "33"});
+  expect_same("scan.xyz", {"--max-error", "1%", "--exclude-outliers", "7%"});
+  expect_same("scan.xyz", {"--exclude-outliers", "0.1%", "--worst", "3000"});
+  expect_same("scan.xyz", {"--two-sided", "--reference", "fine.off", "--max-error", "5%"});
+  expect_same("scans", {"--skip-invalid"});
+  expect_same("scans", {"--skip-invalid", "--exclude-outliers", "1%"});
+  test::write_scan(folder_.path() / "scan.xyz", 1500, 2);
+  expect_same("scan.xyz", {"--brute-force"});
+}
+
+TEST_F(StreamedErrorCommand, NamesTheOptionsThatNeedAllPointsAtOnce) {
+  const std::vector<std::vector<std::string>> needy = {
+      {"--two-sided"},        {"--color", "c.ply"},   {"--deviations", "d.ply"},
+      {"--report", "r.html"}, {"--picture", "p.png"}, {"--device", "sim"}};
+  for (std::vector<std::string> more : needy) {
+    const std::string option = more.front();
+    more.insert(more.end(), {"--memory", "1MB"});
+    const ProgramRun run = error(more);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.errors.find("20,000 points need 0.00128 GB, more than the 0.001"),
+              std::string::npos)
+        << run.errors;
+    EXPECT_NE(run.errors.find(option), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find("; give more memory, or leave it out"), std::string::npos);
+  }
 }
 
 TEST_F(ErrorCommand, WritesColouredFiles) {

@@ -26,7 +26,8 @@ void expect_exact(std::span<const Point> points, MeshView mesh) {
       exact = std::min(exact, test::long_double_distance(points[i], mesh.corners(t)));
     }
     const double distance = std::max(found[i], static_cast<double>(exact));
-    EXPECT_NEAR(found[i], static_cast<double>(exact), point_distance_margin(cloud, mesh, distance))
+    EXPECT_NEAR(found[i], static_cast<double>(exact),
+                point_distance_margin(cloud.normalization(), mesh, distance))
         << "point " << i;
   }
 }

@@ -81,7 +81,8 @@ TEST(Certificate, PiecesInAnyOrderGiveThatOfTheWhole) {
         for (const std::uint32_t i : excluded) {
           if (i >= first && i < last) of_piece.push_back(static_cast<std::uint32_t>(i - first));
         }
-        pieces.add(cloud.subspan(first, last - first), first, of_piece);
+        pieces.add(cloud.subspan(first, last - first), {static_cast<std::uint32_t>(first)},
+                   of_piece);
         last = first;
       }
       expect_equal(pieces.finish(), whole);

@@ -1,0 +1,243 @@
+#include "host/app/scan_pieces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "host/optimize/evaluation_limits.h"
+#include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
+
+namespace emax {
+namespace {
+
+// Points of a piece. Greater pieces would not stay in the processor's caches, smaller ones of
+// scattered points take longer for each point.
+constexpr std::size_t kMostPoints = std::size_t{1} << 20;
+constexpr std::size_t kLeastPoints = std::size_t{1} << 14;
+
+// What a point of a piece takes while it is measured.
+constexpr std::uint64_t kBytesPerPointOfPiece = 128;
+// What a point takes while the cloud is read and put together, and what is known of it later.
+constexpr std::uint64_t kBytesPerPoint = 64;
+
+// The number of kilobytes in the line of /proc/meminfo that begins with `name`, in bytes.
+std::optional<std::uint64_t> free_bytes_of_machine() {
+  std::ifstream lines("/proc/meminfo");
+  std::string name, unit;
+  std::uint64_t kilobytes = 0;
+  while (lines >> name >> kilobytes) {
+    std::getline(lines, unit);
+    if (name == "MemAvailable:") return kilobytes * 1024;
+  }
+  return std::nullopt;
+}
+
+// Pieces on their way from the thread that reads to those that work.
+class PieceQueue {
+ public:
+  struct Stopped {};  // thrown where a worker failed
+
+  explicit PieceQueue(std::size_t room) : room_(room) {}
+
+  void push(PointCloud piece, std::uint64_t first) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failure_ || pieces_.size() < room_; });
+    if (failure_) throw Stopped{};
+    pieces_.emplace_back(std::move(piece), first);
+    changed_.notify_all();
+  }
+  // Nothing at the end, and where a worker failed.
+  std::optional<std::pair<PointCloud, std::uint64_t>> pop() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failure_ || at_end_ || !pieces_.empty(); });
+    if (failure_ || pieces_.empty()) return std::nullopt;
+    auto piece = std::move(pieces_.front());
+    pieces_.pop_front();
+    changed_.notify_all();
+    return piece;
+  }
+  void end() {
+    const std::lock_guard lock(mutex_);
+    at_end_ = true;
+    changed_.notify_all();
+  }
+  void fail(std::exception_ptr failure) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(failure);
+    changed_.notify_all();
+  }
+  void rethrow() {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  const std::size_t room_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<PointCloud, std::uint64_t>> pieces_;
+  bool at_end_ = false;
+  std::exception_ptr failure_;
+};
+
+// The points of the pieces, one after the other.
+PointCloud joined_pieces(std::vector<PointCloud> pieces, PointCloud rest, std::uint64_t points) {
+  rest.points.reserve(static_cast<std::size_t>(points));
+  for (PointCloud& piece : pieces) {
+    if (!rest.left_out.empty()) {
+      for (std::size_t i = 0; i < piece.points.size(); ++i) {
+        rest.file_index.push_back(piece.index_in_file(i));
+      }
+    }
+    rest.points.insert(rest.points.end(), piece.points.begin(), piece.points.end());
+    piece = {};
+  }
+  return rest;
+}
+
+// Each thread works on a piece while another one waits for it.
+std::size_t points_of_piece(std::uint64_t memory) {
+  const std::uint64_t room = memory / (kBytesPerPointOfPiece * 2 * processor_threads());
+  return std::clamp<std::uint64_t>(room, kLeastPoints, kMostPoints);
+}
+
+bool is_in(const Bounds& inner, const Bounds& outer) {
+  return (inner.lower.array() >= outer.lower.array()).all() &&
+         (inner.upper.array() <= outer.upper.array()).all();
+}
+
+}  // namespace
+
+std::uint64_t standard_memory() {
+  std::uint64_t memory = free_bytes_of_machine().value_or(usable_memory());
+  std::uint64_t limit = 0, used = 0;
+  const std::filesystem::path group = "/sys/fs/cgroup";
+  if (std::ifstream(group / "memory.max") >> limit &&
+      std::ifstream(group / "memory.current") >> used) {
+    memory = std::min(memory, limit - std::min(used, limit));
+  }
+  return memory / 2;
+}
+
+ScanPieces::ScanPieces(const Scan& scan)
+    : scan_(&scan), points_(scan.cloud.points.size()), bounds_(bounds_of(scan.cloud.points)) {}
+
+ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
+                       std::string_view unit, std::uint64_t memory,
+                       std::function<bool()> interrupted)
+    : scan_(&own_), reading_(reading), memory_(memory), interrupted_(std::move(interrupted)) {
+  own_.path = path;
+  own_.unit = unit_named(unit);
+  std::vector<PointCloud> kept;
+  bool are_kept = true;
+  read(
+      [&](PointCloud piece) {
+        const Bounds box = bounds_of(piece.points);
+        bounds_ = points_ == 0 ? box : joined(bounds_, box);
+        points_ += piece.points.size();
+        are_kept = are_kept && points_ * kBytesPerPoint <= memory;
+        if (are_kept) {
+          kept.push_back(std::move(piece));
+        } else {
+          kept.clear();
+        }
+      },
+      own_.cloud);
+  own_.width = bounds_.width();
+  if (are_kept) {
+    own_.cloud = joined_pieces(std::move(kept), std::move(own_.cloud), points_);
+    check_cloud(own_.cloud, path.string());
+  }
+  if (unit.empty()) own_.unit = own_.cloud.unit;
+}
+
+void ScanPieces::read(const std::function<void(PointCloud)>& take, PointCloud& rest) const {
+  rest =
+      read_cloud_in_pieces(scan_->path, reading_, points_of_piece(memory_), [&](PointCloud piece) {
+        if (interrupted_ && interrupted_()) throw Interrupted{};
+        take(std::move(piece));
+      });
+}
+
+void ScanPieces::require_in_memory(std::string_view what) const {
+  if (is_in_memory()) return;
+  throw Error(fmt::format(
+      "{}: {} points need {:.3g} GB, more than the {:.3g} GB of --memory, and {} needs all of them "
+      "at once; give more memory, or leave it out",
+      scan_->path.string(), grouped(points_), static_cast<double>(points_ * kBytesPerPoint) / 1e9,
+      static_cast<double>(memory_) / 1e9, what));
+}
+
+void ScanPieces::for_each(std::size_t threads,
+                          const std::function<void(const Piece&)>& work) const {
+  if (!is_in_memory()) {
+    for_each_read(threads, work);
+    return;
+  }
+  const PointCloud& cloud = scan_->cloud;
+  const std::size_t size =
+      std::clamp(cloud.points.size() / (4 * threads), kLeastPoints, kMostPoints);
+  in_pieces(threads, cloud.points.size(), size,
+            [&](std::size_t, std::size_t first, std::size_t last) {
+              const auto of_piece = [&](const auto& all) {
+                return std::span(all).subspan(first, last - first);
+              };
+              PointNumbers numbers{cloud.index_in_file(first)};
+              if (!cloud.file_index.empty()) numbers.listed = of_piece(cloud.file_index);
+              work({of_piece(cloud.points), first, numbers});
+            });
+}
+
+void ScanPieces::for_each_read(std::size_t threads,
+                               const std::function<void(const Piece&)>& work) const {
+  const auto fail_as_changed = [&] {
+    throw Error(fmt::format("{}: was changed while it was read; leave it as it is meanwhile",
+                            scan_->path.string()));
+  };
+  PieceQueue queue(threads);
+  std::uint64_t points = 0;
+  {
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 0; i < threads; ++i) {
+      workers.emplace_back([&] {
+        try {
+          while (const auto next = queue.pop()) {
+            const auto& [piece, first] = *next;
+            if (!is_in(bounds_of(piece.points), bounds_)) fail_as_changed();
+            work({piece.points, first, {piece.first_index, piece.file_index}});
+          }
+        } catch (...) {
+          queue.fail(std::current_exception());
+        }
+      });
+    }
+    try {
+      PointCloud rest;
+      read(
+          [&](PointCloud piece) {
+            const std::uint64_t first = points;
+            points += piece.points.size();
+            queue.push(std::move(piece), first);
+          },
+          rest);
+      queue.end();
+    } catch (const PieceQueue::Stopped&) {
+      // The worker's failure is rethrown below.
+    } catch (...) {
+      queue.fail(std::current_exception());
+    }
+  }
+  queue.rethrow();
+  if (points != points_) fail_as_changed();
+}
+
+}  // namespace emax

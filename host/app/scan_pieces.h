@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "host/app/scan.h"
+#include "host/geometry/bounds.h"
+#include "sw_model/base/point_numbers.h"
+#include "sw_model/model/normalization.h"
+
+namespace emax {
+
+// Half of the bytes that are free now: of the machine, or of its control group where that has less.
+std::uint64_t standard_memory();
+
+// A cloud that is measured piece by piece. It is in memory where there is room for it; else only
+// some pieces are, and its file is read anew whenever the points are asked for.
+class ScanPieces {
+ public:
+  // Of a scan in memory, which must outlive this.
+  explicit ScanPieces(const Scan& scan);
+  // Reads the cloud once and keeps it if `memory` bytes hold it. Throws as read_scan(), and
+  // Interrupted when `interrupted` returns true.
+  ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
+             std::string_view unit, std::uint64_t memory, std::function<bool()> interrupted);
+
+  ScanPieces(const ScanPieces&) = delete;  // scan_ may be own_
+  ScanPieces& operator=(const ScanPieces&) = delete;
+
+  const Scan& scan() const { return *scan_; }  // without points unless they are in memory
+  bool is_in_memory() const { return scan_->cloud.points.size() == points_; }
+  std::uint64_t points() const { return points_; }
+  Normalization normalization() const { return normalization_of_box(bounds_.lower, bounds_.upper); }
+  // Throws Error if the points are not in memory, where `what` needs all of them at a time.
+  void require_in_memory(std::string_view what) const;
+
+  struct Piece {
+    std::span<const Point> points;
+    std::uint64_t first;   // the index of the first in the cloud
+    PointNumbers numbers;  // in the file
+  };
+  // Calls work(piece) for all points, in pieces of neighbours in the file, on so many threads; in
+  // any order. Rethrows the first exception. Throws Error if the file was changed meanwhile.
+  void for_each(std::size_t threads, const std::function<void(const Piece&)>& work) const;
+
+ private:
+  void read(const std::function<void(PointCloud)>& take, PointCloud& rest) const;
+  void for_each_read(std::size_t threads, const std::function<void(const Piece&)>& work) const;
+
+  Scan own_ = {};
+  const Scan* scan_;
+  CloudReadOptions reading_;
+  std::uint64_t memory_ = 0;
+  std::function<bool()> interrupted_;
+  std::uint64_t points_ = 0;
+  Bounds bounds_;
+};
+
+}  // namespace emax

@@ -1,0 +1,44 @@
+#include "host/measure/piece_measurement.h"
+
+#include <gtest/gtest.h>
+
+#include "host/engine/error_engine.h"
+#include "sw_model/base/error.h"
+#include "tests/support/stimuli.h"
+
+namespace emax {
+namespace {
+
+// In pieces of any size each point has the bits that it has in the whole cloud.
+TEST(PieceMeasurement, GivesTheBitsOfTheWhole) {
+  for (const test::Stimulus& s : test::all_stimuli(95)) {
+    SCOPED_TRACE(s.name + ", seed 95");
+    const PreparedCloud cloud(s.cloud);
+    ErrorEngine engine(cloud);
+    const PreparedMesh mesh(s.mesh(), cloud.normalization());
+    const std::vector<std::uint32_t> whole = engine.squared_distances(mesh);
+    for (const bool brute_force : {false, true}) {
+      const PieceMeasurement measurement(s.mesh(), cloud.normalization(), brute_force, 2);
+      for (const std::size_t size : {std::size_t{1}, std::size_t{33}, s.cloud.size()}) {
+        std::vector<std::uint32_t> pieces;
+        for (std::size_t first = 0; first < s.cloud.size(); first += size) {
+          const std::size_t count = std::min(size, s.cloud.size() - first);
+          for (const std::uint32_t bits :
+               measurement.squared_distances(std::span(s.cloud).subspan(first, count))) {
+            pieces.push_back(bits);
+          }
+        }
+        EXPECT_EQ(pieces, whole) << "pieces of " << size << (brute_force ? ", every pair" : "");
+      }
+    }
+  }
+}
+
+TEST(PieceMeasurement, EndsWhereItIsInterrupted) {
+  const test::Stimulus s = test::bumpy_sphere(12, 16, 300, 96);
+  const PieceMeasurement measurement(s.mesh(), normalization_of(s.cloud), false, 1);
+  EXPECT_THROW(measurement.squared_distances(s.cloud, [] { return true; }), Interrupted);
+}
+
+}  // namespace
+}  // namespace emax
