@@ -380,6 +380,7 @@ void add_verify(CLI::App& app, CommandLine& line) {
                      "certificate nor in the current folder");
   add_json(command, verify.json);
   add_report(command, verify.report);
+  add_memory(command, verify.memory);
   add_quiet(command, line);
   add_examples(
       command,

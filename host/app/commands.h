@@ -87,6 +87,7 @@ struct VerifyOptions {
   std::string cloud, mesh, reference;  // empty: found by the names in the certificate
   std::string json;
   ReportOptions report;
+  std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
 };
 int run_verify(const VerifyOptions& options);
 

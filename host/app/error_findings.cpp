@@ -61,11 +61,7 @@ class CloudMeasurement {
   CertifiedError certify(std::span<const std::uint32_t> excluded) {
     if (excludable_ == 0) return certificate_.finish();
     scan_.for_each(processor_threads(), [&](const ScanPieces::Piece& piece) {
-      std::vector<std::uint32_t> of_piece;
-      for (std::uint32_t i = 0; i < piece.points.size(); ++i) {
-        if (std::ranges::binary_search(excluded, piece.numbers[i])) of_piece.push_back(i);
-      }
-      certificate_.add(piece.points, piece.numbers, of_piece);
+      certificate_.add(piece.points, piece.numbers, piece.indices_of(excluded));
     });
     return certificate_.finish();
   }

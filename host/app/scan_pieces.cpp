@@ -177,6 +177,22 @@ void ScanPieces::require_in_memory(std::string_view what) const {
       static_cast<double>(memory_) / 1e9, what));
 }
 
+std::vector<std::uint32_t> ScanPieces::Piece::indices_of(
+    std::span<const std::uint32_t> ascending) const {
+  std::vector<std::uint32_t> indices;
+  const auto begin = std::ranges::lower_bound(ascending, numbers[0]);
+  const auto end = std::ranges::upper_bound(ascending, numbers[points.size() - 1]);
+  for (const std::uint32_t number : std::span(begin, end)) {
+    const auto at = std::ranges::lower_bound(numbers.listed, number);
+    if (numbers.listed.empty()) {
+      indices.push_back(number - numbers.first);
+    } else if (*at == number) {
+      indices.push_back(static_cast<std::uint32_t>(at - numbers.listed.begin()));
+    }
+  }
+  return indices;
+}
+
 void ScanPieces::for_each(std::size_t threads,
                           const std::function<void(const Piece&)>& work) const {
   if (!is_in_memory()) {

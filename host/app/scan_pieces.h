@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "host/app/scan.h"
 #include "host/geometry/bounds.h"
@@ -39,6 +40,10 @@ class ScanPieces {
     std::span<const Point> points;
     std::uint64_t first;   // the index of the first in the cloud
     PointNumbers numbers;  // in the file
+
+    // Those of `ascending`, numbers in the file, that are points of this piece, by their indices in
+    // the piece.
+    std::vector<std::uint32_t> indices_of(std::span<const std::uint32_t> ascending) const;
   };
   // Calls work(piece) for all points, in pieces of neighbours in the file, on so many threads; in
   // any order. Rethrows the first exception. Throws Error if the file was changed meanwhile.

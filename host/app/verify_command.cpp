@@ -9,6 +9,7 @@
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/point_claims.h"
 #include "host/app/reference_text.h"
 #include "host/app/report_output.h"
 #include "host/files/atomic_file.h"
@@ -49,7 +50,10 @@ bool agree(double claimed, double found) {
 class Verification {
  public:
   explicit Verification(const VerifyOptions& options)
-      : path_(options.certificate), certificate_(read_certificate(path_)) {
+      : path_(options.certificate),
+        certificate_(read_certificate(path_)),
+        report_(options.report),
+        memory_(options.memory.value_or(standard_memory())) {
     if (!options.report.report.empty()) certificate_text_ = read_input(path_).bytes;
     mesh_path_ = locate(options.mesh, certificate_.mesh_file, "mesh", path_, false);
     cloud_path_ = locate(options.cloud, certificate_.cloud_file, "cloud", path_, true);
@@ -62,7 +66,8 @@ class Verification {
   // Of a certificate whose mesh, cloud and reference are at hand.
   Verification(const Certificate& certificate, const TriangleMesh& mesh, const Scan& scan,
                const TriangleMesh* reference)
-      : certificate_(certificate), mesh_(mesh), scan_(scan) {
+      : certificate_(certificate), mesh_(mesh) {
+    scan_.emplace(scan);
     if (reference != nullptr) reference_ = *reference;
   }
 
@@ -94,7 +99,15 @@ class Verification {
 
   // Recomputes the claims.
   CheckedClaims check() {
-    check_sizes();
+    require_resolution(scan_->scan(), certificate_.epsilon);
+    excluded_ = certificate_.error.excluded;
+    std::ranges::sort(excluded_);
+    const bool once = std::ranges::adjacent_find(excluded_) == excluded_.end();
+    const bool leave_some = excluded_.size() < scan_->points();
+    if (once && leave_some) {
+      points_ = recompute(*scan_, mesh_, certificate_.reference ? &reference_ : nullptr, excluded_);
+    }
+    check_sizes(once, leave_some);
     if (reasons_.empty()) check_claims();
     return {reasons_, e_max_};
   }
@@ -113,8 +126,9 @@ class Verification {
     if (!wanted.any()) return;
     if (!scan_) read();  // other files than those that were certified are shown as they are
     if (!excluded_are_known_) excluded_.clear();
-    ReportData report =
-        measured_report(wanted, *scan_, mesh_.view(), excluded_, certificate_.epsilon);
+    const Scan& scan = scan_->scan();
+    ReportData report = measured_report(wanted, scan, mesh_.view(), in_cloud(excluded_, scan.cloud),
+                                        certificate_.epsilon);
     const DeviationStatistics& s = report.measured.statistics;
     report.command = "verify";
     report.title = path_.filename().string();
@@ -165,45 +179,45 @@ class Verification {
 
   void read() {
     mesh_ = read_mesh(mesh_path_);
-    scan_ = certificate_.vertices_of_mesh ? vertices_of(cloud_path_, read_mesh(cloud_path_))
-                                          : read_scan(cloud_path_, certificate_.reading);
+    if (certificate_.vertices_of_mesh) {
+      vertices_ = vertices_of(cloud_path_, read_mesh(cloud_path_));
+      scan_.emplace(*vertices_);
+    } else {
+      scan_.emplace(cloud_path_, certificate_.reading, "", memory_, was_interrupted);
+      if (!report_.report.empty()) scan_->require_in_memory("--report");
+      if (!report_.picture.empty()) scan_->require_in_memory("--picture");
+    }
     if (certificate_.reference) reference_ = read_mesh(reference_path_);
   }
 
-  void check_sizes() {
-    require_resolution(*scan_, certificate_.epsilon);
+  void check_sizes(bool once, bool leave_some) {
     require("sizes",
             mesh_.triangles.size() == certificate_.triangles &&
                 mesh_.vertices.size() == certificate_.vertices,
             fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",
                         mesh_.triangles.size(), mesh_.vertices.size(), certificate_.triangles,
                         certificate_.vertices));
-    excluded_ = in_cloud(certificate_.error.excluded, scan_->cloud);
-    std::vector<std::uint32_t> sorted = excluded_;
-    std::ranges::sort(sorted);
-    const bool exist = sorted.empty() || sorted.back() < scan_->cloud.points.size();
-    const bool once = std::ranges::adjacent_find(sorted) == sorted.end();
-    const bool leave_some = sorted.size() < scan_->cloud.points.size();
+    const bool exist = !points_ || points_->excluded == excluded_.size();
     require("sizes", exist, "the certificate excludes a point that the cloud does not have");
     require("sizes", once, "the certificate excludes a point twice");
     require("sizes", leave_some, "the certificate excludes every point");
     excluded_are_known_ = exist && once && leave_some;
     say(fmt::format("the mesh has {} triangles, the cloud {} points, {} of them excluded",
-                    grouped(certificate_.triangles), grouped(scan_->cloud.points.size()),
+                    grouped(certificate_.triangles), grouped(scan_->points()),
                     excluded_.empty() ? "none" : grouped(excluded_.size())));
   }
 
   void check_claims() {
-    check_error(mesh_, *scan_, excluded_);
-    check_kernel(mesh_, *scan_, excluded_);
-    if (certificate_.reference) check_reference(mesh_, *scan_, excluded_);
+    check_error();
+    check_kernel();
+    if (certificate_.reference) check_reference(mesh_);
     const MeshValidity validity = check_mesh(mesh_.view());
     require("validity",
             validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");
     say("the mesh is " + describe(validity));
     check_topology("the mesh", certificate_.topology, mesh_);
-    const Normalization transform = normalization_of(scan_->cloud.points);
+    const Normalization transform = scan_->normalization();
     require("transform",
             transform.origin == certificate_.transform.origin &&
                 transform.scale == certificate_.transform.scale,
@@ -227,10 +241,8 @@ class Verification {
     say(fmt::format("{} has {}", what, describe(found)));
   }
 
-  void check_error(const TriangleMesh& mesh, const Scan& scan,
-                   std::span<const std::uint32_t> excluded) {
-    const CertifiedError error =
-        certify(scan.cloud.points, mesh.view(), excluded, processor_threads());
+  void check_error() {
+    const CertifiedError& error = points_->error;
     const CertifiedError& claimed = certificate_.error;
     require(
         "points", error.within(certificate_.epsilon),
@@ -243,25 +255,27 @@ class Verification {
     require("points", claimed.points == error.points,
             fmt::format("the certificate counts {} points, but {} are kept", claimed.points,
                         error.points));
-    for (std::size_t i = 0; i < excluded.size(); ++i) {
+    for (std::size_t i = 0; i < claimed.excluded.size(); ++i) {
+      const auto at = std::ranges::lower_bound(error.excluded, claimed.excluded[i]);
+      const double found =
+          error.excluded_distances[static_cast<std::size_t>(at - error.excluded.begin())];
       require(
-          "points", agree(claimed.excluded_distances[i], error.excluded_distances[i]),
+          "points", agree(claimed.excluded_distances[i], found),
           fmt::format(
               "the certificate claims {:.9g} for the distance of the excluded point {}, which is "
               "{:.9g}",
-              claimed.excluded_distances[i], claimed.excluded[i], error.excluded_distances[i]));
+              claimed.excluded_distances[i], claimed.excluded[i], found));
     }
     require("points", agree(claimed.e_max_upper_all, error.e_max_upper_all),
             fmt::format("the certificate claims e_max {:.9g} over all points, but it is {:.9g}",
                         claimed.e_max_upper_all, error.e_max_upper_all));
     e_max_ = error.e_max_upper;
     say(fmt::format("every {}point lies within {:.9g} of the mesh: e_max {:.9g}",
-                    excluded.empty() ? "" : "kept ", certificate_.epsilon, *e_max_));
+                    excluded_.empty() ? "" : "kept ", certificate_.epsilon, *e_max_));
   }
 
-  void check_kernel(const TriangleMesh& mesh, const Scan& scan,
-                    std::span<const std::uint32_t> excluded) {
-    const EmaxResult worst = kernel_error(scan, mesh.view(), excluded);
+  void check_kernel() {
+    const EmaxResult worst = points_->kernel;
     require("kernel",
             worst.squared_bits == certificate_.kernel.squared_bits &&
                 worst.worst_point == certificate_.kernel.worst_point,
@@ -272,8 +286,7 @@ class Verification {
                     worst.worst_point));
   }
 
-  void check_reference(const TriangleMesh& mesh, const Scan& scan,
-                       std::span<const std::uint32_t> excluded) {
+  void check_reference(const TriangleMesh& mesh) {
     const ReferenceBound& claimed = *certificate_.reference;
     const TriangleMesh& reference = reference_;
     require("size of the reference", reference.triangles.size() == claimed.triangles,
@@ -299,8 +312,7 @@ class Verification {
     check("the distance of the reference to the mesh", reference.view(), mesh,
           claimed.reference_to_mesh, certificate_.epsilon);
     check_topology("the reference", claimed.topology, reference);
-    const CertifiedError own =
-        certify(scan.cloud.points, reference.view(), excluded, processor_threads());
+    const CertifiedError& own = *points_->of_reference;
     require(
         "the distance of the points to the reference",
         claimed.points_to_reference >= own.e_max_lower,
@@ -346,8 +358,12 @@ class Verification {
   std::string certificate_text_;
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
   TriangleMesh mesh_, reference_;
-  std::optional<Scan> scan_;             // read with the meshes
-  std::vector<std::uint32_t> excluded_;  // indices of the cloud
+  ReportOptions report_;
+  std::uint64_t memory_ = 0;             // bytes
+  std::optional<Scan> vertices_;         // of the mesh that is the cloud
+  std::optional<ScanPieces> scan_;       // read with the meshes
+  std::vector<std::uint32_t> excluded_;  // numbers in the file, ascending
+  std::optional<PointClaims> points_;
   bool excluded_are_known_ = false;
   std::vector<ReportInput> inputs_;
   std::vector<ReportCheck> checks_;

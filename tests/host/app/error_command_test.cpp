@@ -320,6 +320,38 @@ TEST_F(StreamedErrorCommand, GivesTheResultOfTheWhole) {
   expect_same("scan.xyz", {"--brute-force"});
 }
 
+// A certificate is recomputed with the same answer, whatever does not hold of it.
+TEST_F(StreamedErrorCommand, VerifiesAsTheWhole) {
+  std::ofstream(folder_ / "scan.xyz", std::ios::app) << "3 0 0\n0 2 0\n";
+  const ProgramRun made =
+      test::run_emax({"decimate", "fine.off", "-o", "m.ply", "--cloud", "scan.xyz", "--max-error",
+                      "8%", "--exclude-outliers", "0.2%"},
+                     folder_.path());
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  const auto verify = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"verify", name});
+    return test::run_emax(more, folder_.path());
+  };
+  json certificate = json::parse(test::file_text(folder_ / "m.ply.certificate.json"));
+  EXPECT_GT(certificate.at("excluded").size(), 0u);
+  const auto expect_same_answer = [&](const char* what, int exit_code) {
+    SCOPED_TRACE(what);
+    std::ofstream(folder_ / "c.json") << certificate.dump();
+    const ProgramRun whole = verify("c.json", {});
+    const ProgramRun pieces = verify("c.json", {"--memory", "0"});
+    EXPECT_EQ(whole.exit_code, exit_code) << whole.output << whole.errors;
+    EXPECT_EQ(pieces.exit_code, exit_code) << pieces.errors;
+    EXPECT_EQ(pieces.output, whole.output);
+  };
+  expect_same_answer("as it was made", 0);
+  const json whole = certificate;
+  certificate.at("e_max") = certificate.at("e_max").get<double>() * 0.9;
+  expect_same_answer("a smaller error", 2);
+  certificate = whole;
+  certificate.at("excluded").at(0).at("point") = 20002;
+  expect_same_answer("a point that the cloud lacks", 2);
+}
+
 TEST_F(StreamedErrorCommand, NamesTheOptionsThatNeedAllPointsAtOnce) {
   const std::vector<std::vector<std::string>> needy = {
       {"--two-sided"},        {"--color", "c.ply"},   {"--deviations", "d.ply"},
