@@ -4,6 +4,7 @@
 #include <span>
 
 #include "host/engine/packets.h"
+#include "sw_model/base/morton.h"
 #include "sw_model/model/normalization.h"
 
 namespace emax {
@@ -17,14 +18,14 @@ class CurveOrder {
   CurveOrder(MeshView mesh, const Normalization& normalization, std::size_t threads);
 
   std::span<const NormalizedVertex> vertices() const { return {vertices_.get(), vertex_count_}; }
-  std::span<const LeafKey> keys() const { return {keys_.get(), triangle_count_}; }
+  std::span<const MortonKey> keys() const { return {keys_.get(), triangle_count_}; }
   std::span<const Triangle> corners() const { return {corners_.get(), triangle_count_}; }
-  std::unique_ptr<LeafKey[]> take_keys() { return std::move(keys_); }
+  std::unique_ptr<MortonKey[]> take_keys() { return std::move(keys_); }
 
  private:
   std::size_t vertex_count_, triangle_count_;
   std::unique_ptr<NormalizedVertex[]> vertices_;
-  std::unique_ptr<LeafKey[]> keys_;
+  std::unique_ptr<MortonKey[]> keys_;
   std::unique_ptr<Triangle[]> corners_;
 };
 

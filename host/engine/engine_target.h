@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/engine/packets.h"
+#include "sw_model/base/morton.h"
 #include "sw_model/model/emax_model.h"
 #include "sw_model/model/normalization.h"
 
@@ -68,7 +69,7 @@ struct EngineTarget {
   // Makes the triangles' records and the blocks of their boxes; returns their reach. The vertices
   // are normalised and in range. O(n), about 100 operations on doubles for each triangle.
   float (*make_leaves)(std::span<const NormalizedVertex> vertices,
-                       std::span<const Triangle> corners, std::span<const LeafKey> keys,
+                       std::span<const Triangle> corners, std::span<const MortonKey> keys,
                        std::span<TriangleRecord<float>> records, std::span<BoxBlock> blocks);
   void (*make_level)(std::span<const BoxBlock> below, std::span<BoxBlock> level);
 

@@ -173,7 +173,7 @@ HWY_INLINE void empty_children(BoxBlock& block, std::size_t first) {
 
 [[gnu::flatten]] inline float make_leaves(std::span<const NormalizedVertex> vertices,
                                           std::span<const Triangle> corners,
-                                          std::span<const LeafKey> keys,
+                                          std::span<const MortonKey> keys,
                                           std::span<TriangleRecord<float>> records,
                                           std::span<BoxBlock> blocks) {
   constexpr std::size_t kAhead = 3 * kTriangles;
@@ -200,8 +200,7 @@ HWY_INLINE void empty_children(BoxBlock& block, std::size_t first) {
         std::memcpy(record, &words[k * kWordsAtOnce], kWordsAtOnce * sizeof(float));
         record += kWordsAtOnce * sizeof(float);
       }
-      records[first + k].tag =
-          keys[first + k].triangle | (lanes.segment[k] != 0 ? kSegmentFlag : 0);
+      records[first + k].tag = keys[first + k].item | (lanes.segment[k] != 0 ? kSegmentFlag : 0);
     }
   }
   if (corners.size() % kTreeWidth != 0) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/engine/engine_target.h"
+#include "sw_model/base/morton.h"
 #include "sw_model/model/normalization.h"
 
 namespace emax {
@@ -31,7 +32,7 @@ class MeshLeaves {
 
  private:
   std::size_t count_;
-  std::unique_ptr<LeafKey[]> keys_;
+  std::unique_ptr<MortonKey[]> keys_;
   std::unique_ptr<TriangleRecord<float>[]> records_;
   float reach_ = 0;
 };

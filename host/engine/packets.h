@@ -35,10 +35,6 @@ struct alignas(32) NormalizedVertex {
   std::array<double, 4> at;
 };
 
-// The position of a triangle along the curve, and its index in the mesh.
-struct LeafKey {
-  std::uint32_t code, triangle;
-};
 constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
 // The triangles that settled a packet on a mesh: for each point a triangle within

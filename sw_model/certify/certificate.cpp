@@ -46,24 +46,23 @@ std::vector<std::uint32_t> along_a_curve(std::span<const Point> cloud,
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  constexpr double kCells = 1023;  // on each axis; the greatest coordinate has a cell of its own
+  constexpr double kLastCell = kMortonCells - 1;  // the greatest coordinate has a cell of its own
   const double width = (high - low).maxCoeff();
-  const double scale = width > 0 ? kCells / width : 0;
-  std::vector<std::uint64_t> keys;
+  const double scale = width > 0 ? kLastCell / width : 0;
+  std::vector<MortonKey> keys;
   keys.reserve(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (is_excluded[i]) continue;
-    std::uint64_t code = 0;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const double cell = std::clamp((cloud[i][k] - low[k]) * scale, 0.0, kCells);
-      code = code << 1 | spread_bits(static_cast<std::uint64_t>(cell));
-    }
-    keys.push_back(code << 32 | i);
+    const auto cell = [&](Eigen::Index k) {
+      return static_cast<std::uint32_t>(std::clamp((cloud[i][k] - low[k]) * scale, 0.0, kLastCell));
+    };
+    keys.push_back({morton_code(cell(0), cell(1), cell(2)), i});
   }
-  std::sort(keys.begin(), keys.end());
+  std::vector<MortonKey> sorted(keys.size());
+  sort_by_code(keys, sorted);
   std::vector<std::uint32_t> order;
-  order.reserve(keys.size());
-  for (const std::uint64_t key : keys) order.push_back(static_cast<std::uint32_t>(key));
+  order.reserve(sorted.size());
+  for (const MortonKey& key : sorted) order.push_back(key.item);
   return order;
 }
 

@@ -272,24 +272,32 @@ DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) co
   return bounds(p, corners_[place_of_.at(triangle)]);
 }
 
+// docs/numerics.md, "The oracle's rounding": the square of a length, and a size, such that the
+// triangle is at most length + 6 kUnitRoundoff size away, and (1 + 32 kUnitRoundoff) times that.
+// Both are times scale_. Nothing where plain arithmetic does not prove that.
+inline std::optional<ExactMesh::Quick> ExactMesh::quick(const Point& p, std::uint32_t place) const {
+  if (is_sliver_[place]) return std::nullopt;
+  const std::array<Point, 3>& corners = corners_[place];
+  const Point a = scale_ * (corners[0] - p), b = scale_ * (corners[1] - p),
+              c = scale_ * (corners[2] - p);
+  const Foot foot = likely_foot(a, b, c);
+  const double weight = (1 - foot.b) - foot.c;
+  const double squared = (std::max(weight, 0.0) * a + foot.b * b + foot.c * c).squaredNorm();
+  if (!(foot.b >= 0 && foot.c >= 0 && weight >= -0x1p-50 && squared > kLeastPlain &&
+        squared < kMostPlain)) {
+    return std::nullopt;
+  }
+  return Quick{squared, std::max({a.lpNorm<1>(), b.lpNorm<1>(), c.lpNorm<1>()})};
+}
+
 double ExactMesh::upper_to(const Point& p, std::uint32_t triangle) const {
   const std::uint32_t place = place_of_[triangle];
-  const std::array<Point, 3>& corners = corners_[place];
-  if (!is_sliver_[place]) {
-    const Point a = scale_ * (corners[0] - p), b = scale_ * (corners[1] - p),
-                c = scale_ * (corners[2] - p);
-    const Foot foot = likely_foot(a, b, c);
-    const double weight = (1 - foot.b) - foot.c;
-    const double squared = (std::max(weight, 0.0) * a + foot.b * b + foot.c * c).squaredNorm();
-    if (foot.b >= 0 && foot.c >= 0 && weight >= -0x1p-50 && squared > kLeastPlain &&
-        squared < kMostPlain) {
-      // docs/numerics.md, "The oracle's rounding".
-      const double size = std::max({a.lpNorm<1>(), b.lpNorm<1>(), c.lpNorm<1>()});
-      return (std::sqrt(squared) + 6 * kUnitRoundoff * size) * (1 + 32 * kUnitRoundoff) * unscale_ +
-             0x1p-1060;
-    }
+  if (const std::optional<Quick> found = quick(p, place)) {
+    return (std::sqrt(found->squared) + 6 * kUnitRoundoff * found->size) *
+               (1 + 32 * kUnitRoundoff) * unscale_ +
+           0x1p-1060;
   }
-  return bounds(p, corners).upper;
+  return bounds(p, corners_[place]).upper;
 }
 
 // The square of about the distance.
@@ -348,8 +356,10 @@ std::uint32_t ExactMesh::likely_nearest(const Point& p, std::uint32_t seed) cons
 }
 
 bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) const {
-  const std::array<Point, 3>& corners = corners_[place_of_.at(triangle)];
-  // docs/numerics.md, "The oracle's rounding": such a corner keeps the upper end within the limit.
+  const std::uint32_t place = place_of_.at(triangle);
+  const std::array<Point, 3>& corners = corners_[place];
+  // docs/numerics.md, "The oracle's rounding": such a corner, or such a point of the triangle,
+  // keeps the upper end within the limit.
   if (limit > 0x1p-400 && limit < 0x1p400) {
     double nearest = kInfinity, farthest = 0;
     for (const Point& corner : corners) {
@@ -358,8 +368,13 @@ bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) 
       farthest = std::max(farthest, squared);
     }
     if (nearest <= 0.25 * limit * limit && farthest <= 0x1p60 * limit * limit) return true;
+    const double scaled = scale_ * limit;
+    const std::optional<Quick> found = quick(p, place);
+    if (found && found->squared <= (1 - 0x1p-20) * scaled * scaled && found->size <= 0x1p8 * scaled)
+      return true;
   }
-  return distance_to(p, triangle).upper <= limit;
+  require_no_flush("the exact distance");
+  return bounds(p, corners).upper <= limit;
 }
 
 ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32_t seed) const {

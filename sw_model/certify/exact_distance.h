@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sw_model/base/mesh_view.h"
@@ -64,8 +65,8 @@ class ExactMesh {
   // about equally far, any of them. It costs a third of nearest(). No seed need be near.
   std::uint32_t likely_nearest(const Point& p, std::uint32_t seed = 0) const;
 
-  // distance_to(p, triangle).upper <= limit, mostly without computing that distance: a corner that
-  // is well within the limit is enough.
+  // distance_to(p, triangle).upper <= limit, mostly without computing that distance: a corner or
+  // another point of the triangle that is well within the limit is enough.
   bool is_within(const Point& p, std::uint32_t triangle, double limit) const;
 
  private:
@@ -81,6 +82,10 @@ class ExactMesh {
   };
   std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Centre>& centres);
   double likely_squared(const Point& p, std::uint32_t place) const;
+  struct Quick {
+    double squared, size;
+  };
+  std::optional<Quick> quick(const Point& p, std::uint32_t place) const;
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;     // the triangle at each place in the leaves

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/stimuli.h"
 
 namespace emax {
@@ -27,6 +29,26 @@ TEST(Morton, SpreadsEachBitToEveryThirdPlace) {
 TEST(Morton, LeavesOutWhatIsBeyondTwentyOneBits) {
   EXPECT_EQ(spread_bits(std::uint64_t{1} << 21), 0u);
   EXPECT_EQ(spread_bits(~std::uint64_t{0}), spread_bits(0x1fffff));
+}
+
+TEST(Morton, SortsByCodesOfThirtyBitsAndKeepsEqualOnesInTheirOrder) {
+  test::Random random(2);
+  std::vector<MortonKey> keys(5000), sorted(keys.size());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    const auto cell = [&] {
+      return static_cast<std::uint32_t>(random.word() % (i % 2 == 0 ? 5 : 1024));
+    };
+    const std::uint32_t x = cell(), y = cell(), z = cell();
+    keys[i] = {morton_code(x, y, z), i};
+    ASSERT_EQ(keys[i].code, spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z));
+  }
+  std::vector<MortonKey> expected = keys;
+  std::ranges::stable_sort(expected, {}, &MortonKey::code);
+  sort_by_code(keys, sorted);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    ASSERT_EQ(sorted[i].code, expected[i].code) << "seed 2, " << i;
+    ASSERT_EQ(sorted[i].item, expected[i].item) << "seed 2, " << i;
+  }
 }
 
 }  // namespace

@@ -249,7 +249,8 @@ TEST(ExactMesh, TellsALikelyNearestTriangle) {
   }
 }
 
-// The corners decide only where the upper end would, slivers and tiny limits included.
+// Corners and quick upper ends decide only where the upper end would, slivers and tiny limits
+// included.
 TEST(ExactMesh, IsWithinExactlyWhereTheUpperEndIs) {
   std::array<std::size_t, 2> seen{};
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
@@ -259,8 +260,9 @@ TEST(ExactMesh, IsWithinExactlyWhereTheUpperEndIs) {
     double nearest = INFINITY;
     for (const Point& corner : corners) nearest = std::min(nearest, (corner - p).norm());
     const double upper = mesh.distance_to(p, 0).upper;
-    for (const double limit : {2 * nearest, 2.000001 * nearest, nearest, upper,
-                               std::nextafter(upper, 0), 3 * upper, 0.0, -1.0}) {
+    for (const double limit :
+         {2 * nearest, 2.000001 * nearest, nearest, upper, std::nextafter(upper, 0), 3 * upper,
+          upper * (1 + 0x1p-21), upper * (1 + 0x1p-20), upper * (1 + 0x1p-19), 0.0, -1.0}) {
       EXPECT_EQ(mesh.is_within(p, 0, limit), upper <= limit) << limit;
       ++seen[upper <= limit];
     }
