@@ -84,7 +84,7 @@ class Joined {
 
   PointCloud finish(PointCloud facts) {
     whole_.left_out = std::move(facts.left_out);
-    whole_.unit = std::move(facts.unit);
+    whole_.unit = facts.unit;
     whole_.resolution = facts.resolution;
     if (!whole_.left_out.empty()) whole_.file_index = std::move(index_);
     return std::move(whole_);

@@ -3,6 +3,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "host/app/error_findings.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/python/arrays.h"
@@ -56,6 +59,7 @@ void bind_error(nb::module_& module) {
           question.excluded_share = parse_share(excluded);
           question.quantiles = quantiles;
           question.worst = worst;
+          question.memory = std::numeric_limits<std::uint64_t>::max();  // for all distances
           question.interrupted = [&] { return watch.stopped(); };
           if (!max_error.empty()) {
             question.tolerance =
