@@ -62,12 +62,15 @@ struct FileContent {
     take_piece(*this);
     vertices.clear();
     file_index.clear();
+    if (points_expected > points_given) expect_points(points_expected - points_given);
   }
   // Takes the content of a file that was read whole.
   void take(FileContent whole);
   // The points that were added so far.
   std::uint64_t points() const { return points_given + vertices.size(); }
+  // That many points follow.
   void expect_points(std::uint64_t count) {
+    points_expected = points_given + count;
     vertices.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(count, piece_points)));
   }
 
@@ -102,6 +105,7 @@ struct FileContent {
 
   std::uint64_t left_out_points = 0;
   std::uint64_t points_given = 0;
+  std::uint64_t points_expected = 0;
   std::size_t piece_points = std::numeric_limits<std::size_t>::max();
   std::function<void(FileContent&)> take_piece;
 

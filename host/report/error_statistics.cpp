@@ -5,8 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 
 #include "host/engine/nearest_rank.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
@@ -15,13 +17,47 @@ namespace {
 std::uint64_t bits_of(double distance) { return std::bit_cast<std::uint64_t>(distance + 0.0); }
 
 constexpr unsigned kDigitBits = 13;
-constexpr unsigned kDigits = 5;  // five have 65 bits
+constexpr unsigned kDigits = 5;                       // five have 65 bits
+constexpr std::size_t kPiece = std::size_t{1} << 16;  // distances that a thread counts at a time
 
 // A number that is sought by its rank, of which some leading digits are known.
 struct Sought {
   std::size_t rank;  // from 1, among the numbers with these digits
   std::uint64_t digits = 0;
 };
+
+using DigitCounts = std::array<std::size_t, std::size_t{1} << kDigitBits>;
+
+// How many distances begin with each prefix, by the digit that follows it; `below`: bits behind
+// that digit. All threads count.
+std::vector<DigitCounts> counts_of_digits(const DistancePieces& distances,
+                                          const std::vector<std::uint64_t>& prefixes,
+                                          unsigned below) {
+  const std::size_t threads = processor_threads();
+  std::vector<std::vector<DigitCounts>> by_thread(threads);
+  distances([&](std::span<const double> piece) {
+    in_pieces(threads, piece.size(), kPiece,
+              [&](std::size_t thread, std::size_t first, std::size_t last) {
+                std::vector<DigitCounts>& counts = by_thread[thread];
+                if (counts.empty()) counts.resize(prefixes.size());
+                for (const double distance : piece.subspan(first, last - first)) {
+                  const std::uint64_t digits = bits_of(distance) >> below;
+                  const std::uint64_t prefix = digits >> kDigitBits;
+                  const auto at = std::ranges::lower_bound(prefixes, prefix);
+                  if (at == prefixes.end() || *at != prefix) continue;
+                  ++counts[static_cast<std::size_t>(at - prefixes.begin())]
+                          [digits & ((std::uint64_t{1} << kDigitBits) - 1)];
+                }
+              });
+  });
+  std::vector<DigitCounts> sum(prefixes.size());
+  for (const std::vector<DigitCounts>& counts : by_thread) {
+    for (std::size_t p = 0; p < counts.size(); ++p) {
+      std::ranges::transform(sum[p], counts[p], sum[p].begin(), std::plus<>());
+    }
+  }
+  return sum;
+}
 
 // The distances of the given ranks, from 1 in ascending order: their digits one after the other, by
 // counting how many distances have which next digit.
@@ -34,18 +70,8 @@ std::vector<double> distances_of_ranks(const DistancePieces& distances,
     for (const Sought& s : sought) prefixes.push_back(s.digits);
     std::ranges::sort(prefixes);
     prefixes.erase(std::unique(prefixes.begin(), prefixes.end()), prefixes.end());
-    std::vector<std::array<std::size_t, 1u << kDigitBits>> counts(prefixes.size());
     const unsigned below = kDigitBits * (kDigits - 1 - known);
-    distances([&](std::span<const double> piece) {
-      for (const double distance : piece) {
-        const std::uint64_t digits = bits_of(distance) >> below;
-        const std::uint64_t prefix = digits >> kDigitBits;
-        const auto at = std::ranges::lower_bound(prefixes, prefix);
-        if (at == prefixes.end() || *at != prefix) continue;
-        ++counts[static_cast<std::size_t>(at - prefixes.begin())]
-                [digits & ((1u << kDigitBits) - 1)];
-      }
-    });
+    const std::vector<DigitCounts> counts = counts_of_digits(distances, prefixes, below);
     for (Sought& s : sought) {
       const auto at = std::ranges::lower_bound(prefixes, s.digits) - prefixes.begin();
       const auto& of_digit = counts[static_cast<std::size_t>(at)];

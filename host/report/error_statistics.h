@@ -37,8 +37,8 @@ using DistancePieces =
 
 // Statistics of at least one finite distance >= 0; quantiles by nearest rank (nearest_rank.h). Sums
 // are taken in the given order, so equal input gives equal output, and all numbers are exact
-// however many distances there are: they are asked for seven times. O(n) time, 64 KiB for
-// each quantile.
+// however many distances there are: they are asked for seven times. O(n) time; 64 KiB for
+// each quantile and thread.
 ErrorStatistics statistics_of(const DistancePieces& distances, std::span<const double> percents,
                               std::optional<double> limit = std::nullopt);
 ErrorStatistics statistics_of(std::span<const double> distances, std::span<const double> percents,
