@@ -48,10 +48,12 @@ class CloudMeasurement {
 
   const ExactMesh& exact() const { return *exact_; }
   std::size_t excludable() const { return excludable_; }
-  const Normalization& normalization() const { return kernel_.normalization(); }
   const FarthestPoints& farthest() const { return farthest_; }
-  // Of the kernel alone, as if the threads had taken turns.
-  double kernel_seconds() const { return kernel_seconds_; }
+  // Of the kernel alone, on all threads together.
+  double kernel_seconds() const {
+    const std::size_t threads = std::min(processor_threads(), pieces_done_);
+    return kernel_seconds_ / static_cast<double>(threads);
+  }
 
   void measure() {
     scan_.for_each(processor_threads(), [this](const ScanPieces::Piece& piece) { add(piece); });
@@ -113,6 +115,7 @@ class CloudMeasurement {
     kernel_seconds_ += took.count();
     farthest_.add(bits, piece.numbers);
     show(piece, distances);
+    ++pieces_done_;
     points_done_ += piece.points.size();
     if (question_.advance) {
       question_.advance(static_cast<double>(points_done_) / static_cast<double>(scan_.points()));
@@ -143,7 +146,8 @@ class CloudMeasurement {
   std::mutex mutex_;  // of what follows
   FarthestPoints farthest_;
   std::set<Shown> shown_;
-  double kernel_seconds_ = 0;
+  double kernel_seconds_ = 0;  // the sum of all threads
+  std::size_t pieces_done_ = 0;
   std::uint64_t points_done_ = 0;
   DistanceStore store_;  // has a lock of its own
 };
