@@ -57,8 +57,7 @@ void require_room(const ErrorOptions& options, const ScanPieces& scan) {
   }
   if (!options.color.empty()) scan.require_in_memory("--color");
   if (!options.deviations.empty()) scan.require_in_memory("--deviations");
-  if (!options.common.report.report.empty()) scan.require_in_memory("--report");
-  if (!options.common.report.picture.empty()) scan.require_in_memory("--picture");
+  scan.require_in_memory(options.common.report);
 }
 
 ErrorReference read_reference(const ErrorOptions& options, const Scan& scan) {

@@ -177,6 +177,11 @@ void ScanPieces::require_in_memory(std::string_view what) const {
       static_cast<double>(memory_) / 1e9, what));
 }
 
+void ScanPieces::require_in_memory(const ReportOptions& wanted) const {
+  if (!wanted.report.empty()) require_in_memory("--report");
+  if (!wanted.picture.empty()) require_in_memory("--picture");
+}
+
 std::vector<std::uint32_t> ScanPieces::Piece::indices_of(
     std::span<const std::uint32_t> ascending) const {
   std::vector<std::uint32_t> indices;

@@ -35,6 +35,7 @@ class ScanPieces {
   Normalization normalization() const { return normalization_of_box(bounds_.lower, bounds_.upper); }
   // Throws Error if the points are not in memory, where `what` needs all of them at a time.
   void require_in_memory(std::string_view what) const;
+  void require_in_memory(const ReportOptions& wanted) const;  // what --report and --picture need
 
   struct Piece {
     std::span<const Point> points;

@@ -184,8 +184,7 @@ class Verification {
       scan_.emplace(*vertices_);
     } else {
       scan_.emplace(cloud_path_, certificate_.reading, "", memory_, was_interrupted);
-      if (!report_.report.empty()) scan_->require_in_memory("--report");
-      if (!report_.picture.empty()) scan_->require_in_memory("--picture");
+      scan_->require_in_memory(report_);
     }
     if (certificate_.reference) reference_ = read_mesh(reference_path_);
   }
