@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 #include <utility>
 
 #include "host/genocop/look_ahead_scheduler.h"
@@ -136,7 +137,8 @@ class Run {
     WorkerPoolOptions options = worker_pool_options(cloud_.size(), settings_);
     options.jobs = jobs;
     options.time_limit *= times;
-    pool_.emplace(cloud_, settings_.bound, options);
+    pool_.reset();  // first, so that never more than `jobs` run
+    pool_ = settings_.make_pool(cloud_, settings_.bound, options);
   }
 
   // Gives the workers what they can take, and one more, so that none waits for the next candidate.
@@ -217,11 +219,13 @@ class Run {
       state_.interrupted = true;
       return std::nullopt;
     }
+    work.worked += std::exchange(result.evaluation.worked, 0);
     if (work.walk && !work.walk_on(result)) {
       if (!stopping_) pool_->submit(index, trial(work), work.rival);
       return std::nullopt;
     }
     pool_->go_on();
+    if (!result.failed()) result.evaluation.worked = work.worked;
     keep(result);
     in_work_.erase(index);
     return result;
@@ -271,7 +275,7 @@ class Run {
     state_.polishing = true;
     state_.polish_seconds = expected_polish_seconds(in_work_.size());
     start_workers(settings_.jobs, kPolishTimes);
-    for (const auto& [index, work] : in_work_) pool_->submit(index, chain(work.genes));
+    for (const auto& [index, work] : in_work_) pool_->submit(index, chain(work.genes), 0);
     while (!in_work_.empty() && !state_.interrupted && state_.device_failure.empty() &&
            settings_.seconds_left() > stopping_seconds()) {
       observe_(state_);
@@ -326,6 +330,7 @@ class Run {
     }
     const ChainResult& made = std::get<ChainResult>(outcome);
     state_.stages += made.seconds;
+    e.worked = made.seconds.sum();
     e.stopped = made.stopped;
     if (made.expected_triangles > 0) e.expected_triangles = made.expected_triangles;
     if (made.stopped) {
@@ -494,7 +499,7 @@ class Run {
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
     start_workers(1, known.index >= kPolishIndex ? kPolishTimes : 1);
-    pool_->submit(known.index, chain(known));
+    pool_->submit(known.index, chain(known), 0);
     Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();
     if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {
@@ -517,7 +522,7 @@ class Run {
   const double seconds_ = settings_.seconds_left();
   Genocop genocop_;
   LookAheadScheduler scheduler_;
-  std::optional<WorkerPool> pool_;
+  std::unique_ptr<EvaluationPool> pool_;
   SearchOptions search_;
   bool stopping_ = false;
   double seconds_before_ = 0;                            // that earlier commands took, by the log

@@ -41,6 +41,7 @@ struct OptimizeSettings {
   unsigned jobs = 1;                       // worker processes
   std::optional<EvaluationLimits> limits;  // standard_limits unless given
   std::filesystem::path worker;            // empty: emax_worker beside the running program
+  MakePool make_pool = make_worker_pool;   // where evaluations run
   RunLog* log = nullptr;                   // where results are kept and looked for
   // What else ends the search. Target and stagnation look at results in the order of their
   // candidates, so that the end does not depend on the number of jobs.
@@ -112,7 +113,7 @@ inline constexpr std::chrono::milliseconds kHeartbeat{100};
 WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings& settings);
 
 // The next evaluation to complete. Throws Interrupted.
-Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings);
+Completed wait_for_next(EvaluationPool& pool, const OptimizeSettings& settings);
 
 // The gene of Schroeder's reduction, where every evaluation looks for its best value itself: it is
 // fixed in the problem that is searched.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "host/geometry/bounds.h"
@@ -95,18 +96,18 @@ class Fit {
     const std::vector<std::string> methods = candidates();
     WorkerPoolOptions options = worker_pool_options(cloud_.size(), settings_);
     options.jobs = std::min(settings_.jobs, static_cast<unsigned>(methods.size()));
-    WorkerPool pool(cloud_, {}, options);
-    for (const std::string& method : methods) submit(pool, method);
+    const std::unique_ptr<EvaluationPool> pool = settings_.make_pool(cloud_, {}, options);
+    for (const std::string& method : methods) submit(*pool, method);
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      take(pool, m);
+      take(*pool, m);
       if (!good(fit_.tried[m])) continue;
       fit_.tried.resize(m + 1);
       break;
     }
     choose();
     if (settings_.method == kFitMethod && is_faulty(fit_.best())) {
-      submit(pool, std::string(kLastMethod));
-      take(pool, fit_.tried.size() - 1);
+      submit(*pool, std::string(kLastMethod));
+      take(*pool, fit_.tried.size() - 1);
       choose();
     }
     if (!fit_.best().failure.empty()) {
@@ -125,17 +126,17 @@ class Fit {
     return both;
   }
 
-  void submit(WorkerPool& pool, const std::string& method) {
+  void submit(EvaluationPool& pool, const std::string& method) {
     TriedSurface tried;
     tried.chain = fitted_chain(method, scan_, bounds_of(cloud_).width());
     // The surface as it comes: what is done to it is to be known here.
     ChainSettings raw = tried.chain;
     raw.parameters.set(Fill::kMethod, Fill::Method::kNone);
-    pool.submit(fit_.tried.size(), raw);
+    pool.submit(fit_.tried.size(), raw, 0);
     fit_.tried.push_back(std::move(tried));
   }
 
-  void take(WorkerPool& pool, std::size_t m) {
+  void take(EvaluationPool& pool, std::size_t m) {
     completed_.resize(fit_.tried.size());
     surfaces_.resize(fit_.tried.size());
     while (!completed_[m]) {

@@ -85,7 +85,7 @@ WorkerPoolOptions worker_pool_options(std::size_t points, const OptimizeSettings
   return options;
 }
 
-Completed wait_for_next(WorkerPool& pool, const OptimizeSettings& settings) {
+Completed wait_for_next(EvaluationPool& pool, const OptimizeSettings& settings) {
   while (true) {
     if (settings.interrupted()) throw Interrupted{};
     if (auto completed = pool.wait_for(kHeartbeat)) return std::move(*completed);

@@ -24,6 +24,7 @@ struct SearchResult {
 struct CandidateInWork {
   Genes genes;
   std::uint64_t rival = 0;            // triangles to beat, for its decimation; 0: none
+  double worked = 0;                  // seconds of its trials
   std::optional<ReductionWalk> walk;  // where the evaluation looks for a gene's best value
   std::optional<SearchResult> best;   // of its trials
 

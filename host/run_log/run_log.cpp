@@ -93,6 +93,7 @@ std::vector<std::uint8_t> encode(const LoggedEvaluation& e) {
     json["e_max_squared_bits"] = e.squared_bits;
     json["reconstruction_triangles"] = e.reconstruction_triangles;
     json["unmeshed_points"] = e.unmeshed_points;
+    json["worked"] = e.worked;
     if (e.walked) json["walked"] = *e.walked;
     if (e.expected_triangles) json["expected_triangles"] = *e.expected_triangles;
     if (e.stopped) json["stopped"] = true;
@@ -118,6 +119,7 @@ LoggedEvaluation decode_evaluation(std::span<const std::uint8_t> content) {
     json.at("e_max_squared_bits").get_to(e.squared_bits);
     json.at("reconstruction_triangles").get_to(e.reconstruction_triangles);
     json.at("unmeshed_points").get_to(e.unmeshed_points);
+    json.at("worked").get_to(e.worked);
     if (json.contains("walked")) e.walked = json.at("walked").get<double>();
     if (json.contains("expected_triangles")) {
       e.expected_triangles = json.at("expected_triangles").get<std::uint64_t>();

@@ -27,6 +27,7 @@ struct LoggedEvaluation {
   std::string failure;  // the reason; empty for a candidate that was measured
   std::string message;  // one line
 
+  double worked = 0;             // seconds that its worker took
   std::optional<double> walked;  // the value of the gene that the evaluation searched for itself
   std::uint64_t triangles = 0;
   std::vector<double> constraints;  // values of Problem::nonlinear, each at most 0 when it holds

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/parameters/descriptions.h"
+#include "host/worker_pool/run_queue.h"
 #include "host/worker_pool/worker_process.h"
 #include "sw_model/base/error.h"
 
@@ -68,7 +69,7 @@ class WorkerPool::Implementation {
   }
 
   void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) {
-    queue_.push_back({ticket, settings, rival});
+    queue_.push({ticket, settings, rival});
     hand_out();
   }
 
@@ -115,10 +116,13 @@ class WorkerPool::Implementation {
     for (Worker& worker : workers_) {
       if (queue_.empty()) return;
       if (worker.run) continue;
-      auto next = best_for(worker);
-      if (worker.spent && !worker.made.contains(reconstruction_of(*next))) replace(worker);
-      RunMessage run = std::move(*next);
-      queue_.erase(next);
+      RunMessage run = queue_.take([&](const StageKey& key) { return holds(worker, key); },
+                                   [&](const StageKey& key) {
+                                     return std::ranges::any_of(workers_, [&](const Worker& other) {
+                                       return holds(other, key);
+                                     });
+                                   });
+      if (worker.spent && !worker.made.contains(reconstruction_of(run))) replace(worker);
       give(worker, std::move(run));
     }
   }
@@ -135,27 +139,9 @@ class WorkerPool::Implementation {
     worker.deadline = Clock::now() + time_limit_;
   }
 
-  // An evaluation whose reconstruction this worker has, else one whose reconstruction no other
-  // worker has, else the first.
-  std::deque<RunMessage>::iterator best_for(const Worker& worker) {
-    const auto made_by = [](const Worker& by, const RunMessage& run) {
-      return by.made.contains(reconstruction_of(run)) ||
-             (by.run && reconstruction_of(*by.run) == reconstruction_of(run));
-    };
-    auto next =
-        std::ranges::find_if(queue_, [&](const RunMessage& run) { return made_by(worker, run); });
-    if (next == queue_.end()) {
-      next = std::ranges::find_if(queue_, [&](const RunMessage& run) {
-        return std::ranges::none_of(workers_,
-                                    [&](const Worker& other) { return made_by(other, run); });
-      });
-    }
-    return next == queue_.end() ? queue_.begin() : next;
-  }
-
-  static StageKey reconstruction_of(const RunMessage& run) {
-    const bool known = find_method(run.settings.method) != nullptr;
-    return known ? reconstruction_key(run.settings) : StageKey{run.settings.method, {}};
+  static bool holds(const Worker& worker, const StageKey& reconstruction) {
+    return worker.made.contains(reconstruction) ||
+           (worker.run && reconstruction_of(*worker.run) == reconstruction);
   }
 
   // Waits for an event and handles it. Returns false if `end` or a signal comes first.
@@ -285,7 +271,7 @@ class WorkerPool::Implementation {
   WorkerProcess::Command command_;
   FileDescriptor points_;
   std::vector<Worker> workers_;
-  std::deque<RunMessage> queue_;
+  RunQueue queue_;
   std::deque<Completed> completed_;
 };
 
@@ -314,5 +300,11 @@ void WorkerPool::go_on() { implementation_->go_on(); }
 void WorkerPool::stop() { implementation_->stop(); }
 
 std::size_t WorkerPool::outstanding() const { return implementation_->outstanding(); }
+
+std::unique_ptr<EvaluationPool> make_worker_pool(std::span<const Point> points,
+                                                 const DecimationBound& bound,
+                                                 const WorkerPoolOptions& options) {
+  return std::make_unique<WorkerPool>(points, bound, options);
+}
 
 }  // namespace emax

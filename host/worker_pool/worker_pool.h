@@ -3,13 +3,13 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
-#include <variant>
 
 #include "host/parameters/chain_parameters.h"
-#include "host/worker_pool/message.h"
+#include "host/worker_pool/evaluation_pool.h"
 
 namespace emax {
 
@@ -20,18 +20,13 @@ struct WorkerPoolOptions {
   std::uint64_t memory_limit = 0;  // bytes of address space for a worker; 0 for none
 };
 
-struct Completed {
-  std::uint64_t ticket;
-  std::variant<ChainResult, Failure> outcome;
-};
-
-// Evaluations in worker processes that hold one cloud. If a worker crashes, hangs, exceeds its
-// memory or answers with invalid bytes, its evaluation completes as a Failure with the reason, and
-// the worker is replaced. A worker keeps stages of earlier evaluations. If such a worker exceeds
-// its memory or crashes, the evaluation is tried once more in a new worker. The result of an
-// evaluation therefore does not depend on the number of workers or on their earlier work. The order
-// in which evaluations complete does. Used by one thread at a time.
-class WorkerPool {
+// Evaluations in worker processes of this machine that hold one cloud. If a worker crashes, hangs,
+// exceeds its memory or answers with invalid bytes, its evaluation completes as a Failure with the
+// reason, and the worker is replaced. A worker keeps stages of earlier evaluations. If such a
+// worker exceeds its memory or crashes, the evaluation is tried once more in a new worker. The
+// result of an evaluation therefore does not depend on the number of workers or on their earlier
+// work.
+class WorkerPool final : public EvaluationPool {
  public:
   // Starts the workers. Throws Error when the program cannot be started.
   WorkerPool(std::span<const Point> points, const WorkerPoolOptions& options)
@@ -39,35 +34,30 @@ class WorkerPool {
   // `bound`: the bound of the bounded decimator.
   WorkerPool(std::span<const Point> points, const DecimationBound& bound,
              const WorkerPoolOptions& options);
-  ~WorkerPool();  // kills running workers
+  ~WorkerPool() override;  // kills running workers
 
-  // Queues an evaluation. A free worker starts it now, else a later wait() starts it. The caller
-  // chooses the tickets. `rival`: DecimationSettings::rival.
-  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival = 0);
+  void submit(std::uint64_t ticket, const ChainSettings& settings) { submit(ticket, settings, 0); }
+  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) override;
 
-  // Waits for the next evaluation to complete. At least one must be outstanding. Throws Error if
-  // workers cannot work at all: they ended before they were ready, or failed the arithmetic
-  // self-test.
+  // wait() and wait_for() also throw Error when workers ended before they were ready, or failed the
+  // arithmetic self-test.
   Completed wait();
+  std::optional<Completed> wait_for(std::chrono::milliseconds duration) override;
 
-  // As wait(), but returns nothing if `duration` passes or a signal arrives first.
-  std::optional<Completed> wait_for(std::chrono::milliseconds duration);
-
-  // After wait() the worker of its result is free, and an evaluation submitted now for the same
-  // reconstruction goes to it. go_on() gives queued evaluations to free workers now instead of in
-  // the next wait().
-  void go_on();
-
-  // Drops the queued evaluations and asks running decimations to complete soon with the mesh
-  // reached so far: see ChainResult::stopped.
-  void stop();
-
-  // Number of evaluations submitted and not yet returned.
-  std::size_t outstanding() const;
+  void go_on() override;
+  void stop() override;
+  std::size_t outstanding() const override;
 
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+// Where evaluations run: on this machine, or also on others.
+using MakePool = std::function<std::unique_ptr<EvaluationPool>(
+    std::span<const Point>, const DecimationBound&, const WorkerPoolOptions&)>;
+std::unique_ptr<EvaluationPool> make_worker_pool(std::span<const Point> points,
+                                                 const DecimationBound& bound,
+                                                 const WorkerPoolOptions& options);
 
 }  // namespace emax
