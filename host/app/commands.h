@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/app/machines.h"
 #include "host/app/scan.h"
 #include "host/parameters/chain_parameters.h"
 #include "host/parameters/registry.h"
@@ -27,7 +28,8 @@ struct OptimizeOptions {
   std::string effort = "normal";        // quick or deep: see search_budget()
   std::optional<std::uint64_t> budget;  // nothing: that of the effort
   std::optional<double> seconds;
-  unsigned jobs = 0;   // 0: one per processor
+  unsigned jobs = 0;   // of each of the machines' processes; 0: one per processor
+  Machines machines;
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
   std::optional<std::uint64_t> target_triangles, stagnation;
   bool polish = true;

@@ -126,9 +126,11 @@ class OptimizeCommand {
     print_doubtful_unit(facts_, scan_.width, scan_.unit);
     facts_.add("tolerance", "{}{}, {}", to_text(tolerance, scan_.width, scan_.unit),
                level_text(options_.level), settings_.epsilon_back ? "two-sided" : "one-sided");
-    facts_.add_passing("search", "{} + {}, {} evaluations, seed {}, {} jobs, device {}",
-                       settings_.method, settings_.decimator, settings_.config.search.budget,
-                       settings_.seed, settings_.jobs, options_.common.device);
+    const std::size_t processes = options_.machines.processors.size();
+    facts_.add_passing(
+        "search", "{} + {}, {} evaluations, seed {}, {} jobs{}, device {}", settings_.method,
+        settings_.decimator, settings_.config.search.budget, settings_.seed, settings_.jobs,
+        processes > 1 ? fmt::format(" on {} ranks", processes) : "", options_.common.device);
     print_expected_time();
     std::fflush(stdout);
   }

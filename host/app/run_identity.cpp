@@ -60,12 +60,16 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
   for (auto& value : named_values(settings.config)) {
     if (value.first != "search.budget") run.push_back(std::move(value));  // it may grow
   }
-  run.emplace_back("emax", EMAX_VERSION);
-  run.emplace_back("kernel", fmt::format("{}", kKernelVersion));
-  run.emplace_back("libraries", EMAX_WORKER_LIBRARIES);
-  run.emplace_back("processor", processor());
-  run.emplace_back("build", build());
+  for (auto& value : program_identity()) run.push_back(std::move(value));
   return run;
+}
+
+RunSettings program_identity() {
+  return {{"emax", EMAX_VERSION},
+          {"kernel", fmt::format("{}", kKernelVersion)},
+          {"libraries", EMAX_WORKER_LIBRARIES},
+          {"processor", processor()},
+          {"build", build()}};
 }
 
 std::string checksum(const DecimationBound& bound) {

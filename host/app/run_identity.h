@@ -15,6 +15,9 @@ namespace emax {
 RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings& settings,
                          const std::string& cloud_sha256, double epsilon);
 
+// Those of them that say which program makes the results: equal ones promise the same bytes.
+RunSettings program_identity();
+
 // The setting that run_settings() leaves open until the bound has been made: reference and
 // outliers.
 inline constexpr const char* kBoundSetting = "reference.sha256";

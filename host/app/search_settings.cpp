@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
+#include <functional>
+#include <limits>
+#include <numeric>
 
 #include "host/app/interrupt.h"
 #include "host/parameters/descriptions.h"
@@ -37,6 +39,13 @@ EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t p
   return limits;
 }
 
+// With at most so many for each process.
+unsigned all_jobs(const Machines& machines, unsigned most) {
+  return std::transform_reduce(machines.processors.begin(), machines.processors.end(), 0u,
+                               std::plus(),
+                               [most](unsigned processors) { return std::min(processors, most); });
+}
+
 }  // namespace
 
 bool is_two_sided(const OptimizeOptions& options) {
@@ -57,8 +66,10 @@ OptimizeSettings search_settings(const OptimizeOptions& options) {
   settings.config =
       options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
   settings.seed = options.seed;
+  const auto processes = static_cast<unsigned>(options.machines.processors.size());
+  constexpr unsigned kAny = std::numeric_limits<unsigned>::max();
   const unsigned jobs =
-      options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+      options.jobs > 0 ? options.jobs * processes : all_jobs(options.machines, kAny);
   // At most this many candidates are out at a time.
   settings.jobs =
       static_cast<unsigned>(std::min<std::size_t>(jobs, settings.config.search.look_ahead));
@@ -68,6 +79,7 @@ OptimizeSettings search_settings(const OptimizeOptions& options) {
   settings.output = options.output;
   settings.interrupted = was_interrupted;
   settings.closed = options.closed;
+  settings.make_pool = options.machines.make_pool;
   return settings;
 }
 
@@ -76,7 +88,9 @@ void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, s
   budget = budget_of(options, budget, points);
   settings.limits = evaluation_limits(options, points);
   if (options.jobs == 0) {
-    settings.jobs = std::min(settings.jobs, jobs_in_memory(*settings.limits));
+    const unsigned in_memory =
+        std::max(1u, jobs_in_memory(*settings.limits) / options.machines.processes_on_one);
+    settings.jobs = std::min(settings.jobs, all_jobs(options.machines, in_memory));
   }
 }
 
