@@ -26,6 +26,9 @@ install(TARGETS emax_static emax_shared)
 install(TARGETS emax)
 if(EMAX_WORKERS)
   install(TARGETS emax_worker)
+  if(EMAX_MPI)
+    install(TARGETS emax_mpi)
+  endif()
 endif()
 
 # <emax/...>, and what those of kernel and arithmetic include, as it stands in the project.
@@ -49,7 +52,7 @@ install(FILES LICENSE ${documents} docs/user/report.md DESTINATION ${CMAKE_INSTA
 if(EMAX_MAN)
   find_program(LOWDOWN lowdown REQUIRED)
   file(GLOB documents CONFIGURE_DEPENDS docs/user/*.md)
-  list(FILTER documents EXCLUDE REGEX "/(report|python)[.]md$")  # of no command
+  list(FILTER documents EXCLUDE REGEX "/(mpi|report|python)[.]md$")  # of no command
   foreach(document ${documents})
     get_filename_component(command ${document} NAME_WE)
     set(page emax-${command})

@@ -1,0 +1,114 @@
+#include "host/mpi/rank_server.h"
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "host/mpi/rank_pool.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+class Server {
+ public:
+  explicit Server(RankLink& link) : link_(link) {}
+
+  void run() {
+    while (!quit_) {
+      while (std::optional<RankLink::Received> received = link_.receive()) {
+        guarded([&] { take(received->message); });
+      }
+      if (pool_ && pool_->outstanding() > 0) {
+        guarded([&] {
+          if (std::optional<Completed> completed = pool_->wait_for(kBetweenLooks))
+            answer(*completed);
+        });
+      } else if (!quit_) {
+        std::this_thread::sleep_for(kBetweenLooks);
+      }
+    }
+  }
+
+ private:
+  // Rank 0 hears why no evaluation can be made here.
+  template <typename F>
+  void guarded(F f) {
+    try {
+      f();
+    } catch (const std::exception& error) {
+      pool_.reset();
+      const std::string text = error.what();
+      send(RankMessageKind::kUnusable, 0, {text.begin(), text.end()});
+    }
+  }
+
+  void take(const RankMessage& message) {
+    const auto body = [&] { return std::span(*message.content).subspan(kLengthBytes); };
+    switch (message.kind) {
+      case RankMessageKind::kPoints:
+        points_ = std::get<PointsMessage>(decode(body()));
+        break;
+      case RankMessageKind::kStart:
+        number_ = message.pool;
+        start(decode_rank_pool_options(*message.content));
+        break;
+      case RankMessageKind::kRun: {
+        if (!pool_) break;  // it could not be started, and rank 0 will hear of it
+        const auto run = std::get<RunMessage>(decode(body()));
+        pool_->submit(run.ticket, run.settings, run.rival);
+        break;
+      }
+      case RankMessageKind::kStop:
+        if (pool_) pool_->stop();
+        break;
+      case RankMessageKind::kEnd:
+        pool_.reset();
+        break;
+      case RankMessageKind::kQuit:
+        pool_.reset();
+        quit_ = true;
+        break;
+      default:
+        throw Error("rank 0 asked for what no rank does");
+    }
+  }
+
+  void start(const RankPoolOptions& given) {
+    WorkerPoolOptions options;
+    options.jobs = static_cast<unsigned>(given.jobs);
+    options.time_limit = std::chrono::milliseconds(given.milliseconds);
+    options.memory_limit = given.memory;
+    pool_.reset();  // first, so that never more than `jobs` run
+    pool_ = std::make_unique<WorkerPool>(points_.points, points_.bound, options);
+  }
+
+  void answer(const Completed& completed) {
+    if (const auto* made = std::get_if<ChainResult>(&completed.outcome)) {
+      send(RankMessageKind::kMesh, completed.ticket, encode(MeshMessage{completed.ticket, *made}));
+      return;
+    }
+    const auto& failure = std::get<Failure>(completed.outcome);
+    Bytes content = {static_cast<std::uint8_t>(failure.reason)};
+    content.insert(content.end(), failure.message.begin(), failure.message.end());
+    send(RankMessageKind::kFailure, completed.ticket, std::move(content));
+  }
+
+  void send(RankMessageKind kind, std::uint64_t ticket, Bytes content) {
+    link_.send(0, {kind, number_, ticket, std::make_shared<Bytes>(std::move(content))});
+  }
+
+  RankLink& link_;
+  PointsMessage points_;
+  std::unique_ptr<WorkerPool> pool_;
+  std::uint64_t number_ = 0;  // of the pool
+  bool quit_ = false;
+};
+
+}  // namespace
+
+void serve_rank(RankLink& link) { Server(link).run(); }
+
+}  // namespace emax

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Runs emax_mpi on several ranks of this machine.
+
+    ranks_test.py same-bytes EMAX_MPI MPIEXEC [--fault]   1, 2, 3 and 8 ranks against `emax`
+    ranks_test.py lost-ranks EMAX_MPI MPIEXEC             ranks are killed, the command goes on
+    ranks_test.py unlike-ranks EMAX_MPI MPIEXEC           ranks of other bits are refused
+"""
+import argparse
+import math
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+BUDGET = 24
+KILLS = 4
+
+
+def write_scan(path, points, generator):
+    with open(path, "w") as scan:
+        for _ in range(points):
+            z = generator.uniform(-1, 1)
+            turn = generator.uniform(0, 2 * math.pi)
+            bump = 1 + 0.1 * z * math.sin(4 * turn)
+            r = bump * math.sqrt(1 - z * z)
+            print(r * math.cos(turn), r * math.sin(turn), bump * z, file=scan)
+
+
+def arguments(mesh, method, *more):
+    return ["optimize", "scan.xyz", "--max-error", "4%", "-o", mesh, "--method", method, "--budget",
+            str(BUDGET), *more]
+
+
+class Ranks:
+    """Starts jobs in a folder with a scan."""
+
+    def __init__(self, options, folder):
+        self.program = options.emax_mpi.resolve()
+        self.mpiexec = options.mpiexec
+        self.folder = folder
+        # Open MPI asks for this where root runs it, and for more ranks than processors.
+        self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
+                                OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                                OMPI_MCA_rmaps_base_oversubscribe="1",
+                                OMPI_MCA_hwloc_base_binding_policy="none")
+
+    def start(self, ranks, words):
+        return self.start_job(["-n", str(ranks), self.program, *words])
+
+    def start_job(self, words):
+        return subprocess.Popen([self.mpiexec, *words], cwd=self.folder, env=self.environment,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def result(self, mesh):
+        """Mesh and certificate, which holds the mesh's name."""
+        return [(self.folder / (mesh + ending)).read_bytes() for ending in ("", ".certificate.json")]
+
+
+def checked(process, what):
+    output, errors = process.communicate()
+    if process.returncode != 0:
+        sys.exit(f"{what}: exit code {process.returncode}\n{output}{errors}")
+    return output
+
+
+def same_bytes(options, job):
+    for method, counts in (("gp3", (1, 2, 3, 8)), ("auto", (3,))):
+        alone = subprocess.Popen([job.program.parent / "emax", *arguments("mesh.ply", method)],
+                                 cwd=job.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 text=True)
+        checked(alone, "emax")
+        expected = job.result("mesh.ply")
+        if options.fault:
+            expected[0] = expected[0][:-1] + bytes([expected[0][-1] ^ 1])
+        for ranks in counts:
+            output = checked(job.start(ranks, arguments("mesh.ply", method)), f"{ranks} ranks")
+            if ranks > 1 and f"on {ranks} ranks" not in output:
+                sys.exit(f"{ranks} ranks were not used:\n{output}")
+            if job.result("mesh.ply") != expected:
+                sys.exit(f"{method} on {ranks} ranks: the result differs")
+            print(f"{method} on {ranks} ranks: the bytes of emax", flush=True)
+
+
+def processes_of(folder, name):
+    """The process numbers of programs of this name that work in the folder."""
+    found = []
+    for process in pathlib.Path("/proc").iterdir():
+        if not process.name.isdigit():
+            continue
+        try:
+            if os.readlink(process / "cwd") == str(folder) and \
+                    pathlib.Path(os.readlink(process / "exe")).name == name:
+                found.append(int(process.name))
+        except OSError:  # it has ended
+            continue
+    return sorted(found)
+
+
+def wait_until(condition, seconds, what):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            sys.exit(f"after {seconds} s still: {what}")
+        time.sleep(0.02)
+
+
+def lost_ranks(options, job):
+    generator = random.Random(options.seed)
+    print(f"seed {options.seed}")
+    began = time.monotonic()
+    checked(job.start(3, arguments("mesh.ply", "gp3")), "undisturbed")
+    took = time.monotonic() - began
+    expected = job.result("mesh.ply")
+    folder = job.folder.resolve()
+    log = job.folder / "run" / "evaluations.log"
+    continued = killed = 0
+    words = arguments("mesh.ply", "gp3", "--resume", "run")
+    while killed < KILLS:
+        there = log.stat().st_size if log.exists() else 0
+        process = job.start(3, words)
+        if killed % 2 == 0:
+            time.sleep(generator.uniform(0.3, 1) * took)
+        else:  # as soon as an evaluation is known
+            while process.poll() is None and (log.stat().st_size if log.exists() else 0) <= there:
+                time.sleep(0.002)
+        ranks = processes_of(folder, "emax_mpi")
+        if process.poll() is not None or not ranks:  # it came to its end
+            process.communicate()
+            shutil.rmtree(job.folder / "run", ignore_errors=True)
+            continue
+        which = generator.randrange(len(ranks))
+        os.kill(ranks[which], signal.SIGKILL)
+        killed += 1
+        process.communicate()
+        if process.returncode == 0:
+            sys.exit(f"rank {which} was killed and the job ended well")
+        wait_until(lambda: not processes_of(folder, "emax_mpi") +
+                   processes_of(folder, "emax_worker"), 10, "processes of the job are there")
+        shutil.rmtree(job.folder / "copy", ignore_errors=True)
+        if (job.folder / "run").exists():
+            shutil.copytree(job.folder / "run", job.folder / "copy")
+        output = checked(job.start(1 + killed % 3, arguments("mesh.ply", "gp3", "--resume", "copy")),
+                         "the command once more")
+        continued += "continues in" in output
+        print(f"kill {killed}, process {which + 1} of {len(ranks)}: {output.splitlines()[0]}",
+              flush=True)
+        if job.result("mesh.ply") != expected:
+            sys.exit(f"the result differs (seed {options.seed})")
+        if f"{BUDGET} of {BUDGET}" in output:
+            shutil.rmtree(job.folder / "run")
+    if continued == 0:
+        sys.exit("no kill left anything to continue")
+
+
+def unlike_ranks(options, job):
+    other = job.folder / "other"
+    other.mkdir()
+    for name in ("emax_mpi", "emax_worker"):
+        shutil.copy2(job.program.parent / name, other / name)
+    words = [str(word) for word in arguments("mesh.ply", "gp3")]
+
+    def refusal(what, *second):
+        process = job.start_job(["-n", "1", job.program, *words, ":", "-n", "1", *second, *words])
+        _, errors = process.communicate()
+        if process.returncode == 0 or (job.folder / "mesh.ply").exists():
+            sys.exit(f"{what}: not refused")
+        line = next((line for line in errors.splitlines() if line.startswith("emax_mpi: ")), errors)
+        print(f"{what}: {line}", flush=True)
+        return line
+
+    with open(other / "emax_worker", "ab") as worker:
+        worker.write(b"\0")
+    line = refusal("another worker", other / "emax_mpi")
+    if "rank 1 on" not in line or "build" not in line:
+        sys.exit("the refusal does not name rank and build")
+
+    # The C library takes other functions, as it does on a processor without these instructions.
+    flags = pathlib.Path("/proc/cpuinfo").read_text().split()
+    if "fma" not in flags:
+        sys.exit("this processor has no FMA to leave out: run the test on another one")
+    line = refusal("another C library", "env", "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2",
+                   job.program)
+    if "rank 1 on" not in line or "probe" not in line:
+        sys.exit("the refusal does not name rank and probe")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    tests = {"same-bytes": same_bytes, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
+    parser.add_argument("test", choices=tests)
+    parser.add_argument("emax_mpi", type=pathlib.Path)
+    parser.add_argument("mpiexec")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--points", type=int, default=600)
+    parser.add_argument("--fault", action="store_true", help="expect another byte, which must show")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="emax_ranks_") as name:
+        job = Ranks(options, pathlib.Path(name))
+        write_scan(job.folder / "scan.xyz", options.points, random.Random(options.seed))
+        tests[options.test](options, job)
+
+
+main()
