@@ -28,7 +28,7 @@ struct OptimizeOptions {
   std::string effort = "normal";        // quick or deep: see search_budget()
   std::optional<std::uint64_t> budget;  // nothing: that of the effort
   std::optional<double> seconds;
-  unsigned jobs = 0;   // of each of the machines' processes; 0: one per processor
+  unsigned jobs = 0;  // of each of the machines' processes; 0: one per processor
   Machines machines;
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
   std::optional<std::uint64_t> target_triangles, stagnation;
@@ -54,7 +54,8 @@ struct DecimateOptions {
   ReportOptions report;
   std::string excluded_share = "0";
   std::optional<double> seconds;
-  unsigned threads = 0;  // 0: one per processor
+  unsigned threads = 0;            // 0: one per processor
+  std::size_t tile_triangles = 0;  // 0: the mesh is decimated as a whole
   bool two_sided = true;
   bool repair = false;  // remove intersecting triangles instead of keeping them
   bool closed = false;  // every hole is closed

@@ -47,6 +47,7 @@ class DecimateCommand {
     if (several && share_ > 0) {
       throw Error("--exclude-outliers: give one --max-error, as each would exclude other points");
     }
+    if (options.tile_triangles > 0) check_tiles(several);
     std::optional<Tolerance> back;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
     const std::filesystem::path curve = several ? curve_path(options.output) : "";
@@ -109,6 +110,15 @@ class DecimateCommand {
   }
 
  private:
+  // A tile knows neither the collapses of another tolerance nor the edges of the whole start.
+  void check_tiles(bool several) const {
+    if (several) throw Error("--tiles: give one --max-error");
+    if (options_.feature_angle > 0) throw Error("--tiles cannot be combined with --feature-angle");
+    if (options_.objective == "hoppe") {
+      throw Error("--tiles cannot be combined with --objective hoppe");
+    }
+  }
+
   // Makes the reference and the file that holds it.
   void make_reference() {
     reference_ = emax::make_reference(given_, kept_.points, epsilon_ / 2,
@@ -136,7 +146,8 @@ class DecimateCommand {
 
   int run_once() {
     progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
-    result_ = decimate_scan(reference_.surface.mesh, scan_, kept_, settings_);
+    result_ =
+        decimate_scan(reference_.surface.mesh, scan_, kept_, settings_, options_.tile_triangles);
     judge();
     progress_.finish();
     feasible_ ? print_result(facts_) : refuse(facts_);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/parameters/registry.h"
+#include "host/tiles/tiled_decimation.h"
 
 namespace emax {
 namespace {
@@ -41,8 +42,13 @@ KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::siz
 
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,
                                   const KeptPoints& kept,
-                                  const CertifiedDecimationSettings& settings) {
-  CertifiedDecimation made = decimate_certified(reference, kept.points, settings);
+                                  const CertifiedDecimationSettings& settings, std::size_t tile) {
+  CertifiedDecimation made =
+      tile == 0 ? decimate_certified(reference, kept.points, settings)
+                : decimate_certified(
+                      reference, kept.points, settings, [&](const DecimationSettings& bounded) {
+                        return TiledDecimator(reference, kept.points, tile).run(bounded);
+                      });
   if (kept.outliers.empty()) return made;
   std::vector<std::uint32_t> excluded = kept.outliers;
   for (const std::uint32_t i : made.points.excluded) excluded.push_back(kept.index[i]);

@@ -130,6 +130,24 @@ std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<
   return point_of;
 }
 
+// With the vertices that they have; all of them where these are all triangles.
+TriangleMesh first_triangles(const TriangleMesh& mesh, std::size_t count) {
+  if (count == mesh.triangles.size()) return mesh;
+  TriangleMesh part;
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kNoIndex);
+  for (std::size_t t = 0; t < count; ++t) {
+    Triangle& triangle = part.triangles.emplace_back(mesh.triangles[t]);
+    for (std::uint32_t& v : triangle) {
+      if (number[v] == kNoIndex) {
+        number[v] = static_cast<std::uint32_t>(part.vertices.size());
+        part.vertices.push_back(mesh.vertices[v]);
+      }
+      v = number[v];
+    }
+  }
+  return part;
+}
+
 // Of all triangles, from their corners to the next ones; sorted.
 std::vector<std::array<std::uint32_t, 2>> directed_edges(const TriangleMesh& mesh) {
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -171,10 +189,11 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
   if (made.points.empty() || made.covered != covered) {
     made.covered = covered;
     std::vector<Point> all(cloud_.begin(), cloud_.end());
+    const TriangleMesh near = covered > 0 ? first_triangles(reference_, covered_) : TriangleMesh{};
     std::vector<std::uint32_t> point_of;
     if (covered > 0) {
-      point_of = as_points(reference_, all);
-      add_samples(reference_, limit, all);
+      point_of = as_points(near, all);
+      add_samples(near, limit, all);
     }
     made.order = spatial_order(all);
     made.points.clear();
@@ -184,11 +203,9 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
       made.points.push_back(all[p]);
     }
     made.triangles.clear();
-    if (covered > 0) {
-      for (const Triangle& t : reference_.triangles) {
-        made.triangles.push_back(
-            {place_of[point_of[t[0]]], place_of[point_of[t[1]]], place_of[point_of[t[2]]]});
-      }
+    for (const Triangle& t : near.triangles) {
+      made.triangles.push_back(
+          {place_of[point_of[t[0]]], place_of[point_of[t[1]]], place_of[point_of[t[2]]]});
     }
   }
   if (back_limit > 0) {
@@ -237,6 +254,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   }
   std::ranges::sort(result.left_out);
   DecimationPasses::Options options;
+  options.fixed_places = settings.fixed;
   if (settings.feature_angle > 0) options.features = FeatureEdges(ordered, settings.feature_angle);
   if (hoppe) {
     const double width = bounds_of(reference_.vertices).width();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -65,6 +66,10 @@ struct DecimationSettings {
   } objective = Objective::kFewest;
   HoppeWeights hoppe;
 
+  // Where the start has vertices that stay, with the triangles between three and the edges between
+  // two of them.
+  std::vector<Point> fixed;
+
   std::size_t threads = 1;  // the result is the same for any number
 
   // Polled from time to time; true ends the work with the mesh reached so far, which is valid and
@@ -118,8 +123,12 @@ struct DecimatedMesh {
 class BoundedDecimator {
  public:
   // `reference` is as reference_surface() gives it. It and the cloud must outlive the decimator.
-  BoundedDecimator(const TriangleMesh& reference, std::span<const Point> cloud)
-      : reference_(reference), cloud_(cloud) {}
+  // Under a two-sided bound its first `covered` triangles stay near the mesh.
+  BoundedDecimator(const TriangleMesh& reference, std::span<const Point> cloud,
+                   std::size_t covered = ~std::size_t{0})
+      : reference_(reference),
+        cloud_(cloud),
+        covered_(std::min(covered, reference.triangles.size())) {}
 
   // Throws Error for an epsilon that is not positive or within roundings of the coordinates.
   DecimatedMesh run(const DecimationSettings& settings) const { return run(reference_, settings); }
@@ -139,6 +148,7 @@ class BoundedDecimator {
 
   const TriangleMesh& reference_;
   std::span<const Point> cloud_;
+  std::size_t covered_;
   mutable std::shared_ptr<Prepared> prepared_;
 };
 

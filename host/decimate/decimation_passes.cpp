@@ -50,7 +50,32 @@ DecimationPasses::DecimationPasses(DecimationState& state, Options options, std:
       search_(proposers_.front().search()),
       edit_(proposers_.front().edit()),
       batch_(kBatch),
-      independent_(state.mesh()) {}
+      independent_(state.mesh()) {
+  mark_fixed();
+}
+
+void DecimationPasses::mark_fixed() {
+  const std::vector<Point>& places = options_.fixed_places;
+  if (places.empty()) return;
+  const auto key = [](const Point& p) { return std::array{p[0], p[1], p[2]}; };
+  std::vector<std::array<double, 3>> sorted;
+  for (const Point& place : places) sorted.push_back(key(place));
+  std::ranges::sort(sorted);
+  const EditableMesh& mesh = state_.mesh();
+  options_.fixed.assign(mesh.vertex_slots(), 0);
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+    const bool fixed = mesh.used(v) && std::ranges::binary_search(sorted, key(mesh.position(v)));
+    options_.fixed[v] = fixed ? 1 : 0;
+  }
+}
+
+std::vector<std::uint32_t> DecimationPasses::free_slots() const {
+  std::vector<std::uint32_t> slots = state_.mesh().alive_slots();
+  std::erase_if(slots, [&](std::uint32_t slot) {
+    return !proposers_.front().may_split(state_.mesh().triangle(slot));
+  });
+  return slots;
+}
 
 void DecimationPasses::use(LocalSearch::Steps steps) {
   for (EditProposer& proposer : proposers_) proposer.search().use(steps);
@@ -60,6 +85,7 @@ void DecimationPasses::restart(const FeatureEdges& features) {
   options_.features = features;
   use(LocalSearch::Steps::kReweighted);
   free();
+  mark_fixed();
   spare_ = kNoIndex;
 }
 

@@ -83,6 +83,9 @@ class DecimationPasses {
   // After a restored state: these are its features, and steps are as at first.
   void restart(const FeatureEdges& features);
 
+  // The triangles with a corner that is not fixed.
+  std::vector<std::uint32_t> free_slots() const;
+
   bool stopped() const { return stopped_; }
 
  private:
@@ -92,6 +95,7 @@ class DecimationPasses {
   using Share = std::array<double, 2>;  // of the present pass, from and to
   using Part = std::optional<Share>;    // none for what is too short to be told of
 
+  void mark_fixed();
   bool poll_now(double done);
   bool poll(double done);
   bool poll(std::size_t at, std::size_t of);

@@ -154,17 +154,26 @@ bool EditProposer::relocation(std::uint32_t vertex, int power, bool limit) {
   return fit.energy < before * (1 - least_gain(power)) && search_.finish(fit, limit, edit_);
 }
 
-// Whether a corner of one of the two triangles is held.
-bool EditProposer::holds_flip(std::uint32_t a, std::uint32_t b) const {
-  return std::ranges::any_of(state_.mesh().slots_at_edge(a, b), [&](std::uint32_t slot) {
-    return slot != kNoIndex &&
-           std::ranges::any_of(state_.mesh().triangle(slot),
-                               [&](std::uint32_t v) { return options_.holds(v); });
-  });
+bool EditProposer::may_flip(std::uint32_t a, std::uint32_t b) const {
+  return !options_.features.on(a, b) &&
+         std::ranges::none_of(state_.mesh().slots_at_edge(a, b), [this](std::uint32_t slot) {
+           if (slot == kNoIndex) return false;
+           const Triangle& t = state_.mesh().triangle(slot);
+           return !may_split(t) ||
+                  std::ranges::any_of(t, [this](std::uint32_t v) { return options_.stays(v); });
+         });
+}
+
+bool EditProposer::may_split(std::uint32_t a, std::uint32_t b) const {
+  return !options_.features.on(a, b) && !(options_.fixes(a) && options_.fixes(b));
+}
+
+bool EditProposer::may_split(const Triangle& triangle) const {
+  return !std::ranges::all_of(triangle, [this](std::uint32_t v) { return options_.fixes(v); });
 }
 
 bool EditProposer::flip(std::uint32_t a, std::uint32_t b, int power, bool limit) {
-  if (options_.features.on(a, b) || holds_flip(a, b) || !search_.prepare_flip(a, b)) return false;
+  if (!may_flip(a, b) || !search_.prepare_flip(a, b)) return false;
   const double before = search_.energy_before(power);
   Fit fit;
   return search_.evaluate(Point::Zero(), power, fit, before * (1 - least_gain(power))) &&

@@ -24,7 +24,14 @@ class EditProposer {
     // is missing is free.
     std::vector<char> held;
 
-    bool holds(std::uint32_t vertex) const { return vertex < held.size() && held[vertex] != 0; }
+    // The vertices at these places stay, with the edges between two and the triangles between three
+    // of them.
+    std::vector<Point> fixed_places;
+    std::vector<char> fixed;
+
+    bool fixes(std::uint32_t vertex) const { return vertex < fixed.size() && fixed[vertex] != 0; }
+    bool stays(std::uint32_t vertex) const { return vertex < held.size() && held[vertex] != 0; }
+    bool holds(std::uint32_t vertex) const { return fixes(vertex) || stays(vertex); }
   };
   // State, options and known edges must outlive the proposer.
   EditProposer(const DecimationState& state, const Options& options, const KnownEdges& known)
@@ -58,6 +65,9 @@ class EditProposer {
   // Without `limit` points may go beyond it.
   bool relocation(std::uint32_t vertex, int power, bool limit);
   bool flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
+  // Edges between two fixed vertices and triangles between three may not.
+  bool may_split(std::uint32_t a, std::uint32_t b) const;
+  bool may_split(const Triangle& triangle) const;
 
   bool keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const;
   LocalSearch& search() { return search_; }
@@ -65,7 +75,7 @@ class EditProposer {
 
  private:
   FeatureEdges::Collapse permitted(std::uint32_t a, std::uint32_t b) const;
-  bool holds_flip(std::uint32_t a, std::uint32_t b) const;
+  bool may_flip(std::uint32_t a, std::uint32_t b) const;
   bool judge_free(const Point& pa, const Point& pb, int power, Fit& fit);
   bool judge_for_hoppe(const Point& pa, const Point& pb, Fit& fit);
   bool judge_along_feature(std::uint32_t a, std::uint32_t b, int power, Fit& fit);

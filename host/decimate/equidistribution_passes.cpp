@@ -113,7 +113,7 @@ std::uint32_t DecimationPasses::spare_vertex(const Point& at, std::uint32_t near
 }
 
 bool DecimationPasses::try_split(std::uint32_t a, std::uint32_t b, int power) {
-  if (options_.features.on(a, b)) return false;
+  if (!proposers_.front().may_split(a, b)) return false;
   const Point middle = 0.5 * (state_.mesh().position(a) + state_.mesh().position(b));
   if (!search_.prepare_split(a, b, spare_vertex(middle, a))) return false;
   LocalSearch::Options options;
@@ -221,11 +221,13 @@ bool DecimationPasses::try_split_at(std::uint32_t slot, const Witness& witness, 
   };
   std::array<double, 3> on_edge = witness.at;
   on_edge[least] = 0;
+  const EditProposer& proposer = proposers_.front();
   LocalSearch::Options options;
   options.power = power;
   const bool far_inside = witness.at[least] >= kInside;
   for (const bool inside : {far_inside, !far_inside}) {
-    if (inside ? witness.at[least] < kLeastInside : options_.features.on(a, b)) continue;
+    if (inside && witness.at[least] < kLeastInside) continue;
+    if (inside ? !proposer.may_split(t) : !proposer.may_split(a, b)) continue;
     const Point place = at(inside ? witness.at : on_edge);
     const std::uint32_t vertex = spare_vertex(place, a);
     if (!(inside ? search_.prepare_split(slot, vertex) : search_.prepare_split(a, b, vertex))) {

@@ -113,7 +113,9 @@ void ErrorEquidistribution::exchange_at_last() {
 
 // The number of triangles with which a share of them would be within the limit.
 std::size_t ErrorEquidistribution::fitting(double quantile) {
-  std::vector<double> worst = passes_.worst_of(state_.mesh().alive_slots());
+  std::vector<double> worst = passes_.worst_of(passes_.free_slots());
+  const std::size_t fixed = state_.mesh().triangles() - worst.size();
+  if (worst.empty()) return fixed;
   const auto distance = [&](double share) {
     const auto last = static_cast<double>(worst.size() - 1);
     const auto at = worst.begin() + static_cast<std::ptrdiff_t>(share * last);
@@ -121,7 +123,7 @@ std::size_t ErrorEquidistribution::fitting(double quantile) {
     return std::sqrt(*at);
   };
   const double aimed = std::min(distance(quantile), kMostOfMedian * distance(0.5));
-  return static_cast<std::size_t>(aimed * static_cast<double>(worst.size()));
+  return fixed + static_cast<std::size_t>(aimed * static_cast<double>(worst.size()));
 }
 
 // Of the limits as they are in the end, worst first.

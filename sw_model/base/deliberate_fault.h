@@ -18,6 +18,7 @@ enum class Fault {
   kSkipsReference,      // the reference may leave the mesh
   kSkipsIntersections,  // triangles may meet
   kGivesUpEarly,        // a race counts as lost that can still be won
+  kMovesSeams,          // the surroundings of a tile may change
   // In the readers of files, messages and frames.
   kTrustsCounts,   // a count or length is not compared with the bytes that are there
   kTrustsIndices,  // an index is not compared with the number of vertices

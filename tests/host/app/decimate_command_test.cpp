@@ -202,6 +202,20 @@ TEST_F(DecimateCommand, AShortOptionTakesItsValueBehindAnEqualsSign) {
   EXPECT_EQ(verify("out.ply"), 0);
 }
 
+TEST_F(DecimateCommand, InTilesKeepsAllBoundsForAnyNumberOfThreads) {
+  const std::vector<std::string> tiles = {"--tiles", "1000", "--json", "r.json"};
+  const ProgramRun run = decimate("one.ply", tiles);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(verify("one.ply"), 0);
+  const TriangleMesh result = read_mesh(folder_ / "one.ply");
+  EXPECT_TRUE(check_mesh(result.view()).valid());
+  EXPECT_EQ(check_mesh(result.view()).components, check_mesh(mesh_.view()).components);
+  std::vector<std::string> threads = tiles;
+  threads.insert(threads.end(), {"--threads", "3"});
+  ASSERT_EQ(decimate("two.ply", threads).exit_code, 0);
+  EXPECT_EQ(test::file_text(folder_ / "one.ply"), test::file_text(folder_ / "two.ply"));
+}
+
 TEST_F(DecimateCommand, SameInputSameBytes) {
   ASSERT_EQ(decimate("one.ply").exit_code, 0);
   ASSERT_EQ(decimate("two.ply").exit_code, 0);
@@ -492,6 +506,10 @@ TEST_F(DecimateCommand, RefusesInOneLineAndWritesNothing) {
   refused(decimate("out.ply", {"--back-error", "1%", "--bound", "one-sided"}), "--back-error");
   refused(decimate("out.ply", {"--effort", "none"}), "quick");
   refused(decimate("out.ply", {"--bound", "both"}), "two-sided");
+  refused(decimate("out.ply", {"--tiles", "1000", "--feature-angle", "40"}), "--feature-angle");
+  refused(decimate("out.ply", {"--tiles", "1000", "--objective", "hoppe"}), "--objective");
+  refused(decimate("out.ply", {"--tiles", "1000"}, "surface.off", "1%,2%"), "one --max-error");
+  refused(decimate("out.ply", {"--tiles", "10"}), "--tiles");
 }
 
 TEST_F(DecimateCommand, StoppedItGivesWhatItHas) {

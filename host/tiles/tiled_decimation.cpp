@@ -1,0 +1,330 @@
+#include "host/tiles/tiled_decimation.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "sw_model/base/parallel.h"
+#include "sw_model/base/sort_once.h"
+
+namespace emax {
+namespace {
+
+using Effort = DecimationSettings::Effort;
+
+// Where the first cut of a round's tiles lies, as a share of the triangles. Cuts of different
+// rounds meet along few lines only.
+constexpr std::array<double, 3> kFirstCuts = {0.5, 0.3, 0.62};
+// The parts of the rounds in the time, roughly.
+constexpr std::array<double, 3> kShares = {0.6, 0.25, 0.15};
+
+// The free triangles of a tile.
+struct Patch {
+  std::vector<Triangle> triangles;
+  std::optional<BoxTree> tree;
+  bool done = false;
+};
+
+}  // namespace
+
+class TiledDecimator::Run {
+ public:
+  Run(const TiledDecimator& whole, const DecimationSettings& settings)
+      : whole_(whole),
+        settings_(settings),
+        reach_(std::max(settings.epsilon,
+                        settings.epsilon_back > 0 ? settings.epsilon_back : settings.epsilon)),
+        mesh_(whole.reference_),
+        seen_(whole.cloud_.size()) {}
+
+  DecimatedMesh run() {
+    for (std::size_t round = 0; round < kFirstCuts.size() && !stopped_; ++round) {
+      cut(kFirstCuts[round]);
+      decimate_patches(round);
+      if (patches_.size() == 1) break;
+    }
+    for (std::uint32_t p = 0; p < seen_.size(); ++p) {
+      if (seen_[p] == 0) left_out_.push_back(p);  // near no tile
+    }
+    DecimatedMesh result{compact(), std::move(left_out_), stopped_, 0};
+    sort_once(result.left_out);
+    return result;
+  }
+
+ private:
+  Bounds box_of(const Triangle& t) const {
+    return bounds_of(std::array{mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
+  }
+
+  // Cuts space so that no part has the middles of more triangles of the reference than a tile may,
+  // and gives each triangle to the part that has its middle.
+  void cut(double first) {
+    std::vector<Triangle> all = std::move(mesh_.triangles);
+    for (Patch& patch : patches_) {
+      all.insert(all.end(), patch.triangles.begin(), patch.triangles.end());
+    }
+    mesh_.triangles.clear();
+    patches_.clear();
+    std::vector<Point> middles(whole_.reference_.triangles.size());
+    for (std::uint32_t r = 0; r < middles.size(); ++r) middles[r] = box_of_reference(r).midpoint();
+    cut(middles, all, first);
+    for (Patch& patch : patches_) plant(patch);
+  }
+
+  void cut(std::span<Point> middles, std::span<Triangle> triangles, double share) {
+    if (middles.size() <= whole_.tile_) {
+      patches_.push_back({{triangles.begin(), triangles.end()}, {}, false});
+      return;
+    }
+    const Bounds box = bounds_of(middles);
+    Eigen::Index axis;
+    (box.upper - box.lower).maxCoeff(&axis);
+    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(middles.size()));
+    std::ranges::nth_element(middles, middles.begin() + at, {},
+                             [axis](const Point& p) { return p[axis]; });
+    const double plane = middles[static_cast<std::size_t>(at)][axis];
+    const auto beyond = std::ranges::stable_partition(
+        triangles, [&](const Triangle& t) { return box_of(t).midpoint()[axis] < plane; });
+    const auto below = triangles.size() - beyond.size();
+    const auto half = static_cast<std::size_t>(at);
+    cut(middles.first(half), triangles.first(below), 0.5);
+    cut(middles.subspan(half), triangles.subspan(below), 0.5);
+  }
+
+  void plant(Patch& patch) {
+    patch.tree.emplace(static_cast<std::uint32_t>(patch.triangles.size()),
+                       [this, &patch](std::uint32_t t) { return box_of(patch.triangles[t]); });
+  }
+
+  void decimate_patches(std::size_t round) {
+    std::size_t done = 0;
+    const std::size_t all = std::accumulate(
+        patches_.begin(), patches_.end(), std::size_t{0},
+        [](std::size_t sum, const Patch& patch) { return sum + patch.triangles.size(); });
+    triangles_ = all;
+    while (!stopped_) {
+      const std::vector<std::size_t> batch = next_batch();
+      if (batch.empty()) break;
+      std::size_t work = 0;
+      for (const std::size_t p : batch) work += patches_[p].triangles.size();
+      const double before = round_begin(round) + kShares[round] * share(done, all);
+      decimate_batch(batch, round, before, kShares[round] * share(work, all));
+      done += work;
+    }
+  }
+
+  static double share(std::size_t part, std::size_t all) {
+    return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+  }
+  static double round_begin(std::size_t round) {
+    return std::accumulate(kShares.begin(), kShares.begin() + static_cast<std::ptrdiff_t>(round),
+                           0.0);
+  }
+
+  // Patches that are not done and of which none sees a triangle of another.
+  std::vector<std::size_t> next_batch() const {
+    std::vector<std::size_t> batch;
+    std::vector<std::set<std::size_t>> seen;
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+      if (patches_[p].done || patches_[p].triangles.empty()) continue;
+      std::set<std::size_t> sees;
+      for (const auto& [patch, triangle] : surroundings(p)) sees.insert(patch);
+      bool apart = true;
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        apart = apart && !sees.contains(batch[i]) && !seen[i].contains(p);
+      }
+      if (!apart) continue;
+      batch.push_back(p);
+      seen.push_back(std::move(sees));
+    }
+    return batch;
+  }
+
+  void decimate_batch(const std::vector<std::size_t>& batch, std::size_t round, double before,
+                      double part) {
+    std::vector<Tile> tiles(batch.size());
+    std::vector<DecimatedTile> results(batch.size());
+    std::vector<double> advanced(batch.size());
+    const std::size_t threads = std::min(settings_.threads, batch.size());
+    std::mutex mutex;
+    in_pieces(threads, batch.size(), 1, [&](std::size_t, std::size_t i, std::size_t) {
+      DecimationSettings own = settings_;
+      own.threads = settings_.threads / threads;
+      own.rival = 0;
+      if (round == 0 && patches_.size() > 1 && own.effort != Effort::kSweep) {
+        own.effort = Effort::kCollapse;
+      }
+      own.interrupted = [this, &mutex] {
+        const std::scoped_lock lock(mutex);
+        stopped_ = stopped_ || (settings_.interrupted && settings_.interrupted());
+        return stopped_;
+      };
+      own.advanced = [&, i](double done, std::size_t) {
+        if (!settings_.advanced) return;
+        const std::scoped_lock lock(mutex);
+        advanced[i] = std::max(advanced[i], done);
+        const double all = std::accumulate(advanced.begin(), advanced.end(), 0.0);
+        settings_.advanced(before + part * all / static_cast<double>(batch.size()), triangles_);
+      };
+      tiles[i] = tile_of(batch[i]);
+      results[i] = decimate_tile(tiles[i], own);
+    });
+    for (std::size_t i = 0; i < batch.size(); ++i) put(batch[i], tiles[i], results[i]);
+  }
+
+  void put(std::size_t p, const Tile& tile, DecimatedTile& result) {
+    Patch& patch = patches_[p];
+    triangles_ -= patch.triangles.size() - result.triangles.size();
+    const auto first_new = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const auto old = static_cast<std::uint32_t>(tile.vertices.size());
+    mesh_.vertices.insert(mesh_.vertices.end(), result.added.begin(), result.added.end());
+    for (Triangle& t : result.triangles) {
+      for (std::uint32_t& v : t) v = v < old ? tile.vertices[v] : first_new + (v - old);
+    }
+    patch.triangles = std::move(result.triangles);
+    plant(patch);
+    patch.done = true;
+    for (const std::uint32_t point : tile.point_numbers) seen_[point] = 1;
+    left_out_.insert(left_out_.end(), result.left_out.begin(), result.left_out.end());
+  }
+
+  // Triangles of the reference whose box is within a distance of one of the patch's.
+  std::vector<std::uint32_t> reference_near(const Patch& patch, double distance) const {
+    std::vector<std::uint32_t> near;
+    for (const Triangle& t : patch.triangles) {
+      whole_.reference_tree_.for_each(inflated(box_of(t), distance),
+                                      [&](std::uint32_t r) { near.push_back(r); });
+    }
+    sort_once(near);
+    return near;
+  }
+
+  Bounds box_of_reference(std::uint32_t r) const {
+    return bounds_of(whole_.reference_.view().corners(r));
+  }
+
+  using Place = std::pair<std::size_t, std::uint32_t>;  // patch and triangle in it
+
+  // The triangles of other patches that may be near what the patch is to cover.
+  std::vector<Place> surroundings(std::size_t p) const {
+    return surroundings(p, reference_near(patches_[p], reach_));
+  }
+
+  std::vector<Place> surroundings(std::size_t p, const std::vector<std::uint32_t>& covered) const {
+    std::vector<Place> places;
+    Bounds around = inflated(patches_[p].tree->bounds(), 2 * reach_);
+    for (const std::uint32_t r : covered) {
+      around = joined(around, inflated(box_of_reference(r), 2 * reach_));
+    }
+    for (std::size_t other = 0; other < patches_.size(); ++other) {
+      const BoxTree& tree = *patches_[other].tree;
+      if (other == p || tree.empty()) continue;
+      bool any = false;
+      tree.for_each(around, [&any](std::uint32_t) { any = true; });
+      if (!any) continue;
+      std::vector<std::uint32_t> found;
+      for (const std::uint32_t r : covered) {
+        tree.for_each(inflated(box_of_reference(r), 2 * reach_),
+                      [&](std::uint32_t t) { found.push_back(t); });
+      }
+      sort_once(found);
+      for (const std::uint32_t t : found) places.emplace_back(other, t);
+    }
+    return places;
+  }
+
+  Tile tile_of(std::size_t p) const {
+    const Patch& patch = patches_[p];
+    const std::vector<std::uint32_t> covered = reference_near(patch, reach_);
+    Tile tile;
+    Patch all{patch.triangles, {}, false};
+    for (const auto& [other, t] : surroundings(p, covered)) {
+      all.triangles.push_back(patches_[other].triangles[t]);
+    }
+    tile.free = patch.triangles.size();
+    tile.mesh = part_of(mesh_.vertices, all.triangles, &tile.vertices);
+    // The whole tile, with what stays, lies within reach of these.
+    std::vector<Triangle> reference;
+    std::vector<char> taken(whole_.reference_.triangles.size());
+    for (const std::uint32_t r : covered) {
+      reference.push_back(whole_.reference_.triangles[r]);
+      taken[r] = 1;
+    }
+    tile.covered = covered.size();
+    for (const std::uint32_t r : reference_near(all, 1.5 * reach_)) {
+      if (taken[r] == 0) reference.push_back(whole_.reference_.triangles[r]);
+    }
+    tile.reference = part_of(whole_.reference_.vertices, reference, nullptr);
+    for (const Triangle& t : patch.triangles) {
+      whole_.cloud_tree_.for_each(inflated(box_of(t), reach_), [&](std::uint32_t point) {
+        tile.point_numbers.push_back(point);
+      });
+    }
+    sort_once(tile.point_numbers);
+    for (const std::uint32_t point : tile.point_numbers) {
+      tile.points.push_back(whole_.cloud_[point]);
+    }
+    return tile;
+  }
+
+  // A mesh of its own of some triangles; `numbers`: of its vertices among all.
+  static TriangleMesh part_of(const std::vector<Point>& vertices,
+                              std::span<const Triangle> triangles,
+                              std::vector<std::uint32_t>* numbers) {
+    std::vector<std::uint32_t> used;
+    for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
+    sort_once(used);
+    TriangleMesh part;
+    for (const std::uint32_t v : used) part.vertices.push_back(vertices[v]);
+    for (const Triangle& t : triangles) {
+      Triangle& own = part.triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        own[i] = static_cast<std::uint32_t>(std::ranges::lower_bound(used, t[i]) - used.begin());
+      }
+    }
+    if (numbers != nullptr) *numbers = std::move(used);
+    return part;
+  }
+
+  TriangleMesh compact() const {
+    std::vector<Triangle> all = mesh_.triangles;
+    for (const Patch& patch : patches_) {
+      all.insert(all.end(), patch.triangles.begin(), patch.triangles.end());
+    }
+    return part_of(mesh_.vertices, all, nullptr);
+  }
+
+  const TiledDecimator& whole_;
+  const DecimationSettings& settings_;
+  const double reach_;
+  TriangleMesh mesh_;  // vertices; the triangles are the patches'
+  std::vector<Patch> patches_;
+  std::vector<char> seen_;  // the points that a tile was given
+  std::vector<std::uint32_t> left_out_;
+  std::size_t triangles_ = 0;
+  bool stopped_ = false;
+};
+
+TiledDecimator::TiledDecimator(const TriangleMesh& reference, std::span<const Point> cloud,
+                               std::size_t triangles_of_a_tile)
+    : reference_(reference),
+      cloud_(cloud),
+      tile_(std::max<std::size_t>(triangles_of_a_tile, 1)),
+      reference_tree_(
+          static_cast<std::uint32_t>(reference.triangles.size()),
+          [&reference](std::uint32_t t) { return bounds_of(reference.view().corners(t)); }),
+      cloud_tree_(static_cast<std::uint32_t>(cloud.size()), [cloud](std::uint32_t p) {
+        return Bounds{cloud[p], cloud[p]};
+      }) {}
+
+DecimatedMesh TiledDecimator::run(const DecimationSettings& settings) const {
+  return Run(*this, settings).run();
+}
+
+}  // namespace emax

@@ -1,0 +1,121 @@
+#include "host/tiles/tiled_decimation.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+
+#include "host/geometry/mesh_topology.h"
+#include "host/geometry/mesh_validity.h"
+#include "host/surface/manifold_part.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/decimation.h"
+#include "tests/host/support/surfaces.h"
+
+namespace emax::test {
+namespace {
+
+using Effort = DecimationSettings::Effort;
+
+bool within(MeshView mesh, MeshView of, double epsilon) {
+  SurfaceDistanceOptions options;
+  options.relative = 0;
+  options.limit = epsilon;
+  return surface_distance(mesh, ExactMesh(of), options).within(epsilon);
+}
+
+std::vector<TriangleMesh> surfaces() {
+  const TriangleMesh open = manifold_part(without_vertex(bumpy(24, 40), 444)).mesh;
+  return {bumpy(24, 40), sheet(24, 0.3), open, cube(6), joined(bumpy(20, 30), cube(4), {4, 0, 0})};
+}
+
+// With code that shares nothing with the decimator.
+TEST(TiledDecimator, KeepsAllBoundsAndTheTopology) {
+  for (const TriangleMesh& mesh : surfaces()) {
+    const MeshTopology before = topology_of(mesh.view());
+    for (const double epsilon : {0.005, 0.03}) {
+      for (const std::size_t tile : {150u, 700u}) {
+        const TiledDecimator decimator(mesh, mesh.vertices, tile);
+        const DecimatedMesh result = decimator.run(with(epsilon));
+        EXPECT_TRUE(certify(mesh.vertices, result.mesh.view()).within(epsilon));
+        EXPECT_TRUE(within(result.mesh.view(), mesh.view(), epsilon));
+        EXPECT_TRUE(within(mesh.view(), result.mesh.view(), epsilon));
+        EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
+        EXPECT_EQ(topology_of(result.mesh.view()), before);
+        EXPECT_TRUE(result.left_out.empty());
+        EXPECT_LT(result.mesh.triangles.size(), mesh.triangles.size());
+      }
+    }
+  }
+}
+
+TEST(TiledDecimator, KeepsPointsBetweenAndBesideTheVerticesNear) {
+  const TriangleMesh mesh = sheet(30, 0.3);
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> weight(0, 1), away(-0.01, 0.01);
+  std::vector<Point> cloud;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.view().corners(t);
+    const double u = weight(generator), v = weight(generator) * (1 - u);
+    cloud.push_back(a + u * (b - a) + v * (c - a) + Point(0, 0, away(generator)));
+  }
+  cloud.push_back({0.5, 0.5, 5});  // too far
+  DecimationSettings settings = with(0.03);
+  settings.two_sided = false;
+  const DecimatedMesh result = TiledDecimator(mesh, cloud, 400).run(settings);
+  EXPECT_EQ(result.left_out,
+            std::vector<std::uint32_t>{static_cast<std::uint32_t>(cloud.size() - 1)});
+  EXPECT_TRUE(certify(cloud, result.mesh.view(), result.left_out).within(0.03));
+  EXPECT_LT(result.mesh.triangles.size(), mesh.triangles.size() / 3);
+}
+
+TEST(TiledDecimator, GivesTheSameBytesForAnyNumberOfThreads) {
+  const TriangleMesh mesh = bumpy(40, 60);
+  DecimationSettings settings = with(0.01);
+  const TiledDecimator decimator(mesh, mesh.vertices, 600);
+  const DecimatedMesh one = decimator.run(settings);
+  for (const std::size_t threads : {2u, 5u}) {
+    settings.threads = threads;
+    EXPECT_TRUE(same_bytes(decimator.run(settings).mesh, one.mesh));
+  }
+}
+
+TEST(TiledDecimator, IsTheDecimatorWhereOneTileHoldsAll) {
+  const TriangleMesh mesh = bumpy(24, 40);
+  const DecimationSettings settings = with(0.02);
+  const DecimatedMesh whole = BoundedDecimator(mesh, mesh.vertices).run(settings);
+  const DecimatedMesh tiled = TiledDecimator(mesh, mesh.vertices, 1u << 20).run(settings);
+  EXPECT_EQ(tiled.mesh.triangles.size(), whole.mesh.triangles.size());
+}
+
+TEST(TiledDecimator, AnInterruptLeavesAMeshWithinAllBounds) {
+  const TriangleMesh mesh = bumpy(40, 60);
+  for (const int polls : {0, 20, 200}) {
+    std::atomic<int> left = polls;
+    DecimationSettings settings = with(0.02);
+    settings.interrupted = [&left] { return --left < 0; };
+    const DecimatedMesh result = TiledDecimator(mesh, mesh.vertices, 600).run(settings);
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
+    EXPECT_TRUE(within(result.mesh.view(), mesh.view(), 0.02));
+    EXPECT_TRUE(within(mesh.view(), result.mesh.view(), 0.02));
+  }
+}
+
+TEST(TiledDecimator, TellsAShareThatGrows) {
+  const TriangleMesh mesh = bumpy(40, 60);
+  DecimationSettings settings = with(0.02);
+  double last = 0;
+  settings.advanced = [&last](double share, std::size_t triangles) {
+    EXPECT_GE(share, last - 1e-9);
+    EXPECT_LE(share, 1 + 1e-9);
+    EXPECT_GT(triangles, 0u);
+    last = share;
+  };
+  TiledDecimator(mesh, mesh.vertices, 600).run(settings);
+  EXPECT_GT(last, 0.5);
+}
+
+}  // namespace
+}  // namespace emax::test
