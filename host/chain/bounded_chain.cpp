@@ -67,7 +67,7 @@ bool BoundedStage::keeps_bounds(const SurfaceVerdict& verdict) const {
 }
 
 DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& values,
-                           const BoundedStage& stage, const EarlyEnd& early) {
+                           const BoundedStage& stage, const RunOptions& options) {
   using Effort = DecimationSettings::Effort;
   static_assert(static_cast<Effort>(kDeepEffort) == Effort::kDeep);
   const DecimationBound& bound = stage.bound();
@@ -78,8 +78,9 @@ DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& val
   settings.effort = static_cast<Effort>(values.at(kEffort));
   settings.normal_cosine = values.at(kNormalCosine);
   settings.flatness = values.at(kFlatness);
-  settings.interrupted = early.stopped;
-  settings.rival = early.rival;
+  settings.interrupted = options.stopped;
+  settings.rival = options.rival;
+  settings.threads = options.threads;
   const TriangleMesh& reference = stage.two_sided() ? bound.reference : start;
   DecimatedMesh made = BoundedDecimator(reference, stage.kept()).run(start, settings);
   if (stage.two_sided()) return made;

@@ -22,10 +22,12 @@ struct SurfaceVerdict {
   double reference_distance = 0;  // of the reference, the inside of its triangles too, from it
 };
 
-// What ends the work of the bounded decimator with the mesh at hand.
-struct EarlyEnd {
-  std::function<bool()> stopped = nullptr;  // polled now and then; true ends it
-  std::uint64_t rival = 0;                  // DecimationSettings::rival
+// How the bounded decimator is to work.
+struct RunOptions {
+  // Polled now and then; true ends the work with the mesh at hand.
+  std::function<bool()> stopped = nullptr;
+  std::uint64_t rival = 0;  // DecimationSettings::rival
+  std::size_t threads = 1;  // which change no byte
 };
 
 // The bounded decimator as the end of the chain, for the surfaces of one cloud.

@@ -107,7 +107,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
   });
 }
 
-ChainResult Chain::run(const ChainSettings& settings, const EarlyEnd& early) {
+ChainResult Chain::run(const ChainSettings& settings, const RunOptions& options) {
   require_values(settings);
   ChainResult result;
   const Surface& start = surface(settings, result.seconds);
@@ -124,7 +124,7 @@ ChainResult Chain::run(const ChainSettings& settings, const EarlyEnd& early) {
   if (hopeful) {
     const auto decimator =
         std::ranges::find(decimator_runs(), settings.decimator, &DecimatorRun::name);
-    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, early);
+    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, options);
     result.mesh = std::move(decimated.mesh);
     result.stopped = decimated.interrupted;
     result.expected_triangles = decimated.expected;

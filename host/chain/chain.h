@@ -24,10 +24,10 @@ class Chain {
   explicit Chain(std::vector<Point> points, DecimationBound bound = {},
                  std::size_t cache_bytes = kStageCacheBytes);
 
-  // A pure function of points, bound, settings and rival, unless `early.stopped` becomes true while
-  // the bounded decimator works, which then gives the mesh at hand. Throws Error when a stage
+  // A pure function of points, bound, settings and rival, unless `options.stopped` becomes true
+  // while the bounded decimator works, which then gives the mesh at hand. Throws Error when a stage
   // leaves nothing or a parameter has no value.
-  ChainResult run(const ChainSettings& settings, const EarlyEnd& early = {});
+  ChainResult run(const ChainSettings& settings, const RunOptions& options = {});
 
   std::size_t clouds() const { return clouds_.made(); }
   std::size_t reconstructions() const { return reconstructions_.made(); }

@@ -13,14 +13,14 @@ namespace emax {
 struct DecimatorRun {
   std::string_view name;
   DecimatedMesh (*run)(const TriangleMesh& start, const ParameterValues& values,
-                       const BoundedStage& stage, const EarlyEnd& early);
+                       const BoundedStage& stage, const RunOptions& options);
 };
 
 template <typename Decimator>
 DecimatedMesh run_decimator(const TriangleMesh& start, const ParameterValues& values,
-                            const BoundedStage& stage, const EarlyEnd& early) {
+                            const BoundedStage& stage, const RunOptions& options) {
   if constexpr (Decimator::kBounded) {
-    return Decimator::run(start, values, stage, early);
+    return Decimator::run(start, values, stage, options);
   } else {
     return {Decimator::run(start, values), {}, false, 0};
   }

@@ -63,8 +63,8 @@ class RankJob::Pool final : public EvaluationPool {
     }
   }
 
-  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) override {
-    dispatch_.submit({ticket, settings, rival});
+  void submit(RunMessage run) override {
+    dispatch_.submit(std::move(run));
     go_on();
   }
 
@@ -83,7 +83,7 @@ class RankJob::Pool final : public EvaluationPool {
     while (std::optional<RankDispatch::Assignment> assignment = dispatch_.next()) {
       const auto& [rank, run] = *assignment;
       if (rank == 0) {
-        here_->submit(run.ticket, run.settings, run.rival);
+        here_->submit(run);
       } else {
         send(rank, RankMessageKind::kRun, run.ticket, encode(run));
       }

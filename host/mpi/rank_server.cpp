@@ -55,12 +55,10 @@ class Server {
         number_ = message.pool;
         start(decode_rank_pool_options(*message.content));
         break;
-      case RankMessageKind::kRun: {
-        if (!pool_) break;  // it could not be started, and rank 0 will hear of it
-        const auto run = std::get<RunMessage>(decode(body()));
-        pool_->submit(run.ticket, run.settings, run.rival);
+      case RankMessageKind::kRun:
+        // Where it could not be started, rank 0 will hear of it.
+        if (pool_) pool_->submit(std::get<RunMessage>(decode(body())));
         break;
-      }
       case RankMessageKind::kStop:
         if (pool_) pool_->stop();
         break;

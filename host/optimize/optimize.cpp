@@ -141,6 +141,11 @@ class Run {
     pool_ = settings_.make_pool(cloud_, settings_.bound, options);
   }
 
+  // Of each evaluation, where there are fewer of them than workers.
+  std::uint64_t threads_for(std::uint64_t evaluations) const {
+    return std::max<std::uint64_t>(settings_.jobs / std::max<std::uint64_t>(evaluations, 1), 1);
+  }
+
   // Gives the workers what they can take, and one more, so that none waits for the next candidate.
   // What the log knows is answered at once.
   void hand_out() {
@@ -163,7 +168,7 @@ class Run {
           const Parameter& gene = settings_.config.genes[*walked_];
           work.walk.emplace(gene.lower, gene.upper);
         }
-        pool_->submit(index, trial(work), work.rival);
+        pool_->submit({index, trial(work), work.rival, threads_for(state_.budget)});
       }
     }
   }
@@ -221,7 +226,9 @@ class Run {
     }
     work.worked += std::exchange(result.evaluation.worked, 0);
     if (work.walk && !work.walk_on(result)) {
-      if (!stopping_) pool_->submit(index, trial(work), work.rival);
+      if (!stopping_) {
+        pool_->submit({index, trial(work), work.rival, threads_for(state_.budget)});
+      }
       return std::nullopt;
     }
     pool_->go_on();
@@ -275,7 +282,10 @@ class Run {
     state_.polishing = true;
     state_.polish_seconds = expected_polish_seconds(in_work_.size());
     start_workers(settings_.jobs, kPolishTimes);
-    for (const auto& [index, work] : in_work_) pool_->submit(index, chain(work.genes), 0);
+    const std::size_t deep = in_work_.size();
+    for (const auto& [index, work] : in_work_) {
+      pool_->submit({index, chain(work.genes), 0, threads_for(deep)});
+    }
     while (!in_work_.empty() && !state_.interrupted && state_.device_failure.empty() &&
            settings_.seconds_left() > stopping_seconds()) {
       observe_(state_);
@@ -499,7 +509,7 @@ class Run {
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
     start_workers(1, known.index >= kPolishIndex ? kPolishTimes : 1);
-    pool_->submit(known.index, chain(known), 0);
+    pool_->submit({known.index, chain(known)});
     Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();
     if (const auto* failure = std::get_if<Failure>(&completed.outcome)) {

@@ -132,7 +132,7 @@ class Fit {
     // The surface as it comes: what is done to it is to be known here.
     ChainSettings raw = tried.chain;
     raw.parameters.set(Fill::kMethod, Fill::Method::kNone);
-    pool.submit(fit_.tried.size(), raw, 0);
+    pool.submit({fit_.tried.size(), raw});
     fit_.tried.push_back(std::move(tried));
   }
 

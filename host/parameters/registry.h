@@ -16,7 +16,7 @@ namespace emax {
 
 class BoundedStage;
 class LocalCloud;
-struct EarlyEnd;
+struct RunOptions;
 struct DecimatedMesh;
 struct Reconstruction;
 
@@ -217,7 +217,7 @@ struct Bounded {
   // Keeps every bound that `start` keeps, and its topology; under a one-sided bound without the
   // components that no point needs any more. The same holds of a mesh after an early end.
   static DecimatedMesh run(const TriangleMesh& start, const ParameterValues& values,
-                           const BoundedStage& stage, const EarlyEnd& early);
+                           const BoundedStage& stage, const RunOptions& options);
 };
 
 // Through VTK.

@@ -40,9 +40,15 @@ void leave_on_hangup() {
   }).detach();
 }
 
-void limit(int resource, std::uint64_t bytes) {
-  const rlimit value{bytes, bytes};
-  setrlimit(static_cast<__rlimit_resource>(resource), &value);
+// Bytes of address space that an evaluation may take; 0 for any. A thread reserves some for its
+// stack and its heap, which is not the evaluation's.
+void limit_memory(std::uint64_t bytes, std::uint64_t threads) {
+  constexpr std::uint64_t kOfAThread = std::uint64_t{192} << 20;
+  if (bytes == 0) return;
+  rlimit value{};
+  getrlimit(RLIMIT_AS, &value);
+  value.rlim_cur = bytes + (threads - 1) * kOfAThread;
+  setrlimit(RLIMIT_AS, &value);
 }
 
 void send(const Bytes& bytes) {
@@ -113,7 +119,8 @@ RunMessage next_run() {
 Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
   try {
     if (before) before(run.settings);
-    return encode(MeshMessage{run.ticket, chain.run(run.settings, {asked_to_stop, run.rival})});
+    return encode(
+        MeshMessage{run.ticket, chain.run(run.settings, {asked_to_stop, run.rival, run.threads})});
   } catch (const std::bad_alloc&) {
     return encode(FailureMessage{run.ticket, {FailureReason::kOutOfMemory, "needs more memory"}});
   } catch (const std::exception& e) {
@@ -123,10 +130,13 @@ Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
 
 // If memory runs out between evaluations, the worker leaves. That costs one evaluation, as a crash
 // does.
-[[noreturn]] void answer_requests(Chain& chain, const BeforeRun& before) {
+[[noreturn]] void answer_requests(Chain& chain, std::uint64_t memory_limit,
+                                  const BeforeRun& before) {
   try {
     for (bool first = true;; first = false) {
-      const Bytes answer = evaluate(chain, next_run(), before);
+      const RunMessage run = next_run();
+      limit_memory(memory_limit, run.threads);
+      const Bytes answer = evaluate(chain, run, before);
       // A library may have changed the rounding or flush mode when it was first used.
       if (first) verify_arithmetic();
       send(answer);
@@ -136,12 +146,12 @@ Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
   }
 }
 
-[[noreturn]] void serve(const BeforeRun& before) {
+[[noreturn]] void serve(std::uint64_t memory_limit, const BeforeRun& before) {
   verify_arithmetic();
   PointsMessage given = read_points();
   Chain chain(std::move(given.points), std::move(given.bound));
   send(encode(ReadyMessage{}));
-  answer_requests(chain, before);
+  answer_requests(chain, memory_limit, before);
 }
 
 }  // namespace
@@ -154,14 +164,15 @@ int run_worker(std::span<char*> arguments, const BeforeRun& before) {
   const std::string_view memory = arguments[1];
   std::uint64_t memory_limit = 0;
   std::from_chars(memory.data(), memory.data() + memory.size(), memory_limit);
-  if (memory_limit != 0) limit(RLIMIT_AS, memory_limit);
-  limit(RLIMIT_CORE, 0);
+  limit_memory(memory_limit, 1);
+  constexpr rlimit kNoCore{};
+  setrlimit(RLIMIT_CORE, &kNoCore);
   // A signal that stops the program may also reach its workers. They ignore it and end when the
   // program ends: if they ended before, their evaluations would count as failed.
   for (const int signal_number : {SIGHUP, SIGINT, SIGTERM}) std::signal(signal_number, SIG_IGN);
   leave_on_hangup();
   try {
-    serve(before);
+    serve(memory_limit, before);
   } catch (const std::bad_alloc&) {
     send(encode(UnusableMessage{"the cloud alone needs more memory; raise the memory limit"}));
   } catch (const std::exception& e) {

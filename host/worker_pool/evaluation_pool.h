@@ -25,8 +25,8 @@ class EvaluationPool {
   virtual ~EvaluationPool() = default;  // gives up what is outstanding
 
   // Queues an evaluation. A free worker starts it now, else a later wait_for() starts it. The
-  // caller chooses the tickets. `rival`: DecimationSettings::rival.
-  virtual void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) = 0;
+  // caller chooses the tickets.
+  virtual void submit(RunMessage run) = 0;
 
   // Waits for the next evaluation to complete. At least one must be outstanding. Returns nothing if
   // `duration` passes or a signal arrives first. Throws Error if no evaluation can be made.

@@ -60,7 +60,8 @@ json to_json(const RunMessage& m) {
           {"method", m.settings.method},
           {"decimator", m.settings.decimator},
           {"parameters", m.settings.parameters.by_name()},
-          {"rival", m.rival}};
+          {"rival", m.rival},
+          {"threads", m.threads}};
 }
 
 json to_json(const StopMessage&) { return {{"kind", "stop"}}; }
@@ -176,7 +177,8 @@ Message from_json(const json& j) {
     return RunMessage{count_from(j.at("ticket")),
                       {j.at("method"), j.at("decimator"),
                        ParameterValues(j.at("parameters").get<ParameterValues::ByName>())},
-                      count_from(j.at("rival"))};
+                      count_from(j.at("rival")),
+                      count_from(j.at("threads"))};
   }
   if (kind == "stop") return StopMessage{};
   if (kind == "ready") return ReadyMessage{};

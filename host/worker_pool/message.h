@@ -17,7 +17,7 @@
 //    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
 //    once
 //   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number},
-//    "rival": n}
+//    "rival": n, "threads": n}
 //   {"kind": "stop"}                                                 to a worker: end the
 //   decimation
 //   {"kind": "ready"}                                                from a worker, first and once
@@ -52,7 +52,8 @@ struct PointsMessage {
 struct RunMessage {
   std::uint64_t ticket;
   ChainSettings settings;
-  std::uint64_t rival = 0;  // triangles that the bounded decimator is to beat; 0: none
+  std::uint64_t rival = 0;    // triangles that the bounded decimator is to beat; 0: none
+  std::uint64_t threads = 1;  // for it; a pool gives it no more than it has workers
 };
 struct StopMessage {};
 struct ReadyMessage {};

@@ -68,8 +68,9 @@ class WorkerPool::Implementation {
     for (Worker& worker : workers_) replace(worker);
   }
 
-  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) {
-    queue_.push({ticket, settings, rival});
+  void submit(RunMessage run) {
+    run.threads = std::clamp<std::uint64_t>(run.threads, 1, workers_.size());
+    queue_.push(std::move(run));
     hand_out();
   }
 
@@ -281,9 +282,7 @@ WorkerPool::WorkerPool(std::span<const Point> points, const DecimationBound& bou
 
 WorkerPool::~WorkerPool() = default;
 
-void WorkerPool::submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) {
-  implementation_->submit(ticket, settings, rival);
-}
+void WorkerPool::submit(RunMessage run) { implementation_->submit(std::move(run)); }
 
 Completed WorkerPool::wait() {
   while (true) {

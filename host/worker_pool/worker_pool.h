@@ -36,8 +36,8 @@ class WorkerPool final : public EvaluationPool {
              const WorkerPoolOptions& options);
   ~WorkerPool() override;  // kills running workers
 
-  void submit(std::uint64_t ticket, const ChainSettings& settings) { submit(ticket, settings, 0); }
-  void submit(std::uint64_t ticket, const ChainSettings& settings, std::uint64_t rival) override;
+  void submit(std::uint64_t ticket, const ChainSettings& settings) { submit({ticket, settings}); }
+  void submit(RunMessage run) override;
 
   // wait() and wait_for() also throw Error when workers ended before they were ready, or failed the
   // arithmetic self-test.

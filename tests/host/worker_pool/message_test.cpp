@@ -57,13 +57,15 @@ TEST(Message, CarriesSettings) {
   const RunMessage sent{
       ~std::uint64_t{0},
       {"gp3", "schroeder", ParameterValues({{"a", 0.1}, {"b", 3}, {"c", 1e-300}, {"d", -0.0}})},
-      ~std::uint64_t{1}};
+      ~std::uint64_t{1},
+      7};
   const RunMessage got = round_trip(sent);
   EXPECT_EQ(got.ticket, sent.ticket);
   EXPECT_EQ(got.settings.method, "gp3");
   EXPECT_EQ(got.settings.decimator, "schroeder");
   EXPECT_EQ(got.settings.parameters, sent.settings.parameters);
   EXPECT_EQ(got.rival, sent.rival);
+  EXPECT_EQ(got.threads, sent.threads);
 }
 
 TEST(Message, CarriesAMesh) {

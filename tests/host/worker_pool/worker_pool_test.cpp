@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "host/parameters/registry.h"
 #include "sw_model/base/error.h"
@@ -77,6 +79,26 @@ TEST(WorkerPool, GivesTheSameMeshesForAnyNumberOfJobs) {
     EXPECT_TRUE(same_bytes(result.mesh, two.at(ticket).mesh)) << ticket;
     EXPECT_EQ(result.reconstruction_triangles, two.at(ticket).reconstruction_triangles);
     EXPECT_EQ(result.unmeshed_points, two.at(ticket).unmeshed_points);
+  }
+}
+
+// No more threads than the pool may have workers; they change no byte.
+TEST(WorkerPool, GivesAnEvaluationSeveralThreads) {
+  const std::vector<Point> cloud = torus_cloud(60, 30);
+  const ChainSettings bounded{"gp3", "bounded",
+                              ParameterValues(chain_parameters("gp3", "bounded"))};
+  std::optional<ChainResult> one;
+  for (const auto& [jobs, threads] : {std::pair{1u, 1u}, {3u, 3u}, {2u, 100u}}) {
+    WorkerPoolOptions few = options(jobs);
+    few.memory_limit = std::uint64_t{1} << 31;
+    WorkerPool pool(cloud, {0.05, 0, {}, {}}, few);
+    pool.submit({7, bounded, 0, threads});
+    const ChainResult result = std::get<ChainResult>(pool.wait().outcome);
+    if (one) {
+      EXPECT_TRUE(same_bytes(result.mesh, one->mesh)) << jobs;
+    } else {
+      one = result;
+    }
   }
 }
 
