@@ -1,9 +1,12 @@
 #include "host/decimate/certified_decimation.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
+#include <vector>
 
 #include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
 #include "sw_model/base/sort_once.h"
 
 namespace emax {
@@ -66,12 +69,20 @@ class Attempts {
     result_.mesh = as_stored(mesh, settings_.storage);
     const MeshView view = result_.mesh.view();
     const ExactMesh exact(view);
-    result_.validity = check_mesh(view);
-    result_.points = certify(cloud_, view, beyond_for_good(exact));
+    const std::size_t threads = settings_.decimation.threads;
+    std::vector<std::function<void()>> proofs = {
+        [&] { result_.validity = check_mesh(view); },
+        [&] { result_.points = certify(cloud_, view, beyond_for_good(exact)); }};
     if (settings_.decimation.two_sided) {
-      result_.mesh_to_reference = decided_distance(view, exact_reference_, epsilon_back_);
-      result_.reference_to_mesh = decided_distance(reference_.view(), exact, epsilon_);
+      proofs.emplace_back([&] {
+        result_.mesh_to_reference = decided_distance(view, exact_reference_, epsilon_back_);
+      });
+      proofs.emplace_back([&] {
+        result_.reference_to_mesh = decided_distance(reference_.view(), exact, epsilon_);
+      });
     }
+    in_pieces(threads, proofs.size(), 1,
+              [&proofs](std::size_t, std::size_t proof, std::size_t) { proofs[proof](); });
     return as_valid() && result_.points.within(epsilon_) &&
            (!settings_.decimation.two_sided || (result_.mesh_to_reference->within(epsilon_back_) &&
                                                 result_.reference_to_mesh->within(epsilon_)));
