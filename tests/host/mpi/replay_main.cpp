@@ -13,12 +13,13 @@ namespace {
 
 // What each evaluation took, in the order of the candidates.
 std::vector<double> costs_of(const std::filesystem::path& folder) {
+  const std::filesystem::path log = folder / "evaluations.log";
+  if (!std::filesystem::exists(log)) throw emax::Error(log.string() + ": no such file");
   std::map<std::uint64_t, double> costs;
-  emax::RecordFile(folder / "evaluations.log")
-      .read([&costs](std::span<const std::uint8_t> content) {
-        const emax::LoggedEvaluation evaluation = emax::decode_evaluation(content);
-        if (evaluation.index < 1'000'000'000'000) costs[evaluation.index] = evaluation.worked;
-      });
+  emax::RecordFile(log).read([&costs](std::span<const std::uint8_t> content) {
+    const emax::LoggedEvaluation evaluation = emax::decode_evaluation(content);
+    if (evaluation.index < 1'000'000'000'000) costs[evaluation.index] = evaluation.worked;
+  });
   std::vector<double> values;
   for (const auto& [index, cost] : costs) values.push_back(cost);
   return values;
