@@ -298,11 +298,12 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "threads to work with, which change no byte of the result (default: one per "
                   "processor)")
       ->check(CLI::Range(1u, 256u));
-  CLI::Option& tiles = *command.add_option(
-      "--tiles", decimate.tile_triangles,
-      "decimate in tiles of at most this many triangles, which takes less memory and more threads "
-      "for about 2% more triangles (default: the mesh as a whole)");
-  tiles.check(CLI::Range(std::size_t{1000}, std::size_t{1} << 32));
+  command
+      .add_option("--tiles", decimate.tile_triangles,
+                  "decimate in tiles of at most this many triangles, for a mesh that is too large "
+                  "for the memory as a whole; about 2% more triangles are left (default: the mesh "
+                  "as a whole)")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{1} << 32));
   add_progress(command, line);
   add_examples(
       command,
