@@ -56,6 +56,7 @@ struct DecimateOptions {
   std::optional<double> seconds;
   unsigned threads = 0;            // 0: one per processor
   std::size_t tile_triangles = 0;  // 0: the mesh is decimated as a whole
+  Machines machines;
   bool two_sided = true;
   bool repair = false;  // remove intersecting triangles instead of keeping them
   bool closed = false;  // every hole is closed

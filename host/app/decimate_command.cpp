@@ -146,8 +146,8 @@ class DecimateCommand {
 
   int run_once() {
     progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
-    result_ =
-        decimate_scan(reference_.surface.mesh, scan_, kept_, settings_, options_.tile_triangles);
+    result_ = decimate_scan(reference_.surface.mesh, scan_, kept_, settings_,
+                            options_.tile_triangles, options_.machines.tiles.get());
     judge();
     progress_.finish();
     feasible_ ? print_result(facts_) : refuse(facts_);

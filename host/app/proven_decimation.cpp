@@ -42,13 +42,14 @@ KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::siz
 
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,
                                   const KeptPoints& kept,
-                                  const CertifiedDecimationSettings& settings, std::size_t tile) {
-  CertifiedDecimation made =
-      tile == 0 ? decimate_certified(reference, kept.points, settings)
-                : decimate_certified(
-                      reference, kept.points, settings, [&](const DecimationSettings& bounded) {
-                        return TiledDecimator(reference, kept.points, tile).run(bounded);
-                      });
+                                  const CertifiedDecimationSettings& settings, std::size_t tile,
+                                  TileRunner* runner) {
+  const auto in_tiles = [&](const DecimationSettings& bounded) {
+    return TiledDecimator(reference, kept.points, tile, *runner).run(bounded);
+  };
+  CertifiedDecimation made = tile == 0
+                                 ? decimate_certified(reference, kept.points, settings)
+                                 : decimate_certified(reference, kept.points, settings, in_tiles);
   if (kept.outliers.empty()) return made;
   std::vector<std::uint32_t> excluded = kept.outliers;
   for (const std::uint32_t i : made.points.excluded) excluded.push_back(kept.index[i]);

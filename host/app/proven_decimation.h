@@ -7,6 +7,7 @@
 
 #include "host/app/certified_result.h"
 #include "host/decimate/certified_decimation.h"
+#include "host/tiles/tile.h"
 
 namespace emax {
 
@@ -21,11 +22,11 @@ struct KeptPoints {
 KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable);
 
 // Decimates the reference under the bounds of `settings`, and certifies every point of the scan.
-// `tile`: in tiles of so many triangles; 0: as a whole.
+// `tile`: in tiles of so many triangles by `runner`; 0: as a whole.
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,
                                   const KeptPoints& kept,
-                                  const CertifiedDecimationSettings& settings,
-                                  std::size_t tile = 0);
+                                  const CertifiedDecimationSettings& settings, std::size_t tile = 0,
+                                  TileRunner* runner = nullptr);
 
 // The decimator's proofs in the form of the certificate, without those for the reference.
 ProvenMesh proofs_of(const CertifiedDecimation& made, const Scan& scan);

@@ -1,6 +1,7 @@
 #include <mpi.h>
 
 #include <csignal>
+#include <memory>
 #include <optional>
 
 #include "host/app/interrupt.h"
@@ -9,12 +10,13 @@
 #include "host/mpi/rank_identity.h"
 #include "host/mpi/rank_pool.h"
 #include "host/mpi/rank_server.h"
+#include "host/mpi/rank_tiles.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
 namespace {
 
-// Rank 0 is `emax`, and the others make evaluations for it.
+// Rank 0 is `emax`, and the others make evaluations and decimate tiles for it.
 int run_first(RankLink& link, const std::vector<RankIdentity>& ranks, int argc, char** argv) {
   Machines machines;
   std::vector<std::string> hosts;
@@ -25,6 +27,7 @@ int run_first(RankLink& link, const std::vector<RankIdentity>& ranks, int argc, 
   }
   machines.processes_on_one = most_on_one_host(ranks);
   RankJob job(link, machines.processors, hosts);
+  machines.tiles = std::make_shared<RankTiles>(link, hosts);
   machines.make_pool = [&job](std::span<const Point> points, const DecimationBound& bound,
                               const WorkerPoolOptions& options) {
     return job.make_pool(points, bound, options);
@@ -53,7 +56,7 @@ int run(int argc, char** argv) {
   if (link.rank() == 0) return run_first(link, ranks, argc, argv);
   // Rank 0 decides when the job ends.
   for (const int signal_number : {SIGHUP, SIGINT, SIGTERM}) std::signal(signal_number, SIG_IGN);
-  serve_rank(link);
+  serve_rank(link, own.processors);
   return kExitOk;
 }
 

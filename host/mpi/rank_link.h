@@ -25,17 +25,19 @@ enum class RankMessageKind : std::uint64_t {
   kRun,     // content: the "run" message
   kStop,    // EvaluationPool::stop()
   kEnd,     // of the pool
+  kTile,    // content: TileTask; kStop ends it soon
   kQuit,    // of the program
   // From a rank.
-  kMesh,      // content: the "mesh" message
-  kFailure,   // content: one byte, the reason, then the message
+  kMesh,     // content: the "mesh" message
+  kFailure,  // content: one byte, the reason, then the message
+  kDecimatedTile,
   kUnusable,  // content: a text; no evaluation can be made there
 };
 
 struct RankMessage {
   RankMessageKind kind;
   std::uint64_t pool = 0;    // its number, from 1
-  std::uint64_t ticket = 0;  // of kRun, kMesh and kFailure
+  std::uint64_t ticket = 0;  // of an evaluation, or a tile's number
   std::shared_ptr<const Bytes> content = std::make_shared<Bytes>();
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/mpi/rank_pool.h"
+#include "host/mpi/tile_message.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -14,7 +15,7 @@ namespace {
 
 class Server {
  public:
-  explicit Server(RankLink& link) : link_(link) {}
+  Server(RankLink& link, std::size_t threads) : link_(link), threads_(threads) {}
 
   void run() {
     while (!quit_) {
@@ -62,6 +63,9 @@ class Server {
       case RankMessageKind::kStop:
         if (pool_) pool_->stop();
         break;
+      case RankMessageKind::kTile:
+        decimate(message);
+        break;
       case RankMessageKind::kEnd:
         pool_.reset();
         break;
@@ -83,6 +87,24 @@ class Server {
     pool_ = std::make_unique<WorkerPool>(points_.points, points_.bound, options);
   }
 
+  // Rank 0 sends nothing but kStop meanwhile.
+  void decimate(const RankMessage& message) {
+    TileTask task = decode_tile_task(*message.content);
+    task.settings.threads = threads_;
+    bool stopped = false;
+    auto next = std::chrono::steady_clock::now();
+    task.settings.interrupted = [&] {
+      const auto now = std::chrono::steady_clock::now();
+      if (stopped || now < next) return stopped;
+      next = now + kBetweenLooks;
+      const std::optional<RankLink::Received> received = link_.receive();
+      stopped = received && received->message.kind == RankMessageKind::kStop;
+      return stopped;
+    };
+    send(RankMessageKind::kDecimatedTile, message.ticket,
+         encode(decimate_tile(task.tile, task.settings)));
+  }
+
   void answer(const Completed& completed) {
     if (const auto* made = std::get_if<ChainResult>(&completed.outcome)) {
       send(RankMessageKind::kMesh, completed.ticket, encode(MeshMessage{completed.ticket, *made}));
@@ -99,6 +121,7 @@ class Server {
   }
 
   RankLink& link_;
+  std::size_t threads_;
   PointsMessage points_;
   std::unique_ptr<WorkerPool> pool_;
   std::uint64_t number_ = 0;  // of the pool
@@ -107,6 +130,6 @@ class Server {
 
 }  // namespace
 
-void serve_rank(RankLink& link) { Server(link).run(); }
+void serve_rank(RankLink& link, std::size_t threads) { Server(link, threads).run(); }
 
 }  // namespace emax

@@ -4,8 +4,8 @@
 
 namespace emax {
 
-// What ranks other than 0 do: they run evaluations in worker processes of their own as rank 0 asks
-// them to, until it sends them kQuit.
-void serve_rank(RankLink& link);
+// What ranks other than 0 do until rank 0 sends them kQuit: they run evaluations in worker
+// processes of their own, and decimate tiles with so many threads.
+void serve_rank(RankLink& link, std::size_t threads);
 
 }  // namespace emax

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "sw_model/base/deliberate_fault.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
@@ -113,6 +114,30 @@ DecimatedTile decimate_tile(const Tile& tile, DecimationSettings settings) {
     result.triangles.push_back(triangle);
   }
   return result;
+}
+
+std::vector<DecimatedTile> LocalTiles::run(std::size_t count, const MakeTile& make,
+                                           const DecimationSettings& settings,
+                                           const Advanced& advanced) {
+  std::vector<DecimatedTile> results(count);
+  const std::size_t threads = std::clamp<std::size_t>(count, 1, settings.threads);
+  std::mutex mutex;
+  bool stopped = false;
+  in_pieces(threads, count, 1, [&](std::size_t, std::size_t i, std::size_t) {
+    DecimationSettings own = settings;
+    own.threads = settings.threads / threads;
+    own.interrupted = [&] {
+      const std::scoped_lock lock(mutex);
+      stopped = stopped || (settings.interrupted && settings.interrupted());
+      return stopped;
+    };
+    own.advanced = [&, i](double share, std::size_t) {
+      const std::scoped_lock lock(mutex);
+      advanced(i, share);
+    };
+    results[i] = decimate_tile(make(i), own);
+  });
+  return results;
 }
 
 }  // namespace emax

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "host/decimate/bounded_decimation.h"
@@ -28,6 +28,28 @@ struct DecimatedTile {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> left_out;  // points, by their number in the whole cloud
   bool interrupted = false;
+};
+
+// Where tiles are decimated that see nothing of each other.
+class TileRunner {
+ public:
+  virtual ~TileRunner() = default;
+
+  using MakeTile = std::function<Tile(std::size_t)>;
+  using Advanced = std::function<void(std::size_t, double)>;  // a tile, and the share of it
+  // decimate_tile(make(i), settings) for each i below `count`, in their order. `make` may be called
+  // by several threads, for each tile once; settings.interrupted and `advanced` by one at a time.
+  virtual std::vector<DecimatedTile> run(std::size_t count, const MakeTile& make,
+                                         const DecimationSettings& settings,
+                                         const Advanced& advanced) = 0;
+};
+
+// On this processor, with settings.threads threads.
+class LocalTiles final : public TileRunner {
+ public:
+  std::vector<DecimatedTile> run(std::size_t count, const MakeTile& make,
+                                 const DecimationSettings& settings,
+                                 const Advanced& advanced) override;
 };
 
 // Decimates the free triangles and leaves the others as they are, with all their vertices. Throws

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "sw_model/base/parallel.h"
 #include "sw_model/base/sort_once.h"
 
 namespace emax {
@@ -148,49 +145,49 @@ class TiledDecimator::Run {
 
   void decimate_batch(const std::vector<std::size_t>& batch, std::size_t round, double before,
                       double part) {
-    std::vector<Tile> tiles(batch.size());
-    std::vector<DecimatedTile> results(batch.size());
+    DecimationSettings own = settings_;
+    own.rival = 0;
+    own.progress = nullptr;
+    own.advanced = nullptr;
+    if (round == 0 && patches_.size() > 1 && own.effort != Effort::kSweep) {
+      own.effort = Effort::kCollapse;
+    }
+    std::vector<Origin> origins(batch.size());
+    const auto make = [&](std::size_t i) {
+      Tile tile = tile_of(batch[i]);
+      origins[i] = {tile.vertices, tile.point_numbers};
+      return tile;
+    };
     std::vector<double> advanced(batch.size());
-    const std::size_t threads = std::min(settings_.threads, batch.size());
-    std::mutex mutex;
-    in_pieces(threads, batch.size(), 1, [&](std::size_t, std::size_t i, std::size_t) {
-      DecimationSettings own = settings_;
-      own.threads = settings_.threads / threads;
-      own.rival = 0;
-      if (round == 0 && patches_.size() > 1 && own.effort != Effort::kSweep) {
-        own.effort = Effort::kCollapse;
-      }
-      own.interrupted = [this, &mutex] {
-        const std::scoped_lock lock(mutex);
-        stopped_ = stopped_ || (settings_.interrupted && settings_.interrupted());
-        return stopped_;
-      };
-      own.advanced = [&, i](double done, std::size_t) {
-        if (!settings_.advanced) return;
-        const std::scoped_lock lock(mutex);
-        advanced[i] = std::max(advanced[i], done);
-        const double all = std::accumulate(advanced.begin(), advanced.end(), 0.0);
-        settings_.advanced(before + part * all / static_cast<double>(batch.size()), triangles_);
-      };
-      tiles[i] = tile_of(batch[i]);
-      results[i] = decimate_tile(tiles[i], own);
-    });
-    for (std::size_t i = 0; i < batch.size(); ++i) put(batch[i], tiles[i], results[i]);
+    std::vector<DecimatedTile> results =
+        whole_.runner_.run(batch.size(), make, own, [&](std::size_t i, double done) {
+          advanced[i] = std::max(advanced[i], done);
+          const double all = std::accumulate(advanced.begin(), advanced.end(), 0.0);
+          if (!settings_.advanced) return;
+          settings_.advanced(before + part * all / static_cast<double>(batch.size()), triangles_);
+        });
+    for (std::size_t i = 0; i < batch.size(); ++i) put(batch[i], origins[i], results[i]);
   }
 
-  void put(std::size_t p, const Tile& tile, DecimatedTile& result) {
+  // Of a tile's vertices and points, their numbers among all.
+  struct Origin {
+    std::vector<std::uint32_t> vertices, points;
+  };
+
+  void put(std::size_t p, const Origin& origin, DecimatedTile& result) {
     Patch& patch = patches_[p];
     triangles_ -= patch.triangles.size() - result.triangles.size();
     const auto first_new = static_cast<std::uint32_t>(mesh_.vertices.size());
-    const auto old = static_cast<std::uint32_t>(tile.vertices.size());
+    const auto old = static_cast<std::uint32_t>(origin.vertices.size());
     mesh_.vertices.insert(mesh_.vertices.end(), result.added.begin(), result.added.end());
     for (Triangle& t : result.triangles) {
-      for (std::uint32_t& v : t) v = v < old ? tile.vertices[v] : first_new + (v - old);
+      for (std::uint32_t& v : t) v = v < old ? origin.vertices[v] : first_new + (v - old);
     }
     patch.triangles = std::move(result.triangles);
     plant(patch);
     patch.done = true;
-    for (const std::uint32_t point : tile.point_numbers) seen_[point] = 1;
+    stopped_ = stopped_ || result.interrupted;
+    for (const std::uint32_t point : origin.points) seen_[point] = 1;
     left_out_.insert(left_out_.end(), result.left_out.begin(), result.left_out.end());
   }
 
@@ -312,9 +309,10 @@ class TiledDecimator::Run {
 };
 
 TiledDecimator::TiledDecimator(const TriangleMesh& reference, std::span<const Point> cloud,
-                               std::size_t triangles_of_a_tile)
+                               std::size_t triangles_of_a_tile, TileRunner& runner)
     : reference_(reference),
       cloud_(cloud),
+      runner_(runner),
       tile_(std::max<std::size_t>(triangles_of_a_tile, 1)),
       reference_tree_(
           static_cast<std::uint32_t>(reference.triangles.size()),

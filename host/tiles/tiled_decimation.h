@@ -20,9 +20,10 @@ namespace emax {
 // triangle of the reference, and for each thread what the decimation of a tile takes.
 class TiledDecimator {
  public:
-  // `reference` is as reference_surface() gives it. It and the cloud must outlive the decimator.
+  // `reference` is as reference_surface() gives it. It, the cloud and the runner must outlive the
+  // decimator.
   TiledDecimator(const TriangleMesh& reference, std::span<const Point> cloud,
-                 std::size_t triangles_of_a_tile);
+                 std::size_t triangles_of_a_tile, TileRunner& runner);
 
   // Throws as BoundedDecimator::run().
   DecimatedMesh run(const DecimationSettings& settings) const;
@@ -31,6 +32,7 @@ class TiledDecimator {
   class Run;
   const TriangleMesh& reference_;
   std::span<const Point> cloud_;
+  TileRunner& runner_;
   std::size_t tile_;
   BoxTree reference_tree_, cloud_tree_;
 };

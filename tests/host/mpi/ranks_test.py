@@ -2,6 +2,7 @@
 """Runs emax_mpi on several ranks of this machine.
 
     ranks_test.py same-bytes EMAX_MPI MPIEXEC [--fault]   1, 2, 3 and 8 ranks against `emax`
+    ranks_test.py tiles EMAX_MPI MPIEXEC                  a mesh in tiles on 1, 2 and 3 ranks
     ranks_test.py lost-ranks EMAX_MPI MPIEXEC             ranks are killed, the command goes on
     ranks_test.py unlike-ranks EMAX_MPI MPIEXEC           ranks of other bits are refused
 """
@@ -34,6 +35,28 @@ def write_scan(path, points, generator):
 def arguments(mesh, method, *more):
     return ["optimize", "scan.xyz", "--max-error", "4%", "-o", mesh, "--method", method, "--budget",
             str(BUDGET), *more]
+
+
+def write_mesh(path, rings, segments):
+    """A sphere with bumps, closed by a pole at each end."""
+    with open(path, "w") as mesh:
+        print(f"OFF\n{rings * segments + 2} {2 * rings * segments} 0\n0 0 1\n0 0 -1", file=mesh)
+        for i in range(rings):
+            polar = math.pi * (i + 1) / (rings + 1)
+            for j in range(segments):
+                turn = 2 * math.pi * j / segments
+                r = 1 + 0.1 * math.sin(3 * polar) * math.cos(4 * turn)
+                print(r * math.sin(polar) * math.cos(turn), r * math.sin(polar) * math.sin(turn),
+                      r * math.cos(polar), file=mesh)
+        for j in range(segments):
+            after = (j + 1) % segments
+            last = 2 + (rings - 1) * segments
+            print(3, 0, 2 + j, 2 + after, file=mesh)
+            print(3, 1, last + after, last + j, file=mesh)
+            for i in range(rings - 1):
+                a, b = 2 + i * segments + j, 2 + i * segments + after
+                print(3, a, a + segments, b, file=mesh)
+                print(3, b, a + segments, b + segments, file=mesh)
 
 
 class Ranks:
@@ -84,6 +107,27 @@ def same_bytes(options, job):
             if job.result("mesh.ply") != expected:
                 sys.exit(f"{method} on {ranks} ranks: the result differs")
             print(f"{method} on {ranks} ranks: the bytes of emax", flush=True)
+
+
+def tiles(options, job):
+    """A mesh decimated in tiles."""
+    scan = job.folder / "mesh.off"
+    write_mesh(scan, 40, 60)
+    words = ["decimate", "mesh.off", "--max-error", "1%", "-o", "tiles.ply", "--tiles", "1000"]
+    alone = subprocess.Popen([job.program.parent / "emax", *words], cwd=job.folder,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    checked(alone, "emax")
+    expected = job.result("tiles.ply")
+    for ranks in (1, 2, 3):
+        checked(job.start(ranks, words), f"{ranks} ranks")
+        if job.result("tiles.ply") != expected:
+            sys.exit(f"tiles on {ranks} ranks: the result differs")
+        print(f"tiles on {ranks} ranks: the bytes of emax", flush=True)
+    # One that is stopped ends soon, and well.
+    stopped = job.start(3, [*words[:-1], "1000", "--effort", "deep", "--time", "0.3"])
+    output = checked(stopped, "stopped")
+    if "certificate" not in output:
+        sys.exit(f"stopped, it wrote no certificate:\n{output}")
 
 
 def processes_of(folder, name):
@@ -191,7 +235,7 @@ def unlike_ranks(options, job):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    tests = {"same-bytes": same_bytes, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
+    tests = {"same-bytes": same_bytes, "tiles": tiles, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
     parser.add_argument("test", choices=tests)
     parser.add_argument("emax_mpi", type=pathlib.Path)
     parser.add_argument("mpiexec")

@@ -16,7 +16,7 @@
 namespace emax::test {
 namespace {
 
-using Effort = DecimationSettings::Effort;
+LocalTiles local;
 
 bool within(MeshView mesh, MeshView of, double epsilon) {
   SurfaceDistanceOptions options;
@@ -36,7 +36,7 @@ TEST(TiledDecimator, KeepsAllBoundsAndTheTopology) {
     const MeshTopology before = topology_of(mesh.view());
     for (const double epsilon : {0.005, 0.03}) {
       for (const std::size_t tile : {150u, 700u}) {
-        const TiledDecimator decimator(mesh, mesh.vertices, tile);
+        const TiledDecimator decimator(mesh, mesh.vertices, tile, local);
         const DecimatedMesh result = decimator.run(with(epsilon));
         EXPECT_TRUE(certify(mesh.vertices, result.mesh.view()).within(epsilon));
         EXPECT_TRUE(within(result.mesh.view(), mesh.view(), epsilon));
@@ -63,7 +63,7 @@ TEST(TiledDecimator, KeepsPointsBetweenAndBesideTheVerticesNear) {
   cloud.push_back({0.5, 0.5, 5});  // too far
   DecimationSettings settings = with(0.03);
   settings.two_sided = false;
-  const DecimatedMesh result = TiledDecimator(mesh, cloud, 400).run(settings);
+  const DecimatedMesh result = TiledDecimator(mesh, cloud, 400, local).run(settings);
   EXPECT_EQ(result.left_out,
             std::vector<std::uint32_t>{static_cast<std::uint32_t>(cloud.size() - 1)});
   EXPECT_TRUE(certify(cloud, result.mesh.view(), result.left_out).within(0.03));
@@ -73,7 +73,7 @@ TEST(TiledDecimator, KeepsPointsBetweenAndBesideTheVerticesNear) {
 TEST(TiledDecimator, GivesTheSameBytesForAnyNumberOfThreads) {
   const TriangleMesh mesh = bumpy(40, 60);
   DecimationSettings settings = with(0.01);
-  const TiledDecimator decimator(mesh, mesh.vertices, 600);
+  const TiledDecimator decimator(mesh, mesh.vertices, 600, local);
   const DecimatedMesh one = decimator.run(settings);
   for (const std::size_t threads : {2u, 5u}) {
     settings.threads = threads;
@@ -85,7 +85,7 @@ TEST(TiledDecimator, IsTheDecimatorWhereOneTileHoldsAll) {
   const TriangleMesh mesh = bumpy(24, 40);
   const DecimationSettings settings = with(0.02);
   const DecimatedMesh whole = BoundedDecimator(mesh, mesh.vertices).run(settings);
-  const DecimatedMesh tiled = TiledDecimator(mesh, mesh.vertices, 1u << 20).run(settings);
+  const DecimatedMesh tiled = TiledDecimator(mesh, mesh.vertices, 1u << 20, local).run(settings);
   EXPECT_EQ(tiled.mesh.triangles.size(), whole.mesh.triangles.size());
 }
 
@@ -95,7 +95,7 @@ TEST(TiledDecimator, AnInterruptLeavesAMeshWithinAllBounds) {
     std::atomic<int> left = polls;
     DecimationSettings settings = with(0.02);
     settings.interrupted = [&left] { return --left < 0; };
-    const DecimatedMesh result = TiledDecimator(mesh, mesh.vertices, 600).run(settings);
+    const DecimatedMesh result = TiledDecimator(mesh, mesh.vertices, 600, local).run(settings);
     EXPECT_TRUE(result.interrupted);
     EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
     EXPECT_TRUE(within(result.mesh.view(), mesh.view(), 0.02));
@@ -113,7 +113,7 @@ TEST(TiledDecimator, TellsAShareThatGrows) {
     EXPECT_GT(triangles, 0u);
     last = share;
   };
-  TiledDecimator(mesh, mesh.vertices, 600).run(settings);
+  TiledDecimator(mesh, mesh.vertices, 600, local).run(settings);
   EXPECT_GT(last, 0.5);
 }
 

@@ -1,0 +1,94 @@
+#include "host/mpi/tile_message.h"
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+using nlohmann::json;
+
+template <typename T>
+json packed(const std::vector<T>& values) {
+  Bytes bytes(values.size() * sizeof(T));
+  if (!bytes.empty()) {
+    std::memcpy(bytes.data(), static_cast<const void*>(values.data()), bytes.size());
+  }
+  return json::binary(std::move(bytes));
+}
+
+template <typename T>
+void unpack(const json& from, std::vector<T>& values) {
+  const Bytes& bytes = from.get_binary();
+  values.resize(bytes.size() / sizeof(T));
+  if (!bytes.empty()) {
+    std::memcpy(static_cast<void*>(values.data()), bytes.data(), values.size() * sizeof(T));
+  }
+}
+
+json parsed(std::span<const std::uint8_t> bytes) {
+  return json::from_cbor(bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+Bytes encode(const TileTask& task) {
+  const Tile& tile = task.tile;
+  const DecimationSettings& s = task.settings;
+  return json::to_cbor({{"vertices", packed(tile.mesh.vertices)},
+                        {"triangles", packed(tile.mesh.triangles)},
+                        {"free", tile.free},
+                        {"reference_vertices", packed(tile.reference.vertices)},
+                        {"reference_triangles", packed(tile.reference.triangles)},
+                        {"covered", tile.covered},
+                        {"points", packed(tile.points)},
+                        {"point_numbers", packed(tile.point_numbers)},
+                        {"epsilon", s.epsilon},
+                        {"two_sided", s.two_sided},
+                        {"epsilon_back", s.epsilon_back},
+                        {"effort", static_cast<int>(s.effort)},
+                        {"normal_cosine", s.normal_cosine},
+                        {"flatness", s.flatness}});
+}
+
+TileTask decode_tile_task(std::span<const std::uint8_t> bytes) {
+  const json j = parsed(bytes);
+  TileTask task;
+  unpack(j.at("vertices"), task.tile.mesh.vertices);
+  unpack(j.at("triangles"), task.tile.mesh.triangles);
+  j.at("free").get_to(task.tile.free);
+  unpack(j.at("reference_vertices"), task.tile.reference.vertices);
+  unpack(j.at("reference_triangles"), task.tile.reference.triangles);
+  j.at("covered").get_to(task.tile.covered);
+  unpack(j.at("points"), task.tile.points);
+  unpack(j.at("point_numbers"), task.tile.point_numbers);
+  DecimationSettings& s = task.settings;
+  j.at("epsilon").get_to(s.epsilon);
+  j.at("two_sided").get_to(s.two_sided);
+  j.at("epsilon_back").get_to(s.epsilon_back);
+  s.effort = static_cast<DecimationSettings::Effort>(j.at("effort").get<int>());
+  j.at("normal_cosine").get_to(s.normal_cosine);
+  j.at("flatness").get_to(s.flatness);
+  return task;
+}
+
+Bytes encode(const DecimatedTile& result) {
+  return json::to_cbor({{"added", packed(result.added)},
+                        {"triangles", packed(result.triangles)},
+                        {"left_out", packed(result.left_out)},
+                        {"interrupted", result.interrupted}});
+}
+
+DecimatedTile decode_decimated_tile(std::span<const std::uint8_t> bytes) {
+  const json j = parsed(bytes);
+  DecimatedTile result;
+  unpack(j.at("added"), result.added);
+  unpack(j.at("triangles"), result.triangles);
+  unpack(j.at("left_out"), result.left_out);
+  j.at("interrupted").get_to(result.interrupted);
+  return result;
+}
+
+}  // namespace emax
