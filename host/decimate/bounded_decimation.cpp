@@ -130,9 +130,8 @@ std::vector<std::uint32_t> as_points(const TriangleMesh& reference, std::vector<
   return point_of;
 }
 
-// With the vertices that they have; all of them where these are all triangles.
+// With the vertices that they have.
 TriangleMesh first_triangles(const TriangleMesh& mesh, std::size_t count) {
-  if (count == mesh.triangles.size()) return mesh;
   TriangleMesh part;
   std::vector<std::uint32_t> number(mesh.vertices.size(), kNoIndex);
   for (std::size_t t = 0; t < count; ++t) {
@@ -189,7 +188,9 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
   if (made.points.empty() || made.covered != covered) {
     made.covered = covered;
     std::vector<Point> all(cloud_.begin(), cloud_.end());
-    const TriangleMesh near = covered > 0 ? first_triangles(reference_, covered_) : TriangleMesh{};
+    TriangleMesh part;  // of the reference, where not all of it is to be covered
+    if (covered_ < reference_.triangles.size()) part = first_triangles(reference_, covered_);
+    const TriangleMesh& near = part.triangles.empty() ? reference_ : part;
     std::vector<std::uint32_t> point_of;
     if (covered > 0) {
       point_of = as_points(near, all);
@@ -203,9 +204,11 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
       made.points.push_back(all[p]);
     }
     made.triangles.clear();
-    for (const Triangle& t : near.triangles) {
-      made.triangles.push_back(
-          {place_of[point_of[t[0]]], place_of[point_of[t[1]]], place_of[point_of[t[2]]]});
+    if (covered > 0) {
+      for (const Triangle& t : near.triangles) {
+        made.triangles.push_back(
+            {place_of[point_of[t[0]]], place_of[point_of[t[1]]], place_of[point_of[t[2]]]});
+      }
     }
   }
   if (back_limit > 0) {

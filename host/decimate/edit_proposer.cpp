@@ -154,18 +154,18 @@ bool EditProposer::relocation(std::uint32_t vertex, int power, bool limit) {
   return fit.energy < before * (1 - least_gain(power)) && search_.finish(fit, limit, edit_);
 }
 
-bool EditProposer::may_flip(std::uint32_t a, std::uint32_t b) const {
-  return !options_.features.on(a, b) &&
-         std::ranges::none_of(state_.mesh().slots_at_edge(a, b), [this](std::uint32_t slot) {
-           if (slot == kNoIndex) return false;
-           const Triangle& t = state_.mesh().triangle(slot);
-           return !may_split(t) ||
-                  std::ranges::any_of(t, [this](std::uint32_t v) { return options_.stays(v); });
-         });
-}
-
 bool EditProposer::may_split(std::uint32_t a, std::uint32_t b) const {
   return !options_.features.on(a, b) && !(options_.fixes(a) && options_.fixes(b));
+}
+
+// What is around fixed edges is free, unlike what is around a held vertex.
+bool EditProposer::may_flip(std::uint32_t a, std::uint32_t b) const {
+  return may_split(a, b) &&
+         std::ranges::none_of(state_.mesh().slots_at_edge(a, b), [this](std::uint32_t slot) {
+           return slot != kNoIndex &&
+                  std::ranges::any_of(state_.mesh().triangle(slot),
+                                      [this](std::uint32_t v) { return options_.stays(v); });
+         });
 }
 
 bool EditProposer::may_split(const Triangle& triangle) const {
