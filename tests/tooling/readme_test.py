@@ -36,8 +36,8 @@ class ReadmeTest(unittest.TestCase):
         self.assertEqual(strangers(README), ([], 4))
 
     def test_another_figure_is_seen(self):
-        self.assertIn(" 940, ", README)
-        self.assertEqual(strangers(README.replace(" 940, ", " 941, "))[0], ["941"])
+        self.assertIn(" 946, ", README)
+        self.assertEqual(strangers(README.replace(" 946, ", " 947, "))[0], ["947"])
 
 
 if __name__ == "__main__":
