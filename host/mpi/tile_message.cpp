@@ -1,32 +1,13 @@
 #include "host/mpi/tile_message.h"
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "sw_model/base/error.h"
+#include "host/worker_pool/packed.h"
 
 namespace emax {
 namespace {
 
 using nlohmann::json;
-
-template <typename T>
-json packed(const std::vector<T>& values) {
-  Bytes bytes(values.size() * sizeof(T));
-  if (!bytes.empty()) {
-    std::memcpy(bytes.data(), static_cast<const void*>(values.data()), bytes.size());
-  }
-  return json::binary(std::move(bytes));
-}
-
-template <typename T>
-void unpack(const json& from, std::vector<T>& values) {
-  const Bytes& bytes = from.get_binary();
-  values.resize(bytes.size() / sizeof(T));
-  if (!bytes.empty()) {
-    std::memcpy(static_cast<void*>(values.data()), bytes.data(), values.size() * sizeof(T));
-  }
-}
 
 json parsed(std::span<const std::uint8_t> bytes) {
   return json::from_cbor(bytes.begin(), bytes.end());
@@ -56,14 +37,14 @@ Bytes encode(const TileTask& task) {
 TileTask decode_tile_task(std::span<const std::uint8_t> bytes) {
   const json j = parsed(bytes);
   TileTask task;
-  unpack(j.at("vertices"), task.tile.mesh.vertices);
-  unpack(j.at("triangles"), task.tile.mesh.triangles);
+  task.tile.mesh.vertices = unpacked<Point>(j.at("vertices"));
+  task.tile.mesh.triangles = unpacked<Triangle>(j.at("triangles"));
   j.at("free").get_to(task.tile.free);
-  unpack(j.at("reference_vertices"), task.tile.reference.vertices);
-  unpack(j.at("reference_triangles"), task.tile.reference.triangles);
+  task.tile.reference.vertices = unpacked<Point>(j.at("reference_vertices"));
+  task.tile.reference.triangles = unpacked<Triangle>(j.at("reference_triangles"));
   j.at("covered").get_to(task.tile.covered);
-  unpack(j.at("points"), task.tile.points);
-  unpack(j.at("point_numbers"), task.tile.point_numbers);
+  task.tile.points = unpacked<Point>(j.at("points"));
+  task.tile.point_numbers = unpacked<std::uint32_t>(j.at("point_numbers"));
   DecimationSettings& s = task.settings;
   j.at("epsilon").get_to(s.epsilon);
   j.at("two_sided").get_to(s.two_sided);
@@ -84,9 +65,9 @@ Bytes encode(const DecimatedTile& result) {
 DecimatedTile decode_decimated_tile(std::span<const std::uint8_t> bytes) {
   const json j = parsed(bytes);
   DecimatedTile result;
-  unpack(j.at("added"), result.added);
-  unpack(j.at("triangles"), result.triangles);
-  unpack(j.at("left_out"), result.left_out);
+  result.added = unpacked<Point>(j.at("added"));
+  result.triangles = unpacked<Triangle>(j.at("triangles"));
+  result.left_out = unpacked<std::uint32_t>(j.at("left_out"));
   j.at("interrupted").get_to(result.interrupted);
   return result;
 }

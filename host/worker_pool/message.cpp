@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "host/worker_pool/packed.h"
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 
@@ -19,25 +20,8 @@ static_assert(sizeof(Point) == 3 * sizeof(double), "points are sent as they lie 
 static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t),
               "triangles are sent as they lie in memory");
 
-template <typename T>
-json to_binary(const std::vector<T>& values) {
-  Bytes bytes(values.size() * sizeof(T));
-  if (!bytes.empty())
-    std::memcpy(bytes.data(), static_cast<const void*>(values.data()), bytes.size());
-  return json::binary(std::move(bytes));
-}
-
-template <typename T>
-std::vector<T> from_binary(const json& value) {
-  const Bytes& bytes = value.get_binary();
-  if (bytes.size() % sizeof(T) != 0) throw Error("a byte string is cut short");
-  std::vector<T> values(bytes.size() / sizeof(T));
-  if (!bytes.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
-  return values;
-}
-
 std::vector<Point> points_from_binary(const json& value) {
-  auto points = from_binary<Point>(value);
+  auto points = unpacked<Point>(value);
   for (const Point& p : points) {
     if (!p.allFinite()) throw Error("a coordinate is not finite");
   }
@@ -46,12 +30,12 @@ std::vector<Point> points_from_binary(const json& value) {
 
 json to_json(const PointsMessage& m) {
   return {{"kind", "points"},
-          {"points", to_binary(m.points)},
+          {"points", packed(m.points)},
           {"epsilon", m.bound.epsilon},
           {"epsilon_back", m.bound.epsilon_back},
-          {"reference_vertices", to_binary(m.bound.reference.vertices)},
-          {"reference_triangles", to_binary(m.bound.reference.triangles)},
-          {"outliers", to_binary(m.bound.outliers)}};
+          {"reference_vertices", packed(m.bound.reference.vertices)},
+          {"reference_triangles", packed(m.bound.reference.triangles)},
+          {"outliers", packed(m.bound.outliers)}};
 }
 
 json to_json(const RunMessage& m) {
@@ -72,8 +56,8 @@ json to_json(const MeshMessage& m) {
   const StageSeconds& t = m.result.seconds;
   return {{"kind", "mesh"},
           {"ticket", m.ticket},
-          {"vertices", to_binary(m.result.mesh.vertices)},
-          {"triangles", to_binary(m.result.mesh.triangles)},
+          {"vertices", packed(m.result.mesh.vertices)},
+          {"triangles", packed(m.result.mesh.triangles)},
           {"reconstruction_triangles", m.result.reconstruction_triangles},
           {"unmeshed_points", m.result.unmeshed_points},
           {"topology_difference", m.result.topology_difference},
@@ -94,7 +78,7 @@ json to_json(const FailureMessage& m) {
 json to_json(const UnusableMessage& m) { return {{"kind", "unusable"}, {"message", m.message}}; }
 
 TriangleMesh mesh_from_binary(const json& vertices, const json& triangles) {
-  TriangleMesh mesh{points_from_binary(vertices), from_binary<Triangle>(triangles)};
+  TriangleMesh mesh{points_from_binary(vertices), unpacked<Triangle>(triangles)};
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       if (v >= mesh.vertices.size() && !EMAX_FAULT(kTrustsIndices)) {
@@ -121,7 +105,7 @@ Message points_from_json(const json& j) {
   j.at("epsilon").get_to(m.bound.epsilon);
   j.at("epsilon_back").get_to(m.bound.epsilon_back);
   m.bound.reference = mesh_from_binary(j.at("reference_vertices"), j.at("reference_triangles"));
-  m.bound.outliers = from_binary<std::uint32_t>(j.at("outliers"));
+  m.bound.outliers = unpacked<std::uint32_t>(j.at("outliers"));
   return m;
 }
 
