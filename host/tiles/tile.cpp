@@ -24,7 +24,7 @@ Corners corners_of(const TriangleMesh& mesh, const Triangle& t, std::size_t& fir
     corners[i] = {p[0], p[1], p[2]};
   }
   first = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
-  std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(first));
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
   return corners;
 }
 

@@ -86,9 +86,10 @@ class TiledDecimator::Run {
     std::ranges::nth_element(middles, middles.begin() + at, {},
                              [axis](const Point& p) { return p[axis]; });
     const double plane = middles[static_cast<std::size_t>(at)][axis];
-    const auto beyond = std::ranges::stable_partition(
-        triangles, [&](const Triangle& t) { return box_of(t).midpoint()[axis] < plane; });
-    const auto below = triangles.size() - beyond.size();
+    const auto beyond = std::stable_partition(
+        triangles.begin(), triangles.end(),
+        [&](const Triangle& t) { return box_of(t).midpoint()[axis] < plane; });
+    const auto below = static_cast<std::size_t>(beyond - triangles.begin());
     const auto half = static_cast<std::size_t>(at);
     cut(middles.first(half), triangles.first(below), 0.5);
     cut(middles.subspan(half), triangles.subspan(below), 0.5);

@@ -21,8 +21,9 @@ Tile half_of_a_sheet() {
   const auto is_free = [&](const Triangle& t) {
     return std::ranges::all_of(t, [&](std::uint32_t v) { return tile.mesh.vertices[v][0] <= 0; });
   };
-  const auto stay = std::ranges::stable_partition(tile.mesh.triangles, is_free);
-  tile.free = tile.mesh.triangles.size() - stay.size();
+  std::vector<Triangle>& triangles = tile.mesh.triangles;
+  const auto stay = std::stable_partition(triangles.begin(), triangles.end(), is_free);
+  tile.free = static_cast<std::size_t>(stay - triangles.begin());
   for (std::uint32_t v = 0; v < tile.mesh.vertices.size(); ++v) tile.vertices.push_back(v);
   tile.reference = tile.mesh;
   tile.covered = tile.mesh.triangles.size();
