@@ -8,7 +8,6 @@ After each kill a copy of the folder is run to its end with one job or two, and 
 run itself goes on from kill to kill, and begins anew when it came to its end.
 """
 import argparse
-import math
 import pathlib
 import random
 import shutil
@@ -19,15 +18,8 @@ import sys
 import tempfile
 import time
 
-
-def write_scan(path, points, generator):
-    with open(path, "w") as scan:
-        for _ in range(points):
-            z = generator.uniform(-1, 1)
-            turn = generator.uniform(0, 2 * math.pi)
-            bump = 1 + 0.1 * z * math.sin(4 * turn)
-            r = bump * math.sqrt(1 - z * z)
-            print(r * math.cos(turn), r * math.sin(turn), bump * z, file=scan)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from drawn_scan import write_scan  # noqa: E402
 
 
 def records(log):

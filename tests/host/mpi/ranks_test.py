@@ -18,18 +18,11 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from drawn_scan import write_scan  # noqa: E402
+
 BUDGET = 24
 KILLS = 4
-
-
-def write_scan(path, points, generator):
-    with open(path, "w") as scan:
-        for _ in range(points):
-            z = generator.uniform(-1, 1)
-            turn = generator.uniform(0, 2 * math.pi)
-            bump = 1 + 0.1 * z * math.sin(4 * turn)
-            r = bump * math.sqrt(1 - z * z)
-            print(r * math.cos(turn), r * math.sin(turn), bump * z, file=scan)
 
 
 def arguments(mesh, method, *more):

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "host/optimize/optimize.h"
 #include "host/run_log/record_file.h"
 #include "host/run_log/run_log.h"
 #include "sw_model/base/error.h"
@@ -18,7 +19,7 @@ std::vector<double> costs_of(const std::filesystem::path& folder) {
   std::map<std::uint64_t, double> costs;
   emax::RecordFile(log).read([&costs](std::span<const std::uint8_t> content) {
     const emax::LoggedEvaluation evaluation = emax::decode_evaluation(content);
-    if (evaluation.index < 1'000'000'000'000) costs[evaluation.index] = evaluation.worked;
+    if (evaluation.index < emax::kPolishIndex) costs[evaluation.index] = evaluation.worked;
   });
   std::vector<double> values;
   for (const auto& [index, cost] : costs) values.push_back(cost);
