@@ -84,8 +84,8 @@ class Store:
         with self.file.open("a") as file:
             file.write(json.dumps(result) + "\n")
 
-    def measure(self, key, arguments):
-        """Kept, whatever comes of it; a tool that crashes or hangs is told as that."""
+    def measure(self, key, arguments, refused=False):
+        """Kept, whatever comes of it; a tool that crashes or hangs is told as that, and so is a mesh that is `refused`."""
         start = time.monotonic()
         try:
             ended = subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -95,6 +95,8 @@ class Store:
         else:
             if ended.returncode < 0:
                 result = {"failure": f"ended by signal {-ended.returncode}"}
+            elif ended.returncode > 0 and refused:
+                result = {"failure": ended.stderr.strip()}
             elif ended.returncode > 0:
                 sys.exit(ended.stderr.strip() or f"bench: {PROGRAM} failed")
             else:

@@ -294,8 +294,10 @@ int main(int argc, char** argv) {
   app.add_option("--data", options.folders.data, "folder of the scans")->capture_default_str();
   app.add_option("--cache", options.folders.cache, "folder of meshes made once")
       ->capture_default_str();
-  app.add_option("--scan", options.scan,
-                 "bunny, dragon, fandisk, building, torus, smooth-torus, sphere or ellipsoid");
+  app.add_option(
+      "--scan", options.scan,
+      "bunny, dragon, fandisk, building, torus, smooth-torus, sphere, ellipsoid or a file "
+      "of the folder meshes/");
   app.add_option("--points", options.points, "time alone, on a torus of about so many points");
   app.add_option("--percent", options.percent, "epsilon in percent of the width")
       ->required()

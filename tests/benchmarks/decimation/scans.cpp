@@ -165,9 +165,13 @@ DecimationScan decimation_scan(const CaseFolders& folders, std::string_view name
     return scan_of("points of an ellipsoid of semi-axes 1, 0.7 and 0.45", mesh, mesh.vertices,
                    percent);
   }
+  if (name.ends_with(".off")) {
+    const std::string file(name);
+    return vertices_of(folders, "meshes/" + file, file + " and its vertices", percent);
+  }
   throw Error("there is no scan '" + std::string(name) +
-              "'; choose bunny, dragon, fandisk, building, torus, smooth-torus, sphere or "
-              "ellipsoid");
+              "'; choose bunny, dragon, fandisk, building, torus, smooth-torus, sphere, ellipsoid "
+              "or a file of meshes/");
 }
 
 DecimationScan smooth_torus(std::size_t points, double percent) {

@@ -23,8 +23,9 @@ struct DecimationScan {
 };
 
 // bunny, dragon, fandisk: a mesh and its vertices; building: a cloud and its greedy projection;
-// torus: a synthetic scan with noise; smooth-torus, sphere, ellipsoid: without noise. Epsilon in
-// percent of the width. Throws Error when there is no such scan or its file is missing.
+// torus: a synthetic scan with noise; smooth-torus, sphere, ellipsoid: without noise; NAME.off:
+// this file of the folder meshes/ and its vertices. Epsilon in percent of the width. Throws Error
+// when there is no such scan or its file is missing.
 DecimationScan decimation_scan(const CaseFolders& folders, std::string_view name, double percent);
 
 // The torus with other points: about so many, little noise.
