@@ -326,6 +326,56 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   });
 }
 
+void add_reconstruct(CLI::App& app, CommandLine& line) {
+  auto& reconstruct = line.reconstruct;
+  CLI::App& command = *app.add_subcommand(
+      "reconstruct", "make a surface of a scan with all its details, in tiles where it is large");
+  command
+      .add_option("CLOUD", reconstruct.cloud,
+                  input_help("point cloud", fmt::format("{}", fmt::join(cloud_endings(), " "))) +
+                      "; or a folder of them")
+      ->required();
+  command.add_option("-o,--output", reconstruct.output, mesh_help())->required();
+  std::vector<std::string> methods = {kFitMethod};
+  for (const MethodDescription& method : reconstruction_methods()) methods.push_back(method.name);
+  command
+      .add_option("--method", reconstruct.method,
+                  "reconstruction; fit: gp3 for a scan without noise, else imls; in tiles imls")
+      ->check(CLI::IsMember(methods))
+      ->capture_default_str();
+  command.add_option("--set", reconstruct.parameters,
+                     "NAME=VALUE: a parameter of the method (`emax config` lists them) in place of "
+                     "what suits the scan");
+  command
+      .add_option("--memory", reconstruct.memory,
+                  "a cloud that needs more memory than this is reconstructed in tiles, which "
+                  "together need no more, but the surface needs its own: bytes, or N MB, N GB "
+                  "(default: half of what is free)")
+      ->transform(CLI::AsSizeValue(false))
+      ->transform(not_negative());  // CLI11 runs this one first
+  command
+      .add_option("--tile-points", reconstruct.tile_points,
+                  "reconstruct in tiles of at most so many points, with the same surface")
+      ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 32));
+  command.add_option("--tile-folder", reconstruct.tile_folder,
+                     "for the files of the tiles, 300 bytes a point (default: MESH.tiles, removed "
+                     "at the end; after an interruption the same command goes on with it)");
+  command
+      .add_option("--jobs", reconstruct.jobs,
+                  "threads, or tiles at a time, which change no byte of the result (default: one "
+                  "per processor)")
+      ->check(CLI::Range(1u, 256u));
+  add_reading(command, reconstruct.reading);
+  add_unit(command, reconstruct.unit);
+  add_json(command, reconstruct.json);
+  add_progress(command, line);
+  add_examples(command,
+               "  emax reconstruct scan.ply -o surface.ply  the surface of a scan\n"
+               "  emax reconstruct hall.las -o hall.ply --memory 2GB  one that is larger than the "
+               "memory");
+  command.callback([&] { line.chosen = [&reconstruct] { return run_reconstruct(reconstruct); }; });
+}
+
 void add_error(CLI::App& app, CommandLine& line) {
   auto& error = line.error;
   CLI::App& command =
@@ -440,8 +490,8 @@ void add_completion(CLI::App& app, CommandLine& line) {
   });
 }
 
-constexpr std::array kCommands = {add_optimize, add_decimate, add_error,     add_verify,
-                                  add_info,     add_config,   add_completion};
+constexpr std::array kCommands = {add_optimize, add_reconstruct, add_decimate, add_error,
+                                  add_verify,   add_info,        add_config,   add_completion};
 
 }  // namespace
 
@@ -454,9 +504,9 @@ void add_commands(CLI::App& app, CommandLine& line) {
   }
 }
 
-std::array<std::string*, 5> json_options(CommandLine& line) {
-  return {&line.optimize.common.json, &line.decimate.json, &line.error.common.json,
-          &line.verify.json, &line.info.json};
+std::array<std::string*, 6> json_options(CommandLine& line) {
+  return {&line.optimize.common.json, &line.reconstruct.json, &line.decimate.json,
+          &line.error.common.json,    &line.verify.json,      &line.info.json};
 }
 
 }  // namespace emax

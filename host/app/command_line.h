@@ -12,6 +12,7 @@ namespace emax {
 // The parsed command line: the options of every subcommand, and the function to run.
 struct CommandLine {
   OptimizeOptions optimize;
+  ReconstructOptions reconstruct;
   DecimateOptions decimate;
   std::string decimate_bound = "two-sided";
   ErrorOptions error;
@@ -28,6 +29,6 @@ struct CommandLine {
 void add_commands(CLI::App& app, CommandLine& line);
 
 // The --json options of the subcommands.
-std::array<std::string*, 5> json_options(CommandLine& line);
+std::array<std::string*, 6> json_options(CommandLine& line);
 
 }  // namespace emax

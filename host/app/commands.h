@@ -39,6 +39,21 @@ struct OptimizeOptions {
 };
 int run_optimize(const OptimizeOptions& options);
 
+struct ReconstructOptions {
+  std::string cloud;
+  std::string output;
+  std::string unit;  // of the cloud's numbers; empty: what the file says
+  std::string method = kFitMethod;
+  std::vector<std::string> parameters;  // NAME=VALUE, in place of what suits the scan
+  std::uint64_t tile_points = 0;        // 0: as the memory needs it
+  std::string tile_folder;              // empty: <output>.tiles
+  std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
+  unsigned jobs = 0;                    // 0: one per processor
+  std::string json;
+  CloudReadOptions reading;
+};
+int run_reconstruct(const ReconstructOptions& options);
+
 struct DecimateOptions {
   std::string mesh;
   std::string cloud;  // empty: the mesh's vertices, and its whole surface

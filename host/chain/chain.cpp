@@ -69,10 +69,12 @@ std::span<const Point> Chain::cloud(const ChainSettings& settings) {
       .points;
 }
 
-const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSeconds& seconds) {
+const Reconstruction& Chain::reconstruct(const ChainSettings& settings, StageSeconds& seconds,
+                                         std::size_t threads) {
   return reconstructions_.get(reconstruction_key(settings), [&] {
     Stopwatch watch;
-    Reconstructed made{emax::reconstruct(settings.method, cloud(settings), settings.parameters)};
+    Reconstructed made{
+        emax::reconstruct(settings.method, cloud(settings), settings.parameters, threads)};
     seconds.reconstruct = watch.lap();
     return made;
   });
@@ -83,13 +85,14 @@ double Chain::spacing() {
   return *spacing_;
 }
 
-const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds) {
+const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds,
+                                     std::size_t threads) {
   return surfaces_.get({surface_key(settings), settings.decimator}, [&] {
     if (settings.method == kFitMethod) {
       const TriangleMesh& reference = bounded_.reference();
       return Surface{reference, reference.triangles.size(), 0, {}};
     }
-    const Reconstruction& reconstruction = reconstruct(settings, seconds);
+    const Reconstruction& reconstruction = reconstruct(settings, seconds, threads);
     Stopwatch watch;
     const bool surface = takes_bound(settings.decimator);
     TriangleMesh filled = surface
@@ -110,7 +113,7 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
 ChainResult Chain::run(const ChainSettings& settings, const RunOptions& options) {
   require_values(settings);
   ChainResult result;
-  const Surface& start = surface(settings, result.seconds);
+  const Surface& start = surface(settings, result.seconds, options.threads);
   result.reconstruction_triangles = start.reconstruction_triangles;
   result.unmeshed_points = start.unmeshed_points;
   Stopwatch watch;

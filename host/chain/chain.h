@@ -51,8 +51,9 @@ class Chain {
 
   std::span<const Point> cloud(const ChainSettings& settings);
   double spacing();
-  const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds);
-  const Surface& surface(const ChainSettings& settings, StageSeconds& seconds);
+  const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds,
+                                    std::size_t threads);
+  const Surface& surface(const ChainSettings& settings, StageSeconds& seconds, std::size_t threads);
 
   std::vector<Point> points_;
   std::optional<double> spacing_;  // of the points, once asked for

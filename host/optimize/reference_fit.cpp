@@ -35,25 +35,6 @@ constexpr std::string_view kLastMethod = Poisson::kName;  // where the others ha
 
 bool interpolates(const ChainSettings& chain) { return method_named(chain.method).interpolates; }
 
-ChainSettings fitted_chain(const std::string& method, const ScanEstimate& scan, double width) {
-  ChainSettings chain{method, kNoDecimator,
-                      ParameterValues(chain_parameters(method, kNoDecimator))};
-  const double noise = scan.spacing > 0 ? scan.noise / scan.spacing : 0;
-  if (method == Imls::kName) {
-    constexpr double kSmooths = 8;  // radius that averages noise away, in its standard deviations
-    constexpr auto kReach = Imls::kLeastReach;
-    chain.parameters.set(kReach, std::clamp(kSmooths * noise, kReach.lower, kReach.upper));
-    chain.parameters.set(Normals::kNeighbours, noise > 0.2 ? 30 : 20);
-  }
-  if (method == Poisson::kName && scan.spacing > 0) {
-    // Cells of one to two spacings.
-    const double depth = std::ceil(std::log2(1.1 * width / (2 * scan.spacing)));
-    constexpr double kLeast = Poisson::kDepth.lower, kMost = Poisson::kDepth.upper;
-    chain.parameters.set(Poisson::kDepth, static_cast<int>(std::clamp(depth, kLeast, kMost)));
-  }
-  return chain;
-}
-
 // Components of less than a share of the area.
 std::size_t small_pieces(const TriangleMesh& mesh) {
   DisjointSets sets(mesh.vertices.size());
@@ -121,9 +102,8 @@ class Fit {
   std::vector<std::string> candidates() const {
     if (settings_.method == kAutoMethod) return {reconstruction_methods().front().name};
     if (settings_.method != kFitMethod) return {settings_.method};
-    std::vector<std::string> both = {std::string(Gp3::kName), std::string(Imls::kName)};
-    if (scan_.noise > kClean * scan_.spacing) std::ranges::reverse(both);
-    return both;
+    std::string first = first_method(scan_);
+    return {first, std::string(first == Gp3::kName ? Imls::kName : Gp3::kName)};
   }
 
   void submit(EvaluationPool& pool, const std::string& method) {
@@ -246,6 +226,29 @@ bool holds_enough(const ReferenceFit& fit, double epsilon) {
 }
 
 }  // namespace
+
+std::string first_method(const ScanEstimate& scan) {
+  return std::string(scan.noise > kClean * scan.spacing ? Imls::kName : Gp3::kName);
+}
+
+ChainSettings fitted_chain(const std::string& method, const ScanEstimate& scan, double width) {
+  ChainSettings chain{method, kNoDecimator,
+                      ParameterValues(chain_parameters(method, kNoDecimator))};
+  const double noise = scan.spacing > 0 ? scan.noise / scan.spacing : 0;
+  if (method == Imls::kName) {
+    constexpr double kSmooths = 8;  // radius that averages noise away, in its standard deviations
+    constexpr auto kReach = Imls::kLeastReach;
+    chain.parameters.set(kReach, std::clamp(kSmooths * noise, kReach.lower, kReach.upper));
+    chain.parameters.set(Normals::kNeighbours, noise > 0.2 ? 30 : 20);
+  }
+  if (method == Poisson::kName && scan.spacing > 0) {
+    // Cells of one to two spacings.
+    const double depth = std::ceil(std::log2(1.1 * width / (2 * scan.spacing)));
+    constexpr double kLeast = Poisson::kDepth.lower, kMost = Poisson::kDepth.upper;
+    chain.parameters.set(Poisson::kDepth, static_cast<int>(std::clamp(depth, kLeast, kMost)));
+  }
+  return chain;
+}
 
 // About the triangles that it costs after decimation (docs/decisions/0014): of a point that is
 // joined, of noise that is interpolated, of edges and borders that are rounded. A fault of topology

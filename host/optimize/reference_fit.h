@@ -33,6 +33,11 @@ struct TriedSurface {
 };
 inline constexpr double kPieceOfArea = 0.01;
 
+// The method that is tried first: one through the points, or one that smooths noise away.
+std::string first_method(const ScanEstimate& scan);
+// The method with the values that suit the scan, of this width; with kNoDecimator.
+ChainSettings fitted_chain(const std::string& method, const ScanEstimate& scan, double width);
+
 // "no cracks, 99.8% of the points within half of the tolerance"
 std::string describe(const TriedSurface& tried);
 

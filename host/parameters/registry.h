@@ -66,7 +66,8 @@ struct Gp3 : MethodDefaults {
     return parameters_of(Normals::kNeighbours, Normals::kOrientationNeighbours, kRadius, kMu,
                          kMaxNeighbors, kSurfaceAngle, kMinAngle, kMaxAngle);
   }
-  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values);
+  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values,
+                            std::size_t threads);
 };
 
 struct Poisson : MethodDefaults {
@@ -94,7 +95,8 @@ struct Poisson : MethodDefaults {
     return parameters_of(Normals::kNeighbours.with_standard(15), Normals::kOrientationNeighbours,
                          kDepth, kSamplesPerNode, kScale, kTrim);
   }
-  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values);
+  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values,
+                            std::size_t threads);
 };
 
 // Marching cubes on the distance to tangent planes.
@@ -114,7 +116,8 @@ struct Hoppe : MethodDefaults {
     return parameters_of(Normals::kNeighbours.with_standard(15), Normals::kOrientationNeighbours,
                          kResolution, kReach);
   }
-  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values);
+  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values,
+                            std::size_t threads);
 };
 
 // Implicit moving least squares.
@@ -137,7 +140,8 @@ struct Imls : MethodDefaults {
     return parameters_of(Normals::kNeighbours, Normals::kOrientationNeighbours, kCell, kReach,
                          kLeastReach);
   }
-  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values);
+  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values,
+                            std::size_t threads);
 };
 
 // Moving least squares of the cloud before a method; without values for them there are none.

@@ -106,8 +106,9 @@ void remove_slivers(TriangleMesh& mesh, double flat) {
 
 }  // namespace
 
-Reconstruction Gp3::run(const LocalCloud& cloud, const ParameterValues& values) {
-  const auto points = cloud.with_normals(values);
+Reconstruction Gp3::run(const LocalCloud& cloud, const ParameterValues& values,
+                        std::size_t threads) {
+  const auto points = cloud.with_normals(values, threads);
   if (cloud.is_regular()) break_ties(*points, cloud.spacing());
   const double radians = std::numbers::pi / 180;
   // PCL searches this many neighbours without asking how many there are.

@@ -94,12 +94,13 @@ class Weld {
 
 }  // namespace
 
-Reconstruction Hoppe::run(const LocalCloud& cloud, const ParameterValues& values) {
+Reconstruction Hoppe::run(const LocalCloud& cloud, const ParameterValues& values,
+                          std::size_t threads) {
   Eigen::AlignedBox3f box;
   for (const pcl::PointXYZ& p : *cloud.points()) box.extend(Eigen::Vector3f(p.getVector3fMap()));
   CubicMarching marching(box, values.at(kResolution), values.at(kReach));
   marching.set_spacing(cloud.spacing());
-  marching.setInputCloud(cloud.with_normals(values));
+  marching.setInputCloud(cloud.with_normals(values, threads));
   marching.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointNormal>>());
   pcl::PointCloud<pcl::PointNormal> soup;
   std::vector<pcl::Vertices> polygons;

@@ -1,13 +1,15 @@
 // Implicit moving least squares (implicit_surface.h) as a reconstruction method.
+#include "host/reconstruct/imls.h"
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "host/geometry/point_tree.h"
 #include "host/parameters/registry.h"
-#include "host/reconstruct/implicit_surface.h"
-#include "host/reconstruct/local_cloud.h"
 #include "host/reconstruct/reconstruction.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
@@ -27,7 +29,11 @@ struct Around {
   std::size_t count;
 };
 
-Around look_around(const LocalCloud& cloud) {
+double spacing_at(const std::vector<PointTree::Neighbour>& near, std::size_t k) {
+  return std::sqrt(std::numbers::pi * near[k].squared_distance / static_cast<double>(k));
+}
+
+Around look_around(const LocalCloud& cloud, std::size_t threads) {
   std::vector<Point> points;
   points.reserve(cloud.size());
   for (const pcl::PointXYZ& p : *cloud.points()) {
@@ -36,40 +42,46 @@ Around look_around(const LocalCloud& cloud) {
   const PointTree tree(points);
   Around around;
   around.count = std::min(kAround, points.size() - 1);
-  around.spacing.reserve(points.size());
-  around.neighbours.reserve(points.size() * around.count);
-  std::vector<PointTree::Neighbour> near;
-  for (const Point& p : points) {
-    tree.nearest(p, around.count + 1, near);
-    const std::size_t k = std::min(kDensity, around.count);
-    around.spacing.push_back(
-        std::sqrt(std::numbers::pi * near[k].squared_distance / static_cast<double>(k)));
-    for (std::size_t i = 1; i <= around.count; ++i) around.neighbours.push_back(near[i].index);
-  }
+  around.spacing.resize(points.size());
+  around.neighbours.resize(points.size() * around.count);
+  const std::size_t k = std::min(kDensity, around.count);
+  in_pieces(threads, points.size(), kPointsAtATime,
+            [&](std::size_t, std::size_t first, std::size_t last) {
+              std::vector<PointTree::Neighbour> near;
+              for (std::size_t p = first; p < last; ++p) {
+                tree.nearest(points[p], around.count + 1, near);
+                around.spacing[p] = spacing_at(near, k);
+                for (std::size_t i = 0; i < around.count; ++i) {
+                  around.neighbours[p * around.count + i] = near[i + 1].index;
+                }
+              }
+            });
   return around;
 }
 
 // Normals are fitted across edges and so bend around them; means over neighbours whose normals are
 // alike make them part there, and are less noisy elsewhere (bilateral filtering of normals).
-void sharpen(std::vector<Eigen::Vector3f>& normals, const Around& around) {
+void sharpen(std::vector<Eigen::Vector3f>& normals, const Around& around, std::size_t threads) {
   std::vector<Eigen::Vector3f> before;
   for (int round = 0; round < kRounds; ++round) {
     before = normals;
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      Eigen::Vector3f sum = before[i];
-      for (std::size_t k = 0; k < around.count; ++k) {
-        const Eigen::Vector3f& n = before[around.neighbours[i * around.count + k]];
-        sum += std::exp((n - before[i]).squaredNorm() / (-2 * kAlike * kAlike)) * n;
-      }
-      normals[i] = sum.normalized();
-    }
+    in_pieces(threads, normals.size(), kPointsAtATime,
+              [&](std::size_t, std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                  Eigen::Vector3f sum = before[i];
+                  for (std::size_t k = 0; k < around.count; ++k) {
+                    const Eigen::Vector3f& n = before[around.neighbours[i * around.count + k]];
+                    sum += std::exp((n - before[i]).squaredNorm() / (-2 * kAlike * kAlike)) * n;
+                  }
+                  normals[i] = sum.normalized();
+                }
+              });
   }
 }
 
-// Whether a point lies off the surface of its neighbours, by more than an edge or a corner does.
-// `spread`: what noise alone may do.
-bool is_stray(const LocalCloud& cloud, const std::vector<Eigen::Vector3f>& normals,
-              const Around& around, std::size_t point, double spread) {
+// How much farther a point lies off the surface of its neighbours than an edge or a corner does.
+double off_neighbours(const LocalCloud& cloud, const std::vector<Eigen::Vector3f>& normals,
+                      const Around& around, std::size_t point) {
   constexpr double kOff = 1.5;  // spacings of the neighbours
   const auto neighbours = std::span(around.neighbours).subspan(point * around.count, around.count);
   Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = mean;
@@ -82,35 +94,87 @@ bool is_stray(const LocalCloud& cloud, const std::vector<Eigen::Vector3f>& norma
   std::ranges::sort(spacings);
   const Eigen::Vector3f offset = (*cloud.points())[point].getVector3fMap() - mean;
   const double off = std::abs(static_cast<double>(offset.dot(normal.normalized())));
-  return off > kOff * spacings[spacings.size() / 2] + spread;
+  return off - kOff * spacings[spacings.size() / 2];
 }
 
 }  // namespace
 
-Reconstruction Imls::run(const LocalCloud& cloud, const ParameterValues& values) {
-  std::vector<Eigen::Vector3f> normals = cloud.oriented_normals(values);
-  const Around around = look_around(cloud);
-  sharpen(normals, around);
-  std::vector<double> sorted = around.spacing;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double spacing = *middle, cell = values.at(kCell) * spacing;
+std::vector<double> spacings_of_some(std::span<const Point> points,
+                                     const Normalization& normalization, std::size_t samples) {
+  std::vector<Point> normalised;
+  for (const Point& p : points) {
+    normalised.push_back(normalization.apply(p).cast<float>().cast<double>());
+  }
+  std::vector<double> spacings;
+  if (normalised.size() < 3) return spacings;
+  const PointTree tree(normalised);
+  const std::size_t k = std::min(kDensity, normalised.size() - 1);
+  std::vector<PointTree::Neighbour> near;
+  const std::size_t step = std::max<std::size_t>(1, normalised.size() / samples);
+  for (std::size_t p = 0; p < normalised.size(); p += step) {
+    tree.nearest(normalised[p], k + 1, near);
+    spacings.push_back(spacing_at(near, k));
+  }
+  return spacings;
+}
+
+SampledCloud sample(const LocalCloud& cloud, const ParameterValues& values, std::size_t threads) {
+  OrientedNormals oriented = cloud.oriented_normals(values, threads);
+  const Around around = look_around(cloud, threads);
+  SampledCloud sampled{std::vector<SampledPoint>(cloud.size()), oriented.normals,
+                       std::move(oriented.part)};
+  sharpen(oriented.normals, around, threads);
+  in_pieces(threads, cloud.size(), kPointsAtATime,
+            [&](std::size_t, std::size_t first, std::size_t last) {
+              for (std::size_t i = first; i < last; ++i) {
+                sampled.points[i] = {(*cloud.points())[i].getVector3fMap(), oriented.normals[i],
+                                     around.spacing[i],
+                                     off_neighbours(cloud, oriented.normals, around, i)};
+              }
+            });
+  return sampled;
+}
+
+PointShape::PointShape(const ParameterValues& values, double spacing)
+    : spacing_(spacing),
+      cell_(values.at(Imls::kCell) * spacing),
+      reach_(values.at(Imls::kReach)),
+      least_reach_(values.at(Imls::kLeastReach) * spacing) {}
+
+std::optional<OrientedPoint> PointShape::operator()(const SampledPoint& point) const {
+  if (point.off > least_reach_ / 2) return std::nullopt;  // by more than noise may do
+  const double own = std::min(point.spacing, kSparsest * spacing_);
+  const double reach = std::max({reach_ * own, least_reach_, kLeastCells * cell_});
+  const double band = std::max(kBand * reach, kLeastCells * cell_);
+  return OrientedPoint{point.position, point.normal, static_cast<float>(reach),
+                       static_cast<float>(band), static_cast<float>(own * own)};
+}
+
+Reconstruction Imls::run(const LocalCloud& cloud, const ParameterValues& values,
+                         std::size_t threads) {
+  const SampledCloud sampled = sample(cloud, values, threads);
+  std::vector<double> spacings;
+  for (const SampledPoint& p : sampled.points) spacings.push_back(p.spacing);
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::ranges::nth_element(spacings, middle);
+  const PointShape shape(values, *middle);
   std::vector<OrientedPoint> points;
   points.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (is_stray(cloud, normals, around, i, values.at(kLeastReach) * spacing / 2)) continue;
-    const double own = std::min(around.spacing[i], kSparsest * spacing);
-    const double reach =
-        std::max({values.at(kReach) * own, values.at(kLeastReach) * spacing, kLeastCells * cell});
-    const double band = std::max(kBand * reach, kLeastCells * cell);
-    points.push_back({(*cloud.points())[i].getVector3fMap(), normals[i], static_cast<float>(reach),
-                      static_cast<float>(band), static_cast<float>(own * own)});
+  Eigen::AlignedBox3f box;
+  float reach = 0;
+  for (const SampledPoint& p : sampled.points) {
+    const std::optional<OrientedPoint> point = shape(p);
+    if (!point) continue;
+    points.push_back(*point);
+    box.extend(point->position);
+    reach = std::max(reach, point->reach);
   }
   if (points.empty()) return {};
-  ImplicitMesh mesh = implicit_surface(points, static_cast<float>(cell));
+  ImplicitMesh mesh = implicit_surface(points, Lattice(box.min(), box.max(), reach, shape.cell()));
   Reconstruction result;
   result.mesh.vertices.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3f& v : mesh.vertices) result.mesh.vertices.push_back(cloud.world(v));
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    result.mesh.vertices.push_back(cloud.normalization().invert(v));
   result.mesh.triangles = std::move(mesh.triangles);
   return result;
 }

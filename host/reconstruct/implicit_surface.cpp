@@ -1,5 +1,6 @@
 #include "host/reconstruct/implicit_surface.h"
 
+#include <fmt/format.h>
 #include <pcl/point_types.h>
 #include <pcl/surface/marching_cubes.h>  // its tables
 
@@ -9,6 +10,8 @@
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
+
+#include "sw_model/base/error.h"
 
 namespace emax {
 namespace {
@@ -39,7 +42,8 @@ struct Node {
 };
 
 std::uint64_t key_of(const Cell& c) {
-  return static_cast<std::uint64_t>(c.x()) << 42 | static_cast<std::uint64_t>(c.y()) << 21 |
+  return (static_cast<std::uint64_t>(c.x()) * Lattice::kNodes + static_cast<std::uint64_t>(c.y())) *
+             Lattice::kNodes +
          static_cast<std::uint64_t>(c.z());
 }
 
@@ -85,14 +89,8 @@ class SparseGrid {
 
 class Contour {
  public:
-  Contour(std::span<const OrientedPoint> points, float cell) : cell_(cell) {
-    low_ = points.front().position;
-    float reach = 0;
-    for (const OrientedPoint& p : points) {
-      low_ = low_.cwiseMin(p.position);
-      reach = std::max(reach, p.reach);
-    }
-    low_.array() -= reach + 2 * cell;  // cells count from 0
+  Contour(std::span<const OrientedPoint> points, const Lattice& lattice, const CubeRange& cubes)
+      : lattice_(lattice), cubes_(cubes) {
     for (const OrientedPoint& p : points)
       spread(p, [](Node& node, const OrientedPoint& point, const Influence& i) {
         node.weight += i.weight;
@@ -123,7 +121,11 @@ class Contour {
   ImplicitMesh run() {
     for (const Cell& block : grid_.blocks()) {
       for (int i = 0; i < kBlock * kBlock * kBlock; ++i) {
-        march(block + Cell(i / (kBlock * kBlock), i / kBlock % kBlock, i % kBlock));
+        const Cell cube = block + Cell(i / (kBlock * kBlock), i / kBlock % kBlock, i % kBlock);
+        if ((cube.array() >= cubes_.first.array()).all() &&
+            (cube.array() < cubes_.last.array()).all()) {
+          march(cube);
+        }
       }
     }
     return clip();
@@ -143,14 +145,19 @@ class Contour {
   // Calls add(node, point, influence) for the nodes where the point has a say.
   template <class Add>
   void spread(const OrientedPoint& p, const Add& add) {
-    const Eigen::Vector3f at = (p.position - low_) / cell_;
-    const float reach = p.reach / cell_, squared_reach = reach * reach, band = p.band / cell_;
-    const Cell first = (at.array() - reach).ceil().cast<int>();
-    const Cell last = (at.array() + reach).floor().cast<int>();
+    const float cell = lattice_.cell;
+    const Eigen::Vector3d exact =
+        (p.position.cast<double>() - lattice_.origin) / static_cast<double>(cell);
+    const Cell base = exact.array().floor().cast<int>();
+    const Eigen::Vector3f at = (exact - base.cast<double>()).cast<float>();  // from the base
+    const float reach = p.reach / cell, squared_reach = reach * reach, band = p.band / cell;
+    const Cell first =
+        (base + Cell((at.array() - reach).ceil().cast<int>())).cwiseMax(cubes_.first);
+    const Cell last = (base + Cell((at.array() + reach).floor().cast<int>())).cwiseMin(cubes_.last);
     for (int x = first.x(); x <= last.x(); ++x) {
       for (int y = first.y(); y <= last.y(); ++y) {
         for (int z = first.z(); z <= last.z(); ++z) {
-          const Eigen::Vector3f offset = Cell(x, y, z).cast<float>() - at;
+          const Eigen::Vector3f offset = (Cell(x, y, z) - base).cast<float>() - at;
           const float distance = offset.dot(p.normal) / band;
           const float near = 1 - offset.squaredNorm() / squared_reach;
           const float flat = 1 - distance * distance;
@@ -186,19 +193,19 @@ class Contour {
     const auto place = [&](int k) -> Cell {
       return cell + Cell(kCorners[k][0], kCorners[k][1], kCorners[k][2]);
     };
-    if (corners[static_cast<std::size_t>(a)].node > corners[static_cast<std::size_t>(b)].node)
-      std::swap(a, b);
+    if ((place(b) - place(a)).sum() < 0) std::swap(a, b);
     const Corner &from = corners[static_cast<std::size_t>(a)],
                  &to = corners[static_cast<std::size_t>(b)];
-    // The edge by its first node and its direction.
     const Cell step = place(b) - place(a);
-    const auto direction =
-        static_cast<std::uint64_t>((step.cwiseAbs().dot(Cell(0, 1, 2))) * 2 + (step.sum() > 0));
-    const auto [found, fresh] = at_edge_.try_emplace(
-        from.node * 8 + direction, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    const std::uint64_t name =
+        key_of(place(a)) * 3 + static_cast<std::uint64_t>(step.dot(Cell(0, 1, 2)));
+    const auto [found, fresh] =
+        at_edge_.try_emplace(name, static_cast<std::uint32_t>(mesh_.vertices.size()));
     if (fresh) {
       const float share = from.value / (from.value - to.value);
-      mesh_.vertices.push_back(place(a).cast<float>() + share * step.cast<float>());
+      mesh_.vertices.push_back(place(a).cast<double>() +
+                               static_cast<double>(share) * step.cast<double>());
+      mesh_.names.push_back({name, name});
       const Node &m = grid_.node(from.node), &n = grid_.node(to.node);
       const Eigen::Vector3f offset =
           (1 - share) * m.offset / m.weight + share * n.offset / n.weight;
@@ -218,20 +225,23 @@ class Contour {
     ImplicitMesh clipped;
     std::unordered_map<std::uint64_t, std::uint32_t> at_edge;
     std::vector<std::uint32_t> kept(mesh_.vertices.size(), ~0u);
-    const auto add = [&](const Eigen::Vector3f& p) {
-      clipped.vertices.push_back(low_ + cell_ * p);
+    const auto add = [&](const Eigen::Vector3d& p, const VertexName& name) {
+      clipped.vertices.push_back(lattice_.origin + static_cast<double>(lattice_.cell) * p);
+      clipped.names.push_back(name);
       return static_cast<std::uint32_t>(clipped.vertices.size() - 1);
     };
     const auto keep = [&](std::uint32_t v) {
-      if (kept[v] == ~0u) kept[v] = add(mesh_.vertices[v]);
+      if (kept[v] == ~0u) kept[v] = add(mesh_.vertices[v], mesh_.names[v]);
       return kept[v];
     };
     const auto cross = [&](std::uint32_t a, std::uint32_t b) {
-      if (a > b) std::swap(a, b);
+      const auto name = [&](std::uint32_t v) { return mesh_.names[v][0]; };
+      if (name(a) > name(b)) std::swap(a, b);
       const auto [found, fresh] = at_edge.try_emplace(std::uint64_t{a} << 32 | b, 0u);
       if (fresh) {
-        const float share = inside_[a] / (inside_[a] - inside_[b]);
-        found->second = add((1 - share) * mesh_.vertices[a] + share * mesh_.vertices[b]);
+        const double share = static_cast<double>(inside_[a] / (inside_[a] - inside_[b]));
+        found->second =
+            add((1 - share) * mesh_.vertices[a] + share * mesh_.vertices[b], {name(a), name(b)});
       }
       return found->second;
     };
@@ -249,18 +259,37 @@ class Contour {
     return clipped;
   }
 
-  float cell_;
-  Eigen::Vector3f low_;
+  const Lattice& lattice_;
+  const CubeRange& cubes_;
   SparseGrid grid_;
-  ImplicitMesh mesh_;          // in cells from low_, not clipped
+  ImplicitMesh mesh_;          // in cells from the lattice's origin, not clipped
   std::vector<float> inside_;  // of its vertices: positive inside the border
   std::unordered_map<std::uint64_t, std::uint32_t> at_edge_;
 };
 
 }  // namespace
 
-ImplicitMesh implicit_surface(std::span<const OrientedPoint> points, float cell) {
-  return Contour(points, cell).run();
+Lattice::Lattice(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float reach, float cell_)
+    : origin((low.array() - (reach + 2 * cell_)).cast<double>()), cell(cell_) {
+  const float margin = reach + 2 * cell;
+  const double nodes = (static_cast<double>((high - low).maxCoeff()) + 2 * margin) / cell + 2;
+  if (nodes > kNodes) {
+    throw Error(fmt::format(
+        "marching cubes would need {:.3g} nodes along an axis, more than {}; take greater cubes",
+        nodes, kNodes));
+  }
+}
+
+Eigen::Vector3i lowest_node(std::uint64_t edge) {
+  const std::uint64_t node = edge / 3;
+  const auto coordinate = [](std::uint64_t n) { return static_cast<int>(n % Lattice::kNodes); };
+  return {coordinate(node / Lattice::kNodes / Lattice::kNodes), coordinate(node / Lattice::kNodes),
+          coordinate(node)};
+}
+
+ImplicitMesh implicit_surface(std::span<const OrientedPoint> points, const Lattice& lattice,
+                              const CubeRange& cubes) {
+  return Contour(points, lattice, cubes).run();
 }
 
 }  // namespace emax

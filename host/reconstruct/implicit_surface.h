@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,9 +18,34 @@ struct OrientedPoint {
   float area;   // of the surface, that it stands for
 };
 
+// Nodes of marching cubes: origin + cell * (x, y, z) with 0 <= x, y, z < kNodes.
+struct Lattice {
+  static constexpr int kNodes = 1 << 20;
+
+  Eigen::Vector3d origin;
+  float cell;
+
+  // With room for every node where one of the points has a say. `low`: the least of their
+  // coordinates. Throws Error where an axis would need more than kNodes.
+  Lattice(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float reach, float cell);
+};
+
+// The cubes whose lowest corner is a node from `first` to before `last`.
+struct CubeRange {
+  Eigen::Vector3i first = Eigen::Vector3i::Zero(),
+                  last = Eigen::Vector3i::Constant(Lattice::kNodes - 1);
+};
+
+// The two edges of the lattice between which a vertex lies where the surface ends; the same one
+// twice where it lies on one.
+using VertexName = std::array<std::uint64_t, 2>;
+// The end of an edge that has the lower coordinates.
+Eigen::Vector3i lowest_node(std::uint64_t edge);
+
 struct ImplicitMesh {
-  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
+  std::vector<VertexName> names;  // of the vertices
 };
 
 // The surface where the weighted mean of the signed distances to the points' tangent planes is zero
@@ -34,9 +61,12 @@ struct ImplicitMesh {
 // half-plane of points it is 0.235 times that), or where the weights are below kCoverage of those
 // inside a plane of points. So there is no surface across a hole that is wider than about a reach.
 //
-// Manifold and oriented along the normals. O(n (reach / cell)^3) time; memory for the nodes of the
-// grid within reach and band of the points, 52 bytes each.
+// Manifold and oriented along the normals. Only the part within the cubes: ranges that share a
+// face give vertices of the same names and bits there, if each is given, in the same order, all
+// points that have a say at its nodes. O(n (reach / cell)^3) time; memory for the nodes of the
+// lattice within reach and band of the points, 68 bytes each.
 inline constexpr float kBorder = 0.27f, kCoverage = 0.25f;
-ImplicitMesh implicit_surface(std::span<const OrientedPoint> points, float cell);
+ImplicitMesh implicit_surface(std::span<const OrientedPoint> points, const Lattice& lattice,
+                              const CubeRange& cubes = {});
 
 }  // namespace emax

@@ -13,6 +13,7 @@
 #include "host/parameters/registry.h"
 #include "host/reconstruct/orient_normals.h"
 #include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
@@ -55,12 +56,14 @@ bool is_tenth(std::size_t part, std::size_t whole) { return 10 * part >= whole; 
 }  // namespace
 
 LocalCloud::LocalCloud(std::span<const Point> points)
-    : source_(points), points_(new pcl::PointCloud<pcl::PointXYZ>) {
+    : LocalCloud(points, points.empty() ? Normalization{} : normalization_of(points)) {}
+
+LocalCloud::LocalCloud(std::span<const Point> points, const Normalization& normalization)
+    : source_(points), normalization_(normalization), points_(new pcl::PointCloud<pcl::PointXYZ>) {
   if (points.size() < 3) {
     throw Error("the cloud has only " + std::to_string(points.size()) +
                 " points; a surface needs at least three");
   }
-  normalization_ = normalization_of(points);
   std::vector<Eigen::Vector3f> local(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     local[i] = normalization_.apply(points[i]).cast<float>();
@@ -88,53 +91,62 @@ LocalCloud::LocalCloud(std::span<const Point> points)
     throw Error("the cloud has only " + std::to_string(size()) +
                 " distinct points; a surface needs at least three");
   }
+}
+
+const LocalCloud::Look& LocalCloud::looked_at() const {
+  if (look_) return *look_;
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(points_);
   std::vector<float> squared = squared_spacings(tree, *points_);
   const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   const float median = *middle;
-  spacing_ = std::sqrt(static_cast<double>(median));
   const auto at_median = std::ranges::count_if(
       squared, [median](float s) { return std::abs(s - median) <= 2e-4f * median; });
-  is_regular_ = is_tenth(static_cast<std::size_t>(at_median), size()) &&
-                is_tenth(points_amid_lines(tree, *points_), size());
+  const bool is_regular = is_tenth(static_cast<std::size_t>(at_median), size()) &&
+                          is_tenth(points_amid_lines(tree, *points_), size());
+  return look_.emplace(Look{std::sqrt(static_cast<double>(median)), is_regular});
 }
 
-std::vector<Eigen::Vector3f> LocalCloud::oriented_normals(const ParameterValues& values) const {
+OrientedNormals LocalCloud::oriented_normals(const ParameterValues& values,
+                                             std::size_t threads) const {
   const int n = static_cast<int>(size());
-  const int k = std::clamp(values.at(Normals::kNeighbours), 3, n);
-  const int graph_k = std::clamp(values.at(Normals::kOrientationNeighbours), 2, n);
+  const auto k = static_cast<std::size_t>(std::clamp(values.at(Normals::kNeighbours), 3, n));
+  const auto graph_k =
+      static_cast<std::size_t>(std::clamp(values.at(Normals::kOrientationNeighbours), 2, n));
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(points_);
   std::vector<Eigen::Vector3f> positions(size());
-  std::vector<Eigen::Vector3f> normals(size());
-  std::vector<std::uint32_t> neighbours;
-  neighbours.reserve(size() * static_cast<std::size_t>(graph_k));
-  pcl::Indices indices;
-  std::vector<float> squared_distances;
-  for (std::size_t i = 0; i < size(); ++i) {
-    tree.nearestKSearch((*points_)[i], static_cast<unsigned>(std::max(k, graph_k)), indices,
-                        squared_distances);
-    for (int j = 0; j < graph_k; ++j) {
-      neighbours.push_back(static_cast<std::uint32_t>(indices[static_cast<std::size_t>(j)]));
+  OrientedNormals result;
+  result.normals.resize(size());
+  std::vector<std::uint32_t> neighbours(size() * graph_k);
+  in_pieces(threads, size(), kPointsAtATime, [&](std::size_t, std::size_t first, std::size_t last) {
+    pcl::Indices indices;
+    std::vector<float> squared_distances;
+    for (std::size_t i = first; i < last; ++i) {
+      tree.nearestKSearch((*points_)[i], static_cast<unsigned>(std::max(k, graph_k)), indices,
+                          squared_distances);
+      for (std::size_t j = 0; j < graph_k; ++j) {
+        neighbours[i * graph_k + j] = static_cast<std::uint32_t>(indices[j]);
+      }
+      indices.resize(k);
+      Eigen::Vector4f plane;
+      float curvature;
+      pcl::computePointNormal(*points_, indices, plane, curvature);
+      positions[i] = (*points_)[i].getVector3fMap();
+      const float length = plane.head<3>().norm();
+      result.normals[i] = std::isfinite(length) && length > 0
+                              ? Eigen::Vector3f(plane.head<3>() / length)
+                              : Eigen::Vector3f(0, 0, 1);
     }
-    indices.resize(static_cast<std::size_t>(k));
-    Eigen::Vector4f plane;
-    float curvature;
-    pcl::computePointNormal(*points_, indices, plane, curvature);
-    positions[i] = (*points_)[i].getVector3fMap();
-    const float length = plane.head<3>().norm();
-    normals[i] = std::isfinite(length) && length > 0 ? Eigen::Vector3f(plane.head<3>() / length)
-                                                     : Eigen::Vector3f(0, 0, 1);
-  }
-  orient_normals(positions, neighbours, static_cast<std::size_t>(graph_k), normals);
-  return normals;
+  });
+  result.part = orient_normals(positions, neighbours, graph_k, result.normals);
+  return result;
 }
 
-pcl::PointCloud<pcl::PointNormal>::Ptr LocalCloud::with_normals(
-    const ParameterValues& values) const {
-  const std::vector<Eigen::Vector3f> normals = oriented_normals(values);
+pcl::PointCloud<pcl::PointNormal>::Ptr LocalCloud::with_normals(const ParameterValues& values,
+                                                                std::size_t threads) const {
+  const std::vector<Eigen::Vector3f> normals = oriented_normals(values, threads).normals;
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
   cloud->resize(size());
   for (std::size_t i = 0; i < size(); ++i) {

@@ -45,9 +45,9 @@ Root outward_root(std::span<const Eigen::Vector3f> positions,
 
 }  // namespace
 
-void orient_normals(std::span<const Eigen::Vector3f> positions,
-                    std::span<const std::uint32_t> neighbours, std::size_t k,
-                    std::span<Eigen::Vector3f> normals) {
+std::vector<std::uint32_t> orient_normals(std::span<const Eigen::Vector3f> positions,
+                                          std::span<const std::uint32_t> neighbours, std::size_t k,
+                                          std::span<Eigen::Vector3f> normals) {
   const std::size_t n = positions.size();
   std::vector<Edge> edges;
   edges.reserve(n * k);
@@ -67,13 +67,21 @@ void orient_normals(std::span<const Eigen::Vector3f> positions,
     tree[edge.b].push_back(edge.a);
   }
 
-  std::vector<std::vector<std::uint32_t>> members(n);
-  for (std::uint32_t i = 0; i < n; ++i) members[parts.root(i)].push_back(i);
+  std::vector<std::vector<std::uint32_t>> members;
+  std::vector<std::uint32_t> part(n), part_of_root(n, ~0u);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    std::uint32_t& of_root = part_of_root[parts.root(i)];
+    if (of_root == ~0u) {
+      of_root = static_cast<std::uint32_t>(members.size());
+      members.emplace_back();
+    }
+    members[of_root].push_back(i);
+    part[i] = of_root;
+  }
   std::vector<std::uint32_t> stack;
   std::vector<bool> seen(n, false);
-  for (const auto& part : members) {
-    if (part.empty()) continue;
-    const Root root = outward_root(positions, normals, part);
+  for (const auto& points : members) {
+    const Root root = outward_root(positions, normals, points);
     normals[root.point] *= root.sign;
     seen[root.point] = true;
     stack.push_back(root.point);
@@ -88,6 +96,7 @@ void orient_normals(std::span<const Eigen::Vector3f> positions,
       }
     }
   }
+  return part;
 }
 
 }  // namespace emax

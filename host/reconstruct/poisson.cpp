@@ -40,13 +40,14 @@ void trim(TriangleMesh& mesh, const LocalCloud& cloud, double spacings) {
 
 }  // namespace
 
-Reconstruction Poisson::run(const LocalCloud& cloud, const ParameterValues& values) {
+Reconstruction Poisson::run(const LocalCloud& cloud, const ParameterValues& values,
+                            std::size_t threads) {
   pcl::Poisson<pcl::PointNormal> poisson;
   poisson.setDepth(values.at(kDepth));
   poisson.setSamplesPerNode(static_cast<float>(values.at(kSamplesPerNode)));
   poisson.setScale(static_cast<float>(values.at(kScale)));
   poisson.setThreads(1);
-  poisson.setInputCloud(cloud.with_normals(values));
+  poisson.setInputCloud(cloud.with_normals(values, threads));
   pcl::PointCloud<pcl::PointNormal> points;
   std::vector<pcl::Vertices> polygons;
   poisson.reconstruct(points, polygons);

@@ -25,13 +25,13 @@ bool spans_area(const TriangleMesh& mesh) {
 }  // namespace
 
 Reconstruction reconstruct(std::string_view method, std::span<const Point> points,
-                           const ParameterValues& values) {
+                           const ParameterValues& values, std::size_t threads) {
   const MethodDescription& description = method_named(method);
   values.require(description.parameters);
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   const LocalCloud cloud(points);
   Reconstruction result =
-      std::ranges::find(method_runs(), method, &MethodRun::name)->run(cloud, values);
+      std::ranges::find(method_runs(), method, &MethodRun::name)->run(cloud, values, threads);
   drop_unused(result.mesh);
   if (!spans_area(result.mesh)) {
     throw Error("the method " + description.name + " made no triangle with an area from " +

@@ -16,7 +16,7 @@ struct Reconstruction {
 };
 
 // A surface from points (paper, section 2.1) by a method of the registry. A pure function of its
-// arguments: equal input gives equal bytes.
+// arguments: equal input gives equal bytes, for any number of threads.
 //
 // The libraries calculate in binary32, so the cloud is moved to its bounding box's midpoint and
 // scaled first; results come back in the cloud's own coordinates. Points that coincide after that
@@ -26,12 +26,13 @@ struct Reconstruction {
 // such method, when there are fewer than three distinct points, or when no triangle comes out. A
 // method of single use (MethodDescription) runs at most once in a process.
 Reconstruction reconstruct(std::string_view method, std::span<const Point> points,
-                           const ParameterValues& values);
+                           const ParameterValues& values, std::size_t threads = 1);
 
 // What runs a method.
 struct MethodRun {
   std::string_view name;
-  Reconstruction (*run)(const LocalCloud& cloud, const ParameterValues& values);
+  Reconstruction (*run)(const LocalCloud& cloud, const ParameterValues& values,
+                        std::size_t threads);
 };
 
 template <typename... Method>

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "host/chain/chain.h"
+#include "host/reconstruct/part_surface.h"
 #include "host/worker_pool/message.h"
 #include "host/worker_pool/worker_process.h"
 #include "sw_model/base/error.h"
@@ -79,18 +80,18 @@ Message receive() {
 }
 
 // The file and its position are shared with other workers, so it is read by offset.
-PointsMessage read_points() {
+Message first_message() {
   struct stat status;
-  if (fstat(kPointsFd, &status) != 0) throw Error(std::string("no points: ") + strerror(errno));
+  if (fstat(kPointsFd, &status) != 0) throw Error(std::string("no request: ") + strerror(errno));
   Bytes bytes(static_cast<std::size_t>(status.st_size));
   for (std::size_t got = 0; got < bytes.size();) {
     const ssize_t n =
         pread(kPointsFd, bytes.data() + got, bytes.size() - got, static_cast<off_t>(got));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw Error("the points are cut short");
+    if (n <= 0) throw Error("the request is cut short");
     got += static_cast<std::size_t>(n);
   }
-  return std::get<PointsMessage>(decode(std::span(bytes).subspan(kLengthBytes)));
+  return decode(std::span(bytes).subspan(kLengthBytes));
 }
 
 // Whether the program asks for the mesh reached so far. No other message can arrive during a run.
@@ -148,7 +149,13 @@ Bytes evaluate(Chain& chain, const RunMessage& run, const BeforeRun& before) {
 
 [[noreturn]] void serve(std::uint64_t memory_limit, const BeforeRun& before) {
   verify_arithmetic();
-  PointsMessage given = read_points();
+  Message message = first_message();
+  if (const auto* part = std::get_if<PartMessage>(&message)) {
+    run_part_step(part->folder, part_step_named(part->step), part->part);
+    send(encode(ReadyMessage{}));
+    leave(0);
+  }
+  PointsMessage given = std::get<PointsMessage>(std::move(message));
   Chain chain(std::move(given.points), std::move(given.bound));
   send(encode(ReadyMessage{}));
   answer_requests(chain, memory_limit, before);
@@ -174,7 +181,7 @@ int run_worker(std::span<char*> arguments, const BeforeRun& before) {
   try {
     serve(memory_limit, before);
   } catch (const std::bad_alloc&) {
-    send(encode(UnusableMessage{"the cloud alone needs more memory; raise the memory limit"}));
+    send(encode(UnusableMessage{"needs more memory; raise the memory limit"}));
   } catch (const std::exception& e) {
     send(encode(UnusableMessage{e.what()}));
   }

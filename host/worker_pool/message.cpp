@@ -48,6 +48,10 @@ json to_json(const RunMessage& m) {
           {"threads", m.threads}};
 }
 
+json to_json(const PartMessage& m) {
+  return {{"kind", "part"}, {"folder", m.folder}, {"step", m.step}, {"part", m.part}};
+}
+
 json to_json(const StopMessage&) { return {{"kind", "stop"}}; }
 
 json to_json(const ReadyMessage&) { return {{"kind", "ready"}}; }
@@ -164,6 +168,7 @@ Message from_json(const json& j) {
                       count_from(j.at("rival")),
                       count_from(j.at("threads"))};
   }
+  if (kind == "part") return PartMessage{j.at("folder"), j.at("step"), count_from(j.at("part"))};
   if (kind == "stop") return StopMessage{};
   if (kind == "ready") return ReadyMessage{};
   if (kind == "mesh") return mesh_from_json(j);

@@ -18,6 +18,8 @@
 //    once
 //   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number},
 //    "rival": n, "threads": n}
+//   {"kind": "part", "folder": s, "step": s, "part": n}   to a worker, in place of "points": a step
+//   of a part of a cloud in files (host/tiles/part_plan.h), answered by "ready" or "unusable"
 //   {"kind": "stop"}                                                 to a worker: end the
 //   decimation
 //   {"kind": "ready"}                                                from a worker, first and once
@@ -55,6 +57,10 @@ struct RunMessage {
   std::uint64_t rival = 0;    // triangles that the bounded decimator is to beat; 0: none
   std::uint64_t threads = 1;  // for it; a pool gives it no more than it has workers
 };
+struct PartMessage {
+  std::string folder, step;
+  std::uint64_t part;
+};
 struct StopMessage {};
 struct ReadyMessage {};
 struct MeshMessage {
@@ -69,8 +75,8 @@ struct UnusableMessage {
   std::string message;
 };
 
-using Message = std::variant<PointsMessage, RunMessage, StopMessage, ReadyMessage, MeshMessage,
-                             FailureMessage, UnusableMessage>;
+using Message = std::variant<PointsMessage, RunMessage, PartMessage, StopMessage, ReadyMessage,
+                             MeshMessage, FailureMessage, UnusableMessage>;
 using Bytes = std::vector<std::uint8_t>;
 
 inline constexpr std::size_t kLengthBytes = 8;

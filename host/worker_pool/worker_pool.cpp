@@ -58,13 +58,9 @@ class WorkerPool::Implementation {
   Implementation(std::span<const Point> points, const DecimationBound& bound,
                  const WorkerPoolOptions& options)
       : time_limit_(options.time_limit),
-        command_{options.program, options.memory_limit},
+        command_{worker_program(options.program), options.memory_limit},
         points_(sealed_file(encode(PointsMessage{{points.begin(), points.end()}, bound}))),
         workers_(std::max(1u, options.jobs)) {
-    if (command_.program.empty()) {
-      command_.program =
-          std::filesystem::read_symlink("/proc/self/exe").parent_path() / "emax_worker";
-    }
     for (Worker& worker : workers_) replace(worker);
   }
 

@@ -94,6 +94,11 @@ FileDescriptor sealed_file(std::span<const std::uint8_t> bytes) {
   return moved_up(std::move(file));
 }
 
+std::filesystem::path worker_program(const std::filesystem::path& given) {
+  if (!given.empty()) return given;
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "emax_worker";
+}
+
 // A message was in the worker's memory, so it cannot be longer than the memory limit.
 WorkerProcess::WorkerProcess(const Command& command, const FileDescriptor& points)
     : longest_message_(command.memory_limit != 0 ? std::min(command.memory_limit, kMaximumLength)

@@ -32,6 +32,9 @@ class FileDescriptor {
 // A file in memory that holds these bytes and can no longer be changed.
 FileDescriptor sealed_file(std::span<const std::uint8_t> bytes);
 
+// The one that is given, or emax_worker beside the running program.
+std::filesystem::path worker_program(const std::filesystem::path& given);
+
 // One worker process in its own process group. The destructor kills the group and reaps the
 // process. Its output is discarded. It ends by itself when the program that started it ends,
 // because its channel hangs up.

@@ -16,6 +16,7 @@ struct Normalization {
   double scale = 1;
 
   Point apply(const Point& p) const { return (p - origin) * scale; }
+  Point invert(const Point& p) const { return p / scale + origin; }
   double length(double file_units) const { return file_units * scale; }
 };
 

@@ -26,7 +26,7 @@ struct Tetrahedron : MethodDefaults {
   static constexpr ParameterKey<double> kSize{"tetrahedron.size", 0, 9, 3, "length of its legs"};
 
   static Parameters parameters() { return parameters_of(kSize); }
-  static Reconstruction run(const LocalCloud&, const ParameterValues& values) {
+  static Reconstruction run(const LocalCloud&, const ParameterValues& values, std::size_t) {
     const double a = values.at(kSize);
     return {{{{0, 0, 0}, {a, 0, 0}, {0, a, 0}, {0, 0, a}},
              {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}},

@@ -101,6 +101,10 @@ TEST(Message, CarriesFailures) {
   EXPECT_EQ(round_trip(UnusableMessage{"bad"}).message, "bad");
   round_trip(ReadyMessage{});
   round_trip(StopMessage{});
+  const PartMessage part = round_trip(PartMessage{"a folder", "look", 7});
+  EXPECT_EQ(part.folder, "a folder");
+  EXPECT_EQ(part.step, "look");
+  EXPECT_EQ(part.part, 7u);
 }
 
 TEST(Message, RefusesEveryTruncation) {

@@ -1,0 +1,122 @@
+// `emax reconstruct` as a person sees it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "host/files/mesh_file.h"
+#include "tests/host/app/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace emax {
+namespace {
+
+using nlohmann::json;
+using test::ProgramRun;
+
+class ReconstructCommand : public testing::Test {
+ protected:
+  ReconstructCommand() { test::write_scan(folder_ / "scan.xyz", 8000, 2); }
+
+  ProgramRun reconstruct(const std::string& output, std::vector<std::string> more = {},
+                         double stop_after_seconds = 0) {
+    more.insert(more.begin(), {"reconstruct", "scan.xyz", "-o", output});
+    return test::run_emax(more, folder_.path(), stop_after_seconds);
+  }
+  std::string bytes(const std::string& name) { return test::file_text(folder_ / name); }
+
+  // By the positions of the corners, whatever their order.
+  std::vector<std::array<std::array<double, 3>, 3>> triangles(const std::string& name) {
+    const TriangleMesh mesh = read_mesh(folder_ / name);
+    std::vector<std::array<std::array<double, 3>, 3>> all;
+    for (const Triangle& t : mesh.triangles) {
+      std::array<std::array<double, 3>, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point& p = mesh.vertices[t[k]];
+        corners[k] = {p.x(), p.y(), p.z()};
+      }
+      std::ranges::rotate(corners, std::ranges::min_element(corners));
+      all.push_back(corners);
+    }
+    std::ranges::sort(all);
+    return all;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ReconstructCommand, GivesTheSameSurfaceAsAWholeAndInTiles) {
+  const std::vector<std::string> values = {"--set", "normals.k=20", "--set", "imls.least_reach=0"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), values.begin(), values.end());
+    return more;
+  };
+  ASSERT_EQ(reconstruct("whole.ply", with({"--method", "imls", "--json", "w.json"})).exit_code, 0);
+  const ProgramRun tiled =
+      reconstruct("tiled.ply", with({"--tile-points", "1500", "--json", "t.json"}));
+  ASSERT_EQ(tiled.exit_code, 0) << tiled.errors;
+  EXPECT_NE(tiled.output.find("valid: manifold"), std::string::npos) << tiled.output;
+  EXPECT_EQ(triangles("tiled.ply"), triangles("whole.ply"));
+  const json whole = json::parse(bytes("w.json")), parts = json::parse(bytes("t.json"));
+  EXPECT_EQ(whole["tiles"], 0);
+  EXPECT_GE(parts["tiles"], 6);
+  EXPECT_EQ(whole["topology"], parts["topology"]);
+  EXPECT_EQ(parts["triangles"], triangles("tiled.ply").size());
+  EXPECT_FALSE(exists(folder_ / "tiled.ply.tiles"));
+  // Less memory, and other processes.
+  ASSERT_EQ(reconstruct("small.ply", with({"--memory", "12MB", "--jobs", "1"})).exit_code, 0);
+  ASSERT_EQ(
+      reconstruct("small2.ply", with({"--memory", "12MB", "--jobs", "2", "--tile-points", "20000"}))
+          .exit_code,
+      0);
+  EXPECT_EQ(triangles("small.ply"), triangles("whole.ply"));
+  EXPECT_EQ(bytes("small.ply"), bytes("small2.ply"));
+}
+
+TEST_F(ReconstructCommand, MakesTheSameBytesOnAnyNumberOfThreads) {
+  for (const std::string method : {"gp3", "imls"}) {
+    ASSERT_EQ(reconstruct("one.ply", {"--method", method, "--jobs", "1"}).exit_code, 0);
+    ASSERT_EQ(reconstruct("two.ply", {"--method", method, "--jobs", "2"}).exit_code, 0);
+    EXPECT_EQ(bytes("one.ply"), bytes("two.ply")) << method;
+  }
+}
+
+TEST_F(ReconstructCommand, GoesOnAfterAnInterruption) {
+  const std::vector<std::string> tiles = {"--tile-points", "1000"};
+  ASSERT_EQ(reconstruct("undisturbed.ply", tiles).exit_code, 0);
+  const ProgramRun stopped = reconstruct("out.ply", tiles, 0.4);
+  ASSERT_EQ(stopped.exit_code, 130) << stopped.errors;
+  EXPECT_FALSE(exists(folder_ / "out.ply"));
+  ASSERT_TRUE(exists(folder_ / "out.ply.tiles"));
+  const ProgramRun other = reconstruct("out.ply", {"--tile-points", "1001"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.errors.find("of another command"), std::string::npos) << other.errors;
+  const ProgramRun again = reconstruct("out.ply", tiles);
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_NE(again.output.find("continued"), std::string::npos) << again.output;
+  EXPECT_EQ(bytes("out.ply"), bytes("undisturbed.ply"));
+  EXPECT_FALSE(exists(folder_ / "out.ply.tiles"));
+}
+
+TEST_F(ReconstructCommand, RefusesWhatItCannotDo) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& why) {
+    const ProgramRun run = reconstruct("out.ply", more);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.errors.find(why), std::string::npos) << run.errors;
+    EXPECT_FALSE(exists(folder_ / "out.ply"));
+    EXPECT_FALSE(exists(folder_ / "out.ply.tiles"));
+  };
+  refused({"--method", "gp3", "--tile-points", "1000"}, "takes a cloud as a whole alone");
+  refused({"--method", "imls", "--set", "imls.cell"}, "a number from 0.5 to 3");
+  refused({"--method", "imls", "--set", "imls.cell=9"}, "a number from 0.5 to 3");
+  refused({"--method", "imls", "--set", "normals.k=20.5"}, "a whole number");
+  refused({"--method", "imls", "--set", "gp3.mu=2"}, "choose one of normals.k");
+  refused({"--tile-points", "1000", "--set", "imls.cell=9"}, "a number from 0.5 to 3");
+  refused({"--tile-points", "10"}, "--tile-points");
+  refused({"--tile-points", "2000", "--tile-folder", "none/tiles"}, "none");
+}
+
+}  // namespace
+}  // namespace emax
