@@ -47,8 +47,9 @@ struct ReconstructOptions {
   std::vector<std::string> parameters;  // NAME=VALUE, in place of what suits the scan
   std::uint64_t tile_points = 0;        // 0: as the memory needs it
   std::string tile_folder;              // empty: <output>.tiles
+  Machines machines;
   std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
-  unsigned jobs = 0;                    // 0: one per processor
+  unsigned jobs = 0;                    // of each of the machines' processes; 0: one per processor
   std::string json;
   CloudReadOptions reading;
 };

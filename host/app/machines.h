@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/tiles/tile.h"
+#include "host/worker_pool/worker_parts.h"
 #include "host/worker_pool/worker_pool.h"
 
 namespace emax {
@@ -16,6 +17,7 @@ struct Machines {
   std::vector<unsigned> processors = {std::max(1u, std::thread::hardware_concurrency())};
   unsigned processes_on_one = 1;  // at most so many of them share a machine and its memory
   MakePool make_pool = make_worker_pool;
+  MakeParts make_parts = worker_parts;
   std::shared_ptr<TileRunner> tiles = std::make_shared<LocalTiles>();
 };
 

@@ -39,7 +39,7 @@ int run(int argc, char** argv, const Machines& machines) {
                        chosen.empty() ? "" : chosen.front()->get_name() + " ");
   });
   CommandLine line;
-  line.optimize.machines = line.decimate.machines = machines;
+  line.optimize.machines = line.reconstruct.machines = line.decimate.machines = machines;
   add_commands(app, line);
   std::vector<std::string> words =
       checked_words(app, std::span(argv, static_cast<std::size_t>(argc)));

@@ -34,8 +34,7 @@ namespace {
 
 // What a point takes while it is reconstructed, of a tile also for what is around it.
 constexpr std::uint64_t kBytesOfPoint = 2000, kBytesPerPointOfTile = 3000;
-// More points of a tile would leave processors without one, fewer would be little beside the halo.
-constexpr std::uint64_t kMostOfTile = 1'000'000, kLeastOfTile = 20'000;
+constexpr std::uint64_t kMostOfTile = 1 << 18, kLeastOfTile = 1 << 12;
 
 class ReconstructCommand {
  public:
@@ -171,10 +170,10 @@ class ReconstructCommand {
                grouped(most), folder_->path().string());
     progress_.begin("reconstructing the tiles");
     WorkerPartsOptions workers;
-    workers.jobs = jobs_;
+    workers.jobs = tiles_at_a_time(most);
     workers.interrupted = was_interrupted;
     TiledReconstruction made = reconstruct_in_tiles(
-        cloud, chain_.parameters, estimate_, worker_parts(folder_->path(), workers),
+        cloud, chain_.parameters, estimate_, options_.machines.make_parts(folder_->path(), workers),
         [&](double share) { progress_.advance(share); });
     tiles_ = cloud.parts().size();
     left_out_ = made.left_out;
@@ -192,9 +191,18 @@ class ReconstructCommand {
             }};
   }
 
+  // Of few sizes, as the order of the triangles depends on it, and on nothing else of the memory.
   std::uint64_t points_of_tile() const {
     if (options_.tile_points > 0) return options_.tile_points;
-    return std::clamp(memory_ / (jobs_ * kBytesPerPointOfTile), kLeastOfTile, kMostOfTile);
+    std::uint64_t points = kMostOfTile;
+    while (points > kLeastOfTile && points * kBytesPerPointOfTile > memory_) points /= 4;
+    return points;
+  }
+  // So many tiles at a time as the memory holds.
+  unsigned tiles_at_a_time(std::uint64_t points) const {
+    const std::uint64_t held =
+        std::max<std::uint64_t>(1, memory_ / (points * kBytesPerPointOfTile));
+    return static_cast<unsigned>(std::min<std::uint64_t>(jobs_, held));
   }
 
   // What the files of the tiles depend on.

@@ -8,6 +8,7 @@
 #include "host/app/program.h"
 #include "host/app/standard_streams.h"
 #include "host/mpi/rank_identity.h"
+#include "host/mpi/rank_parts.h"
 #include "host/mpi/rank_pool.h"
 #include "host/mpi/rank_server.h"
 #include "host/mpi/rank_tiles.h"
@@ -16,7 +17,7 @@
 namespace emax {
 namespace {
 
-// Rank 0 is `emax`, and the others make evaluations and decimate tiles for it.
+// Rank 0 is `emax`, and the others make evaluations, decimate tiles and reconstruct parts for it.
 int run_first(RankLink& link, const std::vector<RankIdentity>& ranks, int argc, char** argv) {
   Machines machines;
   std::vector<std::string> hosts;
@@ -31,6 +32,10 @@ int run_first(RankLink& link, const std::vector<RankIdentity>& ranks, int argc, 
   machines.make_pool = [&job](std::span<const Point> points, const DecimationBound& bound,
                               const WorkerPoolOptions& options) {
     return job.make_pool(points, bound, options);
+  };
+  machines.make_parts = [&](const std::filesystem::path& folder,
+                            const WorkerPartsOptions& options) {
+    return rank_parts(link, machines.processors, hosts, folder, options);
   };
   return run_program(argc, argv, machines);
 }

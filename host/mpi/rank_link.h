@@ -26,11 +26,13 @@ enum class RankMessageKind : std::uint64_t {
   kStop,    // EvaluationPool::stop()
   kEnd,     // of the pool
   kTile,    // content: TileTask; kStop ends it soon
+  kPart,    // content: the "part" message
   kQuit,    // of the program
   // From a rank.
   kMesh,     // content: the "mesh" message
   kFailure,  // content: one byte, the reason, then the message
   kDecimatedTile,
+  kPartDone,
   kUnusable,  // content: a text; no evaluation can be made there
 };
 

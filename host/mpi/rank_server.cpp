@@ -8,6 +8,7 @@
 
 #include "host/mpi/rank_pool.h"
 #include "host/mpi/tile_message.h"
+#include "host/worker_pool/worker_parts.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -22,7 +23,13 @@ class Server {
       while (std::optional<RankLink::Received> received = link_.receive()) {
         guarded([&] { take(received->message); });
       }
-      if (pool_ && pool_->outstanding() > 0) {
+      if (parts_.running() > 0) {
+        guarded([&] {
+          for (const std::size_t part : parts_.wait_for(kBetweenLooks)) {
+            send(RankMessageKind::kPartDone, part, {});
+          }
+        });
+      } else if (pool_ && pool_->outstanding() > 0) {
         guarded([&] {
           if (std::optional<Completed> completed = pool_->wait_for(kBetweenLooks))
             answer(*completed);
@@ -66,6 +73,11 @@ class Server {
       case RankMessageKind::kTile:
         decimate(message);
         break;
+      case RankMessageKind::kPart: {
+        const auto part = std::get<PartMessage>(decode(body()));
+        parts_.start(part.folder, part_step_named(part.step), part.part);
+        break;
+      }
       case RankMessageKind::kEnd:
         pool_.reset();
         break;
@@ -124,6 +136,7 @@ class Server {
   std::size_t threads_;
   PointsMessage points_;
   std::unique_ptr<WorkerPool> pool_;
+  PartProcesses parts_{{}, 0};
   std::uint64_t number_ = 0;  // of the pool
   bool quit_ = false;
 };

@@ -3,6 +3,7 @@
 
     ranks_test.py same-bytes EMAX_MPI MPIEXEC [--fault]   1, 2, 3 and 8 ranks against `emax`
     ranks_test.py tiles EMAX_MPI MPIEXEC                  a mesh in tiles on 1, 2 and 3 ranks
+    ranks_test.py parts EMAX_MPI MPIEXEC                  a cloud reconstructed in tiles, with ranks that are lost
     ranks_test.py lost-ranks EMAX_MPI MPIEXEC             ranks are killed, the command goes on
     ranks_test.py unlike-ranks EMAX_MPI MPIEXEC           ranks of other bits are refused
 """
@@ -123,6 +124,39 @@ def tiles(options, job):
         sys.exit(f"stopped, it wrote no certificate:\n{output}")
 
 
+def parts(options, job):
+    """A cloud reconstructed in tiles, whose files all ranks read."""
+    generator = random.Random(options.seed)
+    write_scan(job.folder / "scan.xyz", 6000, generator)
+    words = ["reconstruct", "scan.xyz", "-o", "surface.ply", "--tile-points", "1000"]
+    alone = subprocess.Popen([job.program.parent / "emax", *words], cwd=job.folder,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    checked(alone, "emax")
+    expected = (job.folder / "surface.ply").read_bytes()
+    for ranks in (1, 2, 3, 8):
+        (job.folder / "surface.ply").unlink()
+        checked(job.start(ranks, words), f"{ranks} ranks")
+        if (job.folder / "surface.ply").read_bytes() != expected:
+            sys.exit(f"parts on {ranks} ranks: the result differs")
+        print(f"parts on {ranks} ranks: the bytes of emax", flush=True)
+    # A rank is killed during a step; the same command goes on from what is done.
+    print(f"seed {options.seed}")
+    for ranks, step in ((3, "samples"), (2, "vertices")):
+        (job.folder / "surface.ply").unlink()
+        process = job.start(ranks, words)
+        wait_until(lambda step=step: list(job.folder.glob(f"surface.ply.tiles/{step}-*.bin")), 60, f"no {step}")
+        os.kill(generator.choice(processes_of(job.folder.resolve(), "emax_mpi")), signal.SIGKILL)
+        process.communicate()
+        if process.returncode == 0:
+            sys.exit("a rank was killed and the job ended well")
+        output = checked(job.start(5 - ranks, words), "continued")
+        if "continued" not in output:
+            sys.exit(f"it began anew:\n{output}")
+        if (job.folder / "surface.ply").read_bytes() != expected:
+            sys.exit("continued after a lost rank: the result differs")
+        print(f"a rank of {ranks} was lost: continued, the same bytes", flush=True)
+
+
 def processes_of(folder, name):
     """The process numbers of programs of this name that work in the folder."""
     found = []
@@ -228,7 +262,7 @@ def unlike_ranks(options, job):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    tests = {"same-bytes": same_bytes, "tiles": tiles, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
+    tests = {"same-bytes": same_bytes, "tiles": tiles, "parts": parts, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
     parser.add_argument("test", choices=tests)
     parser.add_argument("emax_mpi", type=pathlib.Path)
     parser.add_argument("mpiexec")
