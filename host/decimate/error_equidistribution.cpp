@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace emax {
 namespace {
@@ -24,9 +23,15 @@ constexpr double kFewBeyond = 0.02;   // share of the triangles that is left to 
 constexpr int kRestorations = 15, kRepairs = 40;  // rounds at most
 constexpr int kGuidedRepairs = 3;                 // with the guides alone
 constexpr int kVainRepairs = 6;                   // in a row
-constexpr int kExactTries = 2;                    // of the exact limits
-constexpr int kFirstRestorations = 2;             // rounds without splits
-constexpr double kStuckRadius = 1.5;              // times the longest edge of what is stuck
+// Repairs are given up too where so many rounds leave more than a share of what was beyond before
+// them, and this is more than a share of the triangles: each of these rounds takes long, and in the
+// end too many triangles would be left.
+constexpr std::size_t kSlowRepairs = 8;
+constexpr double kSlow = 0.8, kManyInRepair = 0.01;
+constexpr double kFew = 20;            // triangles, which are never many
+constexpr int kExactTries = 2;         // of the exact limits
+constexpr int kFirstRestorations = 2;  // rounds without splits
+constexpr double kStuckRadius = 1.5;   // times the longest edge of what is stuck
 // What restoration leaves even has room for fewer: of a mesh within its limits, and at most so many
 // times its triangles while the limits are restored again.
 constexpr double kThinningQuantile = 0.97, kThinningCollapsed = 0.985, kMostWhileThinning = 1.05;
@@ -140,18 +145,20 @@ bool ErrorEquidistribution::restore(double most) {
     if (i > 0) state_.loosen(kLessLoosened, kLoosened);
     if (!restore_loosely(most, i == 0 ? kFewBeyond : 0)) return false;
     if (restore_exactly()) return true;
+    if (are_many(static_cast<double>(still_beyond().size()), kFewBeyond)) return false;
   }
   return false;
 }
 
 // Relaxing around what is beyond the limit restores most. Then a third of it is split at a time,
-// until at most a share `few` of the triangles is beyond. Returns false where it is given up, as
-// where more than `most` triangles would be left.
+// until at most a share `few` of the triangles is beyond. Returns false where it is given up: where
+// more than `most` triangles would be left, or many are beyond after all rounds.
 bool ErrorEquidistribution::restore_loosely(double most, double few) {
-  for (int i = 0; i < kRestorations && !passes_.stopped(); ++i) {
+  for (int i = 0; !passes_.stopped(); ++i) {
     std::vector<std::uint32_t> worst = beyond_limit();
     const auto triangles = static_cast<double>(state_.mesh().triangles());
     const auto beyond = static_cast<double>(worst.size());
+    if (i == kRestorations) return !are_many(beyond, kManyBeyond);
     if (beyond > kTooManyBeyond * triangles) return false;
     if (triangles + beyond > most) return false;
     if (worst.empty() || beyond < few * triangles) break;
@@ -181,21 +188,32 @@ bool ErrorEquidistribution::restore_exactly() {
 }
 
 void ErrorEquidistribution::repair() {
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> fewest;  // beyond, after each round
   int vain = 0;
   for (int i = 0; i < kRepairs && !passes_.stopped(); ++i) {
     state_.prove_all();
     state_.add_witnesses();
     const std::vector<std::uint32_t> beyond = still_beyond();
-    vain = beyond.size() < fewest ? 0 : vain + 1;
-    fewest = std::min(fewest, beyond.size());
-    if (beyond.empty() || vain == kVainRepairs) break;
+    vain = fewest.empty() || beyond.size() < fewest.back() ? 0 : vain + 1;
+    fewest.push_back(fewest.empty() ? beyond.size() : std::min(fewest.back(), beyond.size()));
+    if (beyond.empty() || vain == kVainRepairs || is_slow(fewest)) break;
     // Relaxations alone every other time. What several splits did not restore has mostly a shape in
     // which nothing can move, and is taken away.
     if (i % 2 == 1) tell_("splits", passes_.split_at_worst(beyond, 16));
     if (i % 4 == 2 && i > 2) tell_("collapses", passes_.collapse_at(beyond));
     for (const int power : {32, 32, 16}) relax_around(beyond, power);
   }
+}
+
+bool ErrorEquidistribution::are_many(double beyond, double share) const {
+  return beyond > std::max(kFew, share * static_cast<double>(state_.mesh().triangles()));
+}
+
+bool ErrorEquidistribution::is_slow(const std::vector<std::size_t>& fewest) const {
+  if (fewest.size() <= kSlowRepairs) return false;
+  const auto now = static_cast<double>(fewest.back());
+  const auto before = static_cast<double>(fewest[fewest.size() - 1 - kSlowRepairs]);
+  return now > kSlow * before && are_many(now, kManyInRepair);
 }
 
 // The triangles beyond the exact limits, and those around what is not proven of the reference.

@@ -50,6 +50,8 @@ class ErrorEquidistribution {
   bool restore_loosely(double most, double few);
   bool restore_exactly();
   void repair();
+  bool are_many(double beyond, double share) const;
+  bool is_slow(const std::vector<std::size_t>& fewest) const;
   bool thin();
   std::vector<std::uint32_t> still_beyond();
   void note_stuck(const std::vector<std::uint32_t>& slots);
