@@ -52,7 +52,7 @@ install(FILES LICENSE ${documents} docs/user/report.md DESTINATION ${CMAKE_INSTA
 if(EMAX_MAN)
   find_program(LOWDOWN lowdown REQUIRED)
   file(GLOB documents CONFIGURE_DEPENDS docs/user/*.md)
-  list(FILTER documents EXCLUDE REGEX "/(mpi|report|python)[.]md$")  # of no command
+  list(FILTER documents EXCLUDE REGEX "/(large-scans|mpi|report|python)[.]md$")  # of no command
   foreach(document ${documents})
     get_filename_component(command ${document} NAME_WE)
     set(page emax-${command})

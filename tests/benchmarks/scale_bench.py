@@ -1,0 +1,192 @@
+"""`./dev bench --scale`: time and memory of clouds of 10^5 to 10^8 points; writes the section "Scale" of
+docs/benchmarks.md.
+
+The scans are of the generator's hall, whose surface is known. Each result is kept in
+build/bench/scale/, so that a measurement can be interrupted and continued; --fresh begins anew,
+--most N leaves larger clouds out, --only-write writes from what is there. All of it takes an hour of
+two cores and 12 GB of disk.
+"""
+
+import argparse
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import sections
+
+PROGRAMS = Path("build/bench/bin")
+FOLDER = Path("build/bench/scale")
+RECONSTRUCTED, MEASURED = [10**5, 10**6, 10**7], [10**6, 10**7, 10**8]
+MEMORY = "500MB"
+MESH_POINTS = 10**6  # of whose surface clouds are measured from
+DRAGON, PERCENT, TILE = Path("data/dragon.ply"), 0.2, 250000
+
+
+def say(text):
+    print(f"bench: {text}", flush=True)
+
+
+class Store:
+    """One JSON object a result; a later one of the same key stands."""
+
+    def __init__(self, folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        self.file, self.results = folder / "results.jsonl", {}
+        for line in self.file.read_text().splitlines() if self.file.exists() else []:
+            try:
+                result = json.loads(line)
+                self.results[tuple(result["key"])] = result
+            except (ValueError, KeyError):  # torn by an interruption
+                pass
+
+    def get(self, *key):
+        return self.results.get(key)
+
+    def put(self, key, result):
+        result["key"] = list(key)
+        self.results[key] = result
+        with self.file.open("a") as file:
+            file.write(json.dumps(result) + "\n")
+        say(f"{' '.join(map(str, key))}: {result['seconds']:.0f} s, {result['bytes'] / 1e6:.0f} MB")
+
+
+def run(words):
+    """Wall time and processor time, the greatest resident size of a process, as the system counts them, and the JSON."""
+    answer = FOLDER / "answer.json"
+    begun = time.monotonic()
+    process = subprocess.Popen([str(word) for word in words] + ["--quiet", "--json", str(answer)])
+    _, status, used = os.wait4(process.pid, 0)
+    if os.waitstatus_to_exitcode(status) not in (0, 2):  # 2: the tolerance is exceeded
+        sys.exit(f"bench: {' '.join(map(str, words))} failed")
+    return {"seconds": time.monotonic() - begun, "processor": used.ru_utime + used.ru_stime,
+            "bytes": 1024 * used.ru_maxrss, "answer": json.loads(answer.read_text())}
+
+
+def scan(points):
+    file, truth = FOLDER / f"hall-{points}.las", FOLDER / "truth.ply"
+    if not file.exists() or not truth.exists():
+        say(f"drawing {points} points")
+        partial = FOLDER / "partial.las"
+        subprocess.run([PROGRAMS / "emax_scan", "hall", "--points", str(points), "-o", partial, "--truth", truth],
+                       check=True, stderr=subprocess.DEVNULL)
+        os.replace(partial, file)
+    return file
+
+
+def surface(points):
+    return FOLDER / f"surface-{points}.ply"
+
+
+def measure_reconstruction(store, points):
+    if store.get("reconstruct", points) and (points != MESH_POINTS or surface(points).exists()):
+        return
+    result = run([PROGRAMS / "emax", "reconstruct", scan(points), "-o", surface(points), "--method", "imls",
+                  "--tile-points", 1 << 18])
+    truth = run([PROGRAMS / "emax", "error", surface(points), FOLDER / "truth.ply"])["answer"]["errors"]["cloud_to_mesh"]
+    told = {name: result["answer"][name] for name in ("points", "triangles", "tiles", "spacing")}
+    told["truth"] = {"rms": truth["rms"], "greatest": truth["maximum"]}
+    store.put(("reconstruct", points), {**{k: v for k, v in result.items() if k != "answer"}, **told})
+    if points != MESH_POINTS:
+        surface(points).unlink()
+
+
+def measure_error(store, points):
+    if store.get("error", points):
+        return
+    result = run([PROGRAMS / "emax", "error", scan(points), surface(MESH_POINTS), "--memory", MEMORY])
+    result["triangles"] = store.get("reconstruct", MESH_POINTS)["triangles"]
+    result["points"] = result.pop("answer")["points"]
+    store.put(("error", points), result)
+
+
+def measure_tiles(store):
+    for way, more in (("whole", []), ("tiles", ["--tiles", TILE])):
+        if store.get("decimate", way):
+            continue
+        result = run([PROGRAMS / "emax", "decimate", DRAGON, "--max-error", f"{PERCENT}%", "-o", FOLDER / "dragon.ply",
+                      "--threads", 2, *more])
+        result["triangles"] = result.pop("answer")["triangles"]
+        store.put(("decimate", way), result)
+
+
+def measure(store, most):
+    for points in RECONSTRUCTED:
+        if points <= most:
+            measure_reconstruction(store, points)
+    for points in MEASURED:
+        if points <= most:
+            measure_error(store, points)
+            if points > max(RECONSTRUCTED):
+                scan(points).unlink()
+    measure_tiles(store)
+
+
+def exponent(small, large, unit):
+    """Of the points, by which a time or a size grows."""
+    return math.log(large[unit] / small[unit]) / math.log(large["points"] / small["points"])
+
+
+def reconstruction_table(store):
+    found = [result for points in RECONSTRUCTED if (result := store.get("reconstruct", points))]
+    if not found:
+        return ""
+    lines = ["| points | tiles | triangles | s | µs of processor a point | grows as n^ | MB of the largest process | "
+             "from the true surface, mm: root mean square; greatest |",
+             "|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    for i, r in enumerate(found):
+        grows = f"{exponent(found[i - 1], r, 'processor'):.2f}" if i else "–"
+        lines.append(f"| {r['points']} | {r['tiles']} | {r['triangles']} | {r['seconds']:.0f} | "
+                     f"{1e6 * r['processor'] / r['points']:.1f} | {grows} | {r['bytes'] / 1e6:.0f} | "
+                     f"{1e3 * r['truth']['rms']:.2f}; {1e3 * r['truth']['greatest']:.0f} |")
+    return ("`emax reconstruct` of a hall of 40 by 20 by 8 m, scanned from several stations, in tiles of 262,144 points on "
+            "two cores. The exponent is that of the processor time from the row above; n log n grows as n^1.07 "
+            "from 10^6 to 10^7. The resident size is the greatest of one process; two tiles are under way at a time, and "
+            "the surface is checked as a whole in the end.\n\n" + "\n".join(lines) + "\n")
+
+
+def error_table(store):
+    found = [result for points in MEASURED if (result := store.get("error", points))]
+    if not found:
+        return ""
+    lines = ["| points | s | ns a point | MB resident |", "|---:|---:|---:|---:|"]
+    lines += [f"| {r['points']} | {r['seconds']:.1f} | {1e9 * r['seconds'] / r['points']:.0f} | {r['bytes'] / 1e6:.0f} |"
+              for r in found]
+    return (f"`emax error` of the hall's scans against the surface of the one of 10^6 points, {found[0]['triangles']} "
+            f"triangles, with `--memory {MEMORY}`: wall time of the whole command on two cores, which reads and checks the "
+            "mesh, and resident size as the system counts it.\n\n" + "\n".join(lines) + "\n")
+
+
+def tiles_text(store):
+    whole, tiles = store.get("decimate", "whole"), store.get("decimate", "tiles")
+    if not whole or not tiles:
+        return ""
+    more = 100 * tiles["triangles"] / whole["triangles"] - 100
+    return (f"`emax decimate` of the dragon at {PERCENT} % of the width, two-sided, two threads: {whole['triangles']} triangles "
+            f"as a whole in {whole['seconds']:.0f} s and {whole['bytes'] / 1e6:.0f} MB; {tiles['triangles']} ({more:+.1f} %) "
+            f"in tiles of {TILE} triangles in {tiles['seconds']:.0f} s and {tiles['bytes'] / 1e6:.0f} MB.\n")
+
+
+def section(store):
+    return "\n".join(["## Scale\n", "Written by `./dev bench --scale`.\n",
+                      *[part for part in (reconstruction_table(store), error_table(store), tiles_text(store)) if part]])
+
+
+def main(words, fetch_dragon):
+    parser = argparse.ArgumentParser(prog="./dev bench --scale", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--fresh", action="store_true", help="forget earlier results")
+    parser.add_argument("--most", type=float, default=math.inf, metavar="N", help="leave out clouds of more points")
+    parser.add_argument("--only-write", action="store_true", help="from the results that are there")
+    options = parser.parse_args(words)
+    if options.fresh:
+        shutil.rmtree(FOLDER, ignore_errors=True)
+    store = Store(FOLDER)
+    if not options.only_write:
+        fetch_dragon()
+        measure(store, options.most)
+    sections.put("scale", section(store))
