@@ -181,12 +181,14 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                   "quick: one good candidate; deep: four times as many evaluations as normal")
       ->check(CLI::IsMember({"quick", "normal", "deep"}))
       ->capture_default_str();
-  command
-      .add_option("--budget", optimize.budget,
-                  "number of evaluations (default: by --effort; for normal that of --config, else "
-                  "16, 40 with another --method, 60 with the paper's decimation, fewer for more "
-                  "than 100,000 points)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
+  CLI::Option& budget =
+      *command
+           .add_option(
+               "--budget", optimize.budget,
+               "number of evaluations (default: by --effort; for normal that of --config, else "
+               "16, 40 with another --method, 60 with the paper's decimation, fewer for more "
+               "than 100,000 points)")
+           ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
   command.add_option("--time", optimize.seconds, "stop the search after this many seconds")
       ->check(positive("seconds"));
   command
@@ -194,22 +196,25 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                   "worker processes, at most search.look_ahead of the configuration (default: one "
                   "per processor, as far as the memory allows)")
       ->check(CLI::Range(1u, 256u));
-  command
-      .add_option("--target-triangles", optimize.target_triangles,
-                  "stop at a mesh within the tolerance that has at most this many triangles")
-      ->check(positive("triangles"));
-  command
-      .add_option("--stagnation", optimize.stagnation,
-                  "stop after this many evaluations without a better mesh")
-      ->check(positive("evaluations"));
+  CLI::Option& target =
+      *command
+           .add_option("--target-triangles", optimize.target_triangles,
+                       "stop at a mesh within the tolerance that has at most this many triangles")
+           ->check(positive("triangles"));
+  CLI::Option& stagnation =
+      *command
+           .add_option("--stagnation", optimize.stagnation,
+                       "stop after this many evaluations without a better mesh")
+           ->check(positive("evaluations"));
   command.add_flag("--closed", optimize.closed, kClosedHelp);
   CLI::Option& polish =
       *command.add_flag("--polish,!--no-polish", optimize.polish,
                         "at the end, decimate the four best with deep effort (default "
                         "unless --effort is quick; only with the bounded decimator)");
-  command.add_option("--resume", optimize.resume,
-                     "folder of the run: created if it is missing, continued if it exists "
-                     "(default: MESH.run, removed when the run has ended)");
+  CLI::Option& resume =
+      *command.add_option("--resume", optimize.resume,
+                          "folder of the run: created if it is missing, continued if it exists "
+                          "(default: MESH.run, removed when the run has ended)");
   command
       .add_option("--evaluation-time", optimize.evaluation_seconds,
                   "stop an evaluation after this many seconds (default: 600, or 0.002 a point "
@@ -221,15 +226,26 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                   "(default: 2 GB and 8 KB a point, at most 7/8 of the memory)")
       ->transform(CLI::AsSizeValue(false))
       ->transform(not_negative());  // CLI11 runs this one first
-  command.add_option("--config", optimize.config,
-                     "settings and domains; `emax config` prints the defaults");
+  CLI::Option& config = *command.add_option(
+      "--config", optimize.config, "settings and domains; `emax config` prints the defaults");
+  CLI::Option& tiles =
+      *command
+           .add_option("--tiles", optimize.tile_triangles,
+                       "for a cloud that is too large for the memory: reconstruct and decimate it "
+                       "once, without a search, in tiles of at most this many triangles; 250000 "
+                       "suits most machines")
+           ->check(CLI::Range(std::size_t{1000}, std::size_t{1} << 32));
+  for (CLI::Option* of_search : {&budget, &target, &stagnation, &resume, &config, &polish}) {
+    tiles.excludes(of_search);
+  }
   add_progress(command, line);
   add_examples(
       command,
       "  emax optimize scan.ply  which tolerance suits the scan\n"
       "  emax optimize scan.ply --max-error 0.5 -o part.ply  a mesh within 0.5 of the scan\n"
       "  emax optimize scan.ply --max-error 0.2% -o part.ply --effort quick  a first look\n"
-      "  emax optimize scan.ply --max-error 0.5 -o part.ply --time 600  in ten minutes");
+      "  emax optimize scan.ply --max-error 0.5 -o part.ply --time 600  in ten minutes\n"
+      "  emax optimize scans --max-error 5mm -o hall.ply --tiles 250000  a folder of large scans");
   command.callback([&] {
     if (optimize.output.empty() && (!optimize.max_error.empty() || optimize.level > 0)) {
       throw CLI::RequiredError("--output");

@@ -33,11 +33,15 @@ struct OptimizeOptions {
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
   std::optional<std::uint64_t> target_triangles, stagnation;
   bool polish = true;
-  bool closed = false;  // every hole of the surface is closed
+  bool closed = false;             // every hole of the surface is closed
+  std::size_t tile_triangles = 0;  // 0: not in tiles
   std::optional<double> evaluation_seconds;
   std::optional<std::uint64_t> evaluation_memory;  // bytes
 };
 int run_optimize(const OptimizeOptions& options);
+
+// Of a tile, where the memory holds it.
+inline constexpr std::uint64_t kTilePoints = 1 << 18;
 
 struct ReconstructOptions {
   std::string cloud;
@@ -47,6 +51,7 @@ struct ReconstructOptions {
   std::vector<std::string> parameters;  // NAME=VALUE, in place of what suits the scan
   std::uint64_t tile_points = 0;        // 0: as the memory needs it
   std::string tile_folder;              // empty: <output>.tiles
+  bool keep_tiles = false;              // at the end, too
   Machines machines;
   std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
   unsigned jobs = 0;                    // of each of the machines' processes; 0: one per processor

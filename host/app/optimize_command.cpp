@@ -16,6 +16,7 @@
 #include "host/app/search_report.h"
 #include "host/app/search_settings.h"
 #include "host/app/standard_streams.h"
+#include "host/app/tiled_optimize.h"
 #include "host/files/atomic_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
@@ -378,6 +379,9 @@ class OptimizeCommand {
 
 }  // namespace
 
-int run_optimize(const OptimizeOptions& options) { return OptimizeCommand(options).run(); }
+int run_optimize(const OptimizeOptions& options) {
+  return options.tile_triangles > 0 ? run_optimize_in_tiles(options)
+                                    : OptimizeCommand(options).run();
+}
 
 }  // namespace emax

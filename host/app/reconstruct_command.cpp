@@ -34,7 +34,7 @@ namespace {
 
 // What a point takes while it is reconstructed, of a tile also for what is around it.
 constexpr std::uint64_t kBytesOfPoint = 2000, kBytesPerPointOfTile = 3000;
-constexpr std::uint64_t kMostOfTile = 1 << 18, kLeastOfTile = 1 << 12;
+constexpr std::uint64_t kLeastOfTile = 1 << 12;
 
 class ReconstructCommand {
  public:
@@ -77,12 +77,14 @@ class ReconstructCommand {
     progress_.begin("writing");
     write_mesh(options_.output, mesh_, {.unit = pieces_->scan().unit});
     progress_.end();
-    if (folder_) folder_->remove();
+    if (folder_ && !options_.keep_tiles) folder_->remove();
     facts_.add("result", "{}: {} triangles; {}", options_.output, grouped(mesh_.triangles.size()),
                describe(validity_));
     facts_.add("topology", "{}", describe(topology_));
-    facts_.add("next", "emax decimate {} --cloud {} --max-error N -o ...", options_.output,
-               options_.cloud);
+    if (!options_.keep_tiles) {
+      facts_.add("next", "emax decimate {} --cloud {} --max-error N -o ...", options_.output,
+                 options_.cloud);
+    }
     if (json_is_wanted(options_.json)) write_json(options_.json, to_json().dump(2) + "\n");
     return kExitOk;
   }
@@ -194,7 +196,7 @@ class ReconstructCommand {
   // Of few sizes, as the order of the triangles depends on it, and on nothing else of the memory.
   std::uint64_t points_of_tile() const {
     if (options_.tile_points > 0) return options_.tile_points;
-    std::uint64_t points = kMostOfTile;
+    std::uint64_t points = kTilePoints;
     while (points > kLeastOfTile && points * kBytesPerPointOfTile > memory_) points /= 4;
     return points;
   }

@@ -100,6 +100,32 @@ TEST_F(ReconstructCommand, GoesOnAfterAnInterruption) {
   EXPECT_FALSE(exists(folder_ / "out.ply.tiles"));
 }
 
+// Surface and decimation by one command.
+TEST_F(ReconstructCommand, OptimizesInTiles) {
+  const auto optimize = [&](std::vector<std::string> more, double stop_after_seconds = 0) {
+    more.insert(more.begin(),
+                {"optimize", "scan.xyz", "--max-error", "2%", "-o", "part.ply", "--tiles", "6000"});
+    return test::run_emax(more, folder_.path(), stop_after_seconds);
+  };
+  const ProgramRun made = optimize({"--json", "r.json"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_NE(made.output.find("from reference"), std::string::npos) << made.output;
+  EXPECT_LT(json::parse(bytes("r.json"))["triangles"], 1000);
+  EXPECT_EQ(test::run_emax({"verify", "part.ply.certificate.json"}, folder_.path()).exit_code, 0);
+  EXPECT_FALSE(exists(folder_ / "part.ply.tiles"));
+  EXPECT_NE(exists(folder_ / "part.ply.surface.ply"), exists(folder_ / "part.ply.reference.ply"));
+  const std::string expected = bytes("part.ply");
+  std::filesystem::remove(folder_ / "part.ply");
+  const ProgramRun stopped = optimize({}, 0.2);
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.errors;
+  EXPECT_TRUE(exists(folder_ / "part.ply.tiles"));
+  ASSERT_EQ(optimize({"--jobs", "1"}).exit_code, 0);
+  EXPECT_EQ(bytes("part.ply"), expected);
+  EXPECT_NE(optimize({"--method", "gp3"}).errors.find("--tiles cannot be combined with --method"),
+            std::string::npos);
+  EXPECT_NE(optimize({"--budget", "20"}).errors.find("--budget"), std::string::npos);
+}
+
 TEST_F(ReconstructCommand, RefusesWhatItCannotDo) {
   const auto refused = [&](const std::vector<std::string>& more, const std::string& why) {
     const ProgramRun run = reconstruct("out.ply", more);
