@@ -149,6 +149,15 @@ void add_chain(CLI::App& command, std::string& method, std::string& decimator) {
       ->capture_default_str();
 }
 
+CLI::Option& add_thin(CLI::App& command, std::optional<Tolerance>& thin,
+                      std::string_view standard) {
+  return *command.add_option_function<std::string>(
+      "--thin", [&thin](const std::string& text) { thin = parse_tolerance(text, "--thin"); },
+      fmt::format("make the surface of one point of each cube of this side, N or N% or 5mm: dense "
+                  "regions cost less, and sparse ones count as part of it (default: {})",
+                  standard));
+}
+
 void add_optimize(CLI::App& app, CommandLine& line) {
   auto& optimize = line.optimize;
   CLI::App& command =
@@ -235,6 +244,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                        "once, without a search, in tiles of at most this many triangles; 250000 "
                        "suits most machines")
            ->check(CLI::Range(std::size_t{1000}, std::size_t{1} << 32));
+  add_thin(command, optimize.thin, "with --tiles half of the tolerance").needs(&tiles);
   for (CLI::Option* of_search : {&budget, &target, &stagnation, &resume, &config, &polish}) {
     tiles.excludes(of_search);
   }
@@ -362,6 +372,7 @@ void add_reconstruct(CLI::App& app, CommandLine& line) {
   command.add_option("--set", reconstruct.parameters,
                      "NAME=VALUE: a parameter of the method (`emax config` lists them) in place of "
                      "what suits the scan");
+  add_thin(command, reconstruct.thin, "all points");
   command
       .add_option("--memory", reconstruct.memory,
                   "a cloud that needs more memory than this is reconstructed in tiles, which "

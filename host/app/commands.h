@@ -35,6 +35,7 @@ struct OptimizeOptions {
   bool polish = true;
   bool closed = false;             // every hole of the surface is closed
   std::size_t tile_triangles = 0;  // 0: not in tiles
+  std::optional<Tolerance> thin;   // of tiles; nothing: half of max_error
   std::optional<double> evaluation_seconds;
   std::optional<std::uint64_t> evaluation_memory;  // bytes
 };
@@ -49,6 +50,7 @@ struct ReconstructOptions {
   std::string unit;  // of the cloud's numbers; empty: what the file says
   std::string method = kFitMethod;
   std::vector<std::string> parameters;  // NAME=VALUE, in place of what suits the scan
+  std::optional<Tolerance> thin;        // nothing: all points are taken
   std::uint64_t tile_points = 0;        // 0: as the memory needs it
   std::string tile_folder;              // empty: <output>.tiles
   bool keep_tiles = false;              // at the end, too

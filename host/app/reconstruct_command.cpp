@@ -18,6 +18,7 @@
 #include "host/files/mesh_file.h"
 #include "host/files/number_text.h"
 #include "host/files/sha256.h"
+#include "host/files/tolerance.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/optimize/evaluation_limits.h"
@@ -51,6 +52,10 @@ class ReconstructCommand {
     pieces_.emplace(options.cloud, options.reading, options.unit, memory_, was_interrupted);
     progress_.end();
     require_unit(pieces_->scan().unit, format_, options.output);
+    if (options.thin) {
+      const Scan& scan = pieces_->scan();
+      thin_ = below_width(options.thin->in_unit_of(scan.unit, "--thin"), "--thin", scan);
+    }
     in_tiles_ = options.tile_points > 0 || !pieces_->is_in_memory() ||
                 pieces_->points() * kBytesOfPoint > memory_;
     if (in_tiles_ && options.method != kFitMethod && options.method != Imls::kName) {
@@ -132,7 +137,7 @@ class ReconstructCommand {
   }
 
   void reconstruct_whole() {
-    const std::vector<Point>& points = pieces_->scan().cloud.points;
+    const std::vector<Point> points = thinned_points();
     choose(options_.method, estimate_scan(points));
     progress_.begin("reconstructing", reference_seconds(points.size()));
     WorkerPoolOptions workers;
@@ -150,6 +155,24 @@ class ReconstructCommand {
       throw Error(fmt::format("{}: {}", options_.cloud, failure->message));
     }
     mesh_ = std::move(std::get<ChainResult>(completed->outcome).mesh);
+    taken_ = points.size();
+  }
+
+  double normalised_thin() const { return pieces_->normalization().length(thin_); }
+
+  std::vector<Point> thinned_points() {
+    std::vector<Point> points = pieces_->scan().cloud.points;
+    if (thin_ == 0) return points;
+    std::vector<NumberedPoint> numbered;
+    numbered.reserve(points.size());
+    for (const Point& p : points) numbered.push_back({p, numbered.size()});
+    points.clear();
+    for (const NumberedPoint& p :
+         thinned(std::move(numbered), pieces_->normalization(), normalised_thin())) {
+      points.push_back(p.position);
+    }
+    facts_.add("thinned", "to {} points, one in a cube of {:.6g}", grouped(points.size()), thin_);
+    return points;
   }
 
   void reconstruct_tiles() {
@@ -167,22 +190,24 @@ class ReconstructCommand {
     const CloudPartition cloud = CloudPartition::is_in(folder_->path())
                                      ? CloudPartition(folder_->path())
                                      : CloudPartition(source(), most, folder_->path());
-    choose(std::string(Imls::kName), estimate_scan(cloud));
+    choose(std::string(Imls::kName), estimate_scan(cloud, normalised_thin()));
     facts_.add("tiles", "{} of at most {} points, in {}", grouped(cloud.parts().size()),
                grouped(most), folder_->path().string());
     progress_.begin("reconstructing the tiles");
     WorkerPartsOptions workers;
     workers.jobs = tiles_at_a_time(most);
     workers.interrupted = was_interrupted;
-    TiledReconstruction made = reconstruct_in_tiles(
-        cloud, chain_.parameters, estimate_, options_.machines.make_parts(folder_->path(), workers),
-        [&](double share) { progress_.advance(share); });
+    TiledReconstruction made =
+        reconstruct_in_tiles(cloud, chain_.parameters, estimate_, normalised_thin(),
+                             options_.machines.make_parts(folder_->path(), workers),
+                             [&](double share) { progress_.advance(share); });
     tiles_ = cloud.parts().size();
-    left_out_ = made.left_out;
+    taken_ = made.points;
     mesh_ = std::move(made.mesh);
-    if (left_out_ > 0) {
-      facts_.add("left out", "{} points that repeat others or are alone in their tile",
-                 grouped(left_out_));
+    if (taken_ < pieces_->points()) {
+      facts_.add(thin_ > 0 ? "thinned" : "taken", "{} of the points{}", grouped(taken_),
+                 thin_ > 0 ? fmt::format(", one in a cube of {:.6g}", thin_)
+                           : "; the others repeat some, or are alone in their tile");
     }
   }
 
@@ -209,11 +234,11 @@ class ReconstructCommand {
 
   // What the files of the tiles depend on.
   std::string identity(std::uint64_t most) const {
-    std::string text = fmt::format("cloud {}\nclasses left out {}{}\npoints of a tile {}\nset {}\n",
-                                   sha256_of_input(options_.cloud),
-                                   fmt::join(options_.reading.left_out_classes, ","),
-                                   options_.reading.skip_invalid ? ", and invalid points" : "",
-                                   most, fmt::join(options_.parameters, " "));
+    std::string text = fmt::format(
+        "cloud {}\nthinned {}\nclasses left out {}{}\npoints of a tile {}\nset {}\n",
+        sha256_of_input(options_.cloud), thin_, fmt::join(options_.reading.left_out_classes, ","),
+        options_.reading.skip_invalid ? ", and invalid points" : "", most,
+        fmt::join(options_.parameters, " "));
     for (const auto& [name, value] : program_identity()) text += name + " " + value + "\n";
     return text;
   }
@@ -227,7 +252,7 @@ class ReconstructCommand {
                  {"method", chain_.method},
                  {"parameters", chain_.parameters.by_name()},
                  {"tiles", tiles_},
-                 {"left_out", left_out_},
+                 {"taken", taken_},
                  {"mesh", options_.output},
                  {"triangles", mesh_.triangles.size()},
                  {"validity", emax::to_json(validity_)},
@@ -248,7 +273,8 @@ class ReconstructCommand {
   ChainSettings chain_;
   TriangleMesh mesh_;
   std::size_t tiles_ = 0;
-  std::uint64_t left_out_ = 0;
+  std::uint64_t taken_ = 0;  // points that the surface is made of
+  double thin_ = 0;
   MeshValidity validity_;
   MeshTopology topology_;
 };

@@ -40,6 +40,11 @@ ReconstructOptions reconstruction(const OptimizeOptions& options) {
   made.output = surface_file(options);
   made.unit = options.common.unit;
   made.method = std::string(Imls::kName);
+  made.thin = options.thin;
+  if (!made.thin) {  // finer details are not asked for
+    made.thin = given_tolerance(options.max_error, options.level);
+    made.thin->value /= 2;
+  }
   made.tile_points = kTilePoints;
   made.tile_folder = tile_folder(options);
   made.keep_tiles = true;  // until the mesh is there

@@ -31,7 +31,8 @@ class PartWork {
       : folder_(folder), part_(part), cloud_(folder), plan_(read_plan(folder)) {}
 
   void look() {
-    const std::vector<NumberedPoint> points = cloud_.read(part_, plan_.halo);
+    const std::vector<NumberedPoint> points =
+        thinned(cloud_.read(part_, plan_.halo), cloud_.normalization(), plan_.thin);
     std::vector<Point> positions;
     for (const NumberedPoint& p : points) positions.push_back(p.position);
     std::vector<Sample> own;

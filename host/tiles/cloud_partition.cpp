@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "host/tiles/records.h"
 #include "sw_model/base/error.h"
@@ -149,6 +151,17 @@ std::vector<NumberedPoint> CloudPartition::read(std::size_t part, double halo) c
   }
   std::ranges::sort(found, {}, &NumberedPoint::number);
   return found;
+}
+
+std::vector<NumberedPoint> thinned(std::vector<NumberedPoint> points,
+                                   const Normalization& normalization, double side) {
+  if (side <= 0) return points;
+  std::set<std::array<double, 3>> taken;
+  std::erase_if(points, [&](const NumberedPoint& p) {
+    const Eigen::Array3d cube = (normalization.apply(p.position).array() / side).floor();
+    return !taken.insert({cube.x(), cube.y(), cube.z()}).second;
+  });
+  return points;
 }
 
 double squared_distance_from(const SpacePartition::Part& part, const Eigen::Vector3d& normalised) {

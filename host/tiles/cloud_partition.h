@@ -28,6 +28,11 @@ struct NumberedPoint {
   std::uint64_t number;  // in the cloud
 };
 
+// Of the points in each cube of a grid the first, where `side` is the cubes', normalised; all where
+// it is 0. So no region stays denser than about a point in each square of the side. O(n).
+std::vector<NumberedPoint> thinned(std::vector<NumberedPoint> points,
+                                   const Normalization& normalization, double side);
+
 // A cloud in files, one for each part of space (SpacePartition), so that a part can be read with
 // what is around it. One pass over the cloud counts, a second one writes 32 bytes a point. Of the
 // memory it takes 64 KB a part, and less than 100 MB to count.

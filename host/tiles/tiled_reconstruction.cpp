@@ -36,10 +36,12 @@ class TiledReconstructor {
                      const std::function<void(double)>& advanced)
       : cloud_(cloud), run_(run), advanced_(advanced) {}
 
-  TiledReconstruction run(const ParameterValues& values, const ScanEstimate& estimate) {
+  TiledReconstruction run(const ParameterValues& values, const ScanEstimate& estimate,
+                          double thin) {
     const double spacing = cloud_.normalization().length(estimate.spacing);
     PartPlan plan;
     plan.values = values;
+    plan.thin = thin;
     plan.halo = kHalo * spacing;
     plan.compared = kCompared * spacing;
     run_step(PartStep::kLook, plan);
@@ -51,7 +53,7 @@ class TiledReconstructor {
     TiledReconstruction result;
     result.mesh = joined();
     result.spacing = plan.spacing / cloud_.normalization().scale;
-    result.left_out = cloud_.points() - known_points_;
+    result.points = known_points_;
     return result;
   }
 
@@ -175,12 +177,14 @@ class TiledReconstructor {
 
 }  // namespace
 
-ScanEstimate estimate_scan(const CloudPartition& cloud) {
+ScanEstimate estimate_scan(const CloudPartition& cloud, double thin) {
   std::vector<double> spacings, noises;
   const std::size_t step = std::max<std::size_t>(1, cloud.parts().size() / kEstimated);
   for (std::size_t part = 0; part < cloud.parts().size(); part += step) {
     std::vector<Point> points;
-    for (const NumberedPoint& p : cloud.read(part, 0)) points.push_back(p.position);
+    for (const NumberedPoint& p : thinned(cloud.read(part, 0), cloud.normalization(), thin)) {
+      points.push_back(p.position);
+    }
     const ScanEstimate estimate = estimate_scan(points);
     if (estimate.spacing <= 0) continue;
     spacings.push_back(estimate.spacing);
@@ -190,9 +194,10 @@ ScanEstimate estimate_scan(const CloudPartition& cloud) {
 }
 
 TiledReconstruction reconstruct_in_tiles(const CloudPartition& cloud, const ParameterValues& values,
-                                         const ScanEstimate& estimate, const RunParts& run,
+                                         const ScanEstimate& estimate, double thin,
+                                         const RunParts& run,
                                          const std::function<void(double)>& advanced) {
-  return TiledReconstructor(cloud, run, advanced).run(values, estimate);
+  return TiledReconstructor(cloud, run, advanced).run(values, estimate, thin);
 }
 
 }  // namespace emax

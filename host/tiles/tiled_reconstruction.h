@@ -13,14 +13,14 @@
 
 namespace emax {
 
-// Medians of the estimates of at most eight parts, evenly spread over their order. Zeros where they
-// are smaller than three points.
-ScanEstimate estimate_scan(const CloudPartition& cloud);
+// Medians of the estimates of at most eight parts, evenly spread over their order, once they are
+// thinned() with this side. Zeros where they are smaller than three points.
+ScanEstimate estimate_scan(const CloudPartition& cloud, double thin = 0);
 
 struct TiledReconstruction {
   TriangleMesh mesh;
-  double spacing = 0;          // the median of the points' own, in the cloud's unit
-  std::uint64_t left_out = 0;  // points in parts that have too few of them
+  double spacing = 0;        // the median of the points' own, in the cloud's unit
+  std::uint64_t points = 0;  // that it was made of
 };
 
 // The surface of a cloud in parts by implicit moving least squares (Imls), with the memory of the
@@ -36,9 +36,11 @@ struct TiledReconstruction {
 // So the surface is that of the whole cloud, triangle by triangle, where the neighbourhoods of
 // points are narrower than the halo and no two points compete for a place in them by equal
 // distances. The bytes depend on the cloud, the parts and the values. About 300 bytes a point in
-// files, O(n log n) time. `advanced`: called with the share of the work that is done.
+// files, O(n log n) time. `thin`: the side of thinned(), 0 for none. `advanced`: called with the
+// share of the work that is done.
 TiledReconstruction reconstruct_in_tiles(const CloudPartition& cloud, const ParameterValues& values,
-                                         const ScanEstimate& estimate, const RunParts& run,
+                                         const ScanEstimate& estimate, double thin,
+                                         const RunParts& run,
                                          const std::function<void(double)>& advanced = nullptr);
 
 }  // namespace emax

@@ -49,10 +49,10 @@ ParameterValues standard(double least_reach = 0) {
 }
 
 TiledReconstruction in_tiles(const std::vector<Point>& points, std::uint64_t most_points,
-                             const ParameterValues& values = standard()) {
+                             const ParameterValues& values = standard(), double thin = 0) {
   const TemporaryFolder folder;
   const CloudPartition cloud(source_of(points), most_points, folder.path());
-  return reconstruct_in_tiles(cloud, values, estimate_scan(cloud), here(cloud));
+  return reconstruct_in_tiles(cloud, values, estimate_scan(cloud, thin), thin, here(cloud));
 }
 
 // Triangles by the positions of their corners, whatever their order.
@@ -81,8 +81,31 @@ TEST(TiledReconstruction, IsTheSurfaceOfTheWholeCloudToTheLastBit) {
       const TiledReconstruction tiled = in_tiles(scan.points, most, standard(1));
       EXPECT_EQ(triangles_of(tiled.mesh), triangles_of(whole)) << scan.name << ' ' << most;
       EXPECT_EQ(tiled.mesh.vertices.size(), whole.vertices.size()) << scan.name << ' ' << most;
-      EXPECT_EQ(tiled.left_out, 0u);
+      EXPECT_EQ(tiled.points, scan.points.size());
     }
+  }
+}
+
+// Which point of a cube is taken does not depend on the parts.
+TEST(TiledReconstruction, ThinsDenseRegionsAlike) {
+  const ScanOfShape scan =
+      scan_of_shape({.shape = "torus", .density = Density::kGraded, .noise = 0.1});
+  const Normalization normalization = normalization_of(scan.points);
+  const double side = normalization.length(1.5);
+  std::vector<NumberedPoint> numbered;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) numbered.push_back({scan.points[i], i});
+  std::vector<Point> expected;
+  for (const NumberedPoint& p : thinned(numbered, normalization, side)) {
+    expected.push_back(p.position);
+  }
+  EXPECT_LT(expected.size(), scan.points.size() / 2);
+  const TiledReconstruction one = in_tiles(scan.points, 100000, standard(), side);
+  EXPECT_EQ(one.points, expected.size());
+  EXPECT_EQ(topology_of(one.mesh.view()), topology_of(scan.surface.view()));
+  for (const std::uint64_t most : {2000u, 700u}) {
+    const TiledReconstruction tiled = in_tiles(scan.points, most, standard(), side);
+    EXPECT_EQ(tiled.points, expected.size());
+    EXPECT_EQ(triangles_of(tiled.mesh), triangles_of(one.mesh));
   }
 }
 
@@ -127,14 +150,14 @@ TEST(TiledReconstruction, GoesOnWithTheStepsThatAreDone) {
     }
   };
   const ScanEstimate estimate = estimate_scan(cloud);
-  EXPECT_THROW(reconstruct_in_tiles(cloud, standard(), estimate, broken), Interrupted);
+  EXPECT_THROW(reconstruct_in_tiles(cloud, standard(), estimate, 0, broken), Interrupted);
   const RunParts rest = [&](PartStep step, std::span<const std::size_t> parts,
                             const std::function<void()>& done) {
     steps += parts.size();
     here(cloud)(step, parts, done);
   };
   const CloudPartition again(folder.path());
-  const TiledReconstruction tiled = reconstruct_in_tiles(again, standard(), estimate, rest);
+  const TiledReconstruction tiled = reconstruct_in_tiles(again, standard(), estimate, 0, rest);
   EXPECT_EQ(steps, 3 * cloud.parts().size() - 9);
   EXPECT_EQ(triangles_of(tiled.mesh), triangles_of(in_tiles(points, 1500).mesh));
 }
