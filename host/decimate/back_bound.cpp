@@ -16,19 +16,31 @@ constexpr int kMostPieces = 1000;  // that the parts of one triangle may be halv
 
 class BackBound::Faces {
  public:
-  explicit Faces(const BackBound& bound) : bound_(bound) {}
+  Faces(const BackBound& bound, Search& search) : bound_(bound), search_(search) {}
 
   const Triangle& corners(std::uint32_t t) const { return bound_.faces_[t].corners; }
   const Point& position(std::uint32_t v) const { return bound_.reference_.position(v); }
   std::uint32_t neighbour(std::uint32_t t, std::size_t side) const {
     return bound_.faces_[t].neighbours[side];
   }
-  bool visited(std::uint32_t t) const { return bound_.faces_[t].seen == bound_.search_; }
-  void visit(std::uint32_t t) { bound_.faces_[t].seen = bound_.search_; }
+  bool visited(std::uint32_t t) const;
+  void visit(std::uint32_t t);
 
  private:
   const BackBound& bound_;
+  Search& search_;
 };
+
+struct BackBound::Search {
+  SheetWalk<Faces> walk;
+  std::vector<std::uint32_t> seen;  // of each triangle, the last search that reached it
+  std::uint32_t number = 0;         // of this search
+  std::vector<std::array<Point, 3>> pieces;
+  int budget = 0;
+};
+
+bool BackBound::Faces::visited(std::uint32_t t) const { return search_.seen[t] == search_.number; }
+void BackBound::Faces::visit(std::uint32_t t) { search_.seen[t] = search_.number; }
 
 BackBound::~BackBound() = default;
 
@@ -37,8 +49,7 @@ BackBound::BackBound(const TriangleMesh& reference, double limit)
       tree_(reference_),
       limit_(limit),
       squared_limit_(limit * limit),
-      faces_(reference_.slots()),
-      walk_(std::make_unique<SheetWalk<Faces>>()) {
+      faces_(reference_.slots()) {
   for (std::uint32_t t = 0; t < reference_.slots(); ++t) {
     Face& face = faces_[t];
     face.corners = reference_.triangle(t);
@@ -171,49 +182,59 @@ Point BackBound::toward(const Point& p, std::uint32_t triangle) const {
   return -foot_on(local_frame(reference_.corners(triangle)), p).residual;
 }
 
-bool BackBound::holds(const std::array<Point, 3>& corners, std::uint32_t near) const {
-  budget_ = kMostPieces;
+std::shared_ptr<BackBound::Search> BackBound::make_search() const {
+  auto search = std::make_shared<Search>();
+  search->seen.resize(faces_.size(), 0);
+  return search;
+}
+
+bool BackBound::holds(const std::array<Point, 3>& corners, std::uint32_t near,
+                      Search& search) const {
   if (near == kNoIndex) return false;
-  const Sheet sheet = follow_sheet(TrianglePlane(corners), near);
-  if (sheet == Sheet::kNoSheet) return halve(corners);
+  search.budget = kMostPieces;
+  const Sheet sheet = follow_sheet(TrianglePlane(corners), near, search);
+  if (sheet == Sheet::kNoSheet) return halve(corners, search);
   return sheet == Sheet::kWithin;
 }
 
-Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near) const {
-  Faces faces(*this);
-  std::uint32_t start = walk_->under_centroid(plane, near, faces);
+Sheet BackBound::follow_sheet(const TrianglePlane& plane, std::uint32_t near,
+                              Search& search) const {
+  Faces faces(*this, search);
+  std::uint32_t start = search.walk.under_centroid(plane, near, faces);
   if (start == kNoIndex) {
     // At a ridge the nearest triangle may lie on the other side of the ridge.
     near = sight(plane.lift(plane.middle()), near).triangle;
     if (near == kNoIndex) return Sheet::kUnproven;
-    start = walk_->under_centroid(plane, near, faces);
+    start = search.walk.under_centroid(plane, near, faces);
   }
   if (start == kNoIndex) return Sheet::kNoSheet;
-  ++search_;
-  return walk_->follow_covering(plane, start, limit_, faces,
-                                [&](const std::vector<PlanarCorner>& part, std::uint32_t t) {
-                                  return part_within(plane, part, t);
-                                });
+  ++search.number;
+  return search.walk.follow_covering(plane, start, limit_, faces,
+                                     [&](const std::vector<PlanarCorner>& part, std::uint32_t t) {
+                                       return part_within(plane, part, t, search);
+                                     });
 }
 
 bool BackBound::part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                            std::uint32_t triangle) const {
+                            std::uint32_t triangle, Search& search) const {
   const bool within = std::ranges::all_of(part, [&](const PlanarCorner& c) {
     return squared_distance(plane.lift(c), reference_.corners(triangle)) <= squared_limit_;
   });
   if (within) return true;
   for (std::size_t i = 2; i < part.size(); ++i) {
-    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])})) return false;
+    if (!halve({plane.lift(part[0]), plane.lift(part[i - 1]), plane.lift(part[i])}, search))
+      return false;
   }
   return true;
 }
 
-bool BackBound::halve(const std::array<Point, 3>& corners) const {
-  pieces_.assign(1, corners);
-  while (!pieces_.empty()) {
-    if (--budget_ < 0) return false;
-    const std::array<Point, 3> piece = pieces_.back();
-    pieces_.pop_back();
+bool BackBound::halve(const std::array<Point, 3>& corners, Search& search) const {
+  std::vector<std::array<Point, 3>>& pieces = search.pieces;
+  pieces.assign(1, corners);
+  while (!pieces.empty()) {
+    if (--search.budget < 0) return false;
+    const std::array<Point, 3> piece = pieces.back();
+    pieces.pop_back();
     const SlotTree::Nearest nearest =
         tree_.nearest(reference_, (piece[0] + piece[1] + piece[2]) / 3, squared_limit_);
     const std::uint32_t candidate = nearest.slot;
@@ -239,8 +260,8 @@ bool BackBound::halve(const std::array<Point, 3>& corners) const {
     const Point& b = piece[(longest + 1) % 3];
     const Point& c = piece[(longest + 2) % 3];
     const Point middle = 0.5 * (a + b);
-    pieces_.push_back({a, middle, c});
-    pieces_.push_back({middle, b, c});
+    pieces.push_back({a, middle, c});
+    pieces.push_back({middle, b, c});
   }
   return true;
 }

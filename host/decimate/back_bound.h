@@ -23,7 +23,7 @@ namespace emax {
 // enough, and all of T where no sheet is under its middle, are halved until each piece is within
 // the limit of one triangle of the reference.
 //
-// O(triangles of the reference over T). Not for concurrent use.
+// O(triangles of the reference over T). Safe for concurrent use, with a Search for each thread.
 class BackBound {
  public:
   // `reference` is manifold, consistently oriented and without degenerate triangles.
@@ -68,18 +68,21 @@ class BackBound {
   // The vector from a point to the nearest point of a triangle of the reference.
   Point toward(const Point& p, std::uint32_t triangle) const;
 
+  // What one thread needs while it searches; 4 bytes a triangle of the reference.
+  struct Search;
+  std::shared_ptr<Search> make_search() const;
   // `near` is the triangle of the reference nearest to corners[0].
-  bool holds(const std::array<Point, 3>& corners, std::uint32_t near) const;
+  bool holds(const std::array<Point, 3>& corners, std::uint32_t near, Search& search) const;
 
  private:
   class Faces;
   class Segment;
 
   double find_usual_rise() const;
-  Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near) const;
+  Sheet follow_sheet(const TrianglePlane& plane, std::uint32_t near, Search& search) const;
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
-                   std::uint32_t triangle) const;
-  bool halve(const std::array<Point, 3>& corners) const;
+                   std::uint32_t triangle, Search& search) const;
+  bool halve(const std::array<Point, 3>& corners, Search& search) const;
 
   EditableMesh reference_;
   SlotTree tree_;
@@ -89,13 +92,8 @@ class BackBound {
   struct Face {
     Triangle corners;
     std::array<std::uint32_t, 3> neighbours;  // through the side that begins at each corner
-    std::uint32_t seen = 0;                   // the last search that reached it
   };
-  mutable std::vector<Face> faces_;
-  mutable std::uint32_t search_ = 0;
-  mutable std::unique_ptr<SheetWalk<Faces>> walk_;
-  mutable std::vector<std::array<Point, 3>> pieces_;
-  mutable int budget_ = 0;
+  std::vector<Face> faces_;
 };
 
 }  // namespace emax

@@ -51,6 +51,7 @@ DecimationPasses::DecimationPasses(DecimationState& state, Options options, std:
       edit_(proposers_.front().edit()),
       batch_(kBatch),
       independent_(state.mesh()) {
+  state_.use_threads(threads);
   mark_fixed();
 }
 
@@ -119,11 +120,12 @@ void DecimationPasses::propose_batch(std::size_t first, std::size_t last, std::s
     EditProposer& proposer = proposers_[thread];
     Found& found = batch_[item];
     found.any = propose(proposer, first + item);
+    if (make && found.any) found.back = state_.judge_back(proposer.edit(), thread);
     std::swap(found.edit, proposer.edit());
     std::swap(found.looked_at, proposer.search().fresh());
   });
   for (std::size_t item = 0; item < last - first; ++item) {
-    if (make && batch_[item].any) make(batch_[item].edit);
+    if (make && batch_[item].any) make(batch_[item].edit, batch_[item].back);
     known_.keep(batch_[item].looked_at, state_.mesh());
   }
 }
@@ -312,8 +314,8 @@ std::size_t DecimationPasses::edit_each(std::vector<Item> left, const Share& who
     propose_each(
         part.size(), Share{from, reached()},
         [&](EditProposer& proposer, std::size_t i) { return propose(proposer, part[i]); },
-        [&](const MeshEdit& edit) {
-          if (!state_.permits(edit)) return;
+        [&](const MeshEdit& edit, DecimationState::BackVerdict& back) {
+          if (!state_.permits(edit, std::move(back))) return;
           state_.apply(edit);
           ++edits;
         });

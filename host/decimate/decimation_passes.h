@@ -103,10 +103,11 @@ class DecimationPasses {
   struct Found {
     bool any = false;
     MeshEdit edit;
+    DecimationState::BackVerdict back;
     KnownEdges::Map looked_at;
   };
   using Propose = std::function<bool(EditProposer&, std::size_t)>;
-  using Make = std::function<void(const MeshEdit&)>;
+  using Make = std::function<void(const MeshEdit&, DecimationState::BackVerdict&)>;
   void propose_batch(std::size_t first, std::size_t last, std::size_t threads,
                      const Propose& propose, const Make& make);
   void propose_each(std::size_t count, const Part& part, const Propose& propose,

@@ -45,6 +45,7 @@ DecimationState::DecimationState(const TriangleMesh& mesh, std::span<const Point
       assigned_(cloud.size(), mesh.triangles.size(), guards.guides),
       tree_(mesh_),
       sight_(mesh.vertices.size()) {
+  use_threads(1);
   take_area_normals();
   for (const Triangle& t : reference_) {
     for (const std::uint32_t p : t) assigned_.make_guide(p);
@@ -108,32 +109,45 @@ std::uint32_t DecimationState::add_vertex(const Point& at) {
   return mesh_.add_vertex(at);
 }
 
-bool DecimationState::permits(const MeshEdit& edit, bool tolerant) {
+bool DecimationState::permits(const MeshEdit& edit, BackVerdict back, bool tolerant) {
+  judged_ = std::move(back);
+  if (!judged_.keeps) return false;
   const Point before = edit.vertex == kNoIndex ? Point::Zero() : mesh_.position(edit.vertex);
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, edit.position);
-  const auto judge = [&] {
-    added_break_.assign(edit.added.size(), 0);
-    if (back_ != nullptr && edit.vertex != kNoIndex) {
-      moved_ = back_->sight_from(edit.position, sight_[edit.vertex].triangle);
-      if (!(moved_.share <= permitted_back_)) moved_ = back_->sight(edit.position, moved_.triangle);
-    }
-    if (back_ != nullptr && !EMAX_FAULT(kSkipsBackBound) && !keeps_back_bound(edit)) return false;
-    return loosened() || !cover_ || cover_->permits(mesh_, assigned_, edit, tolerant);
-  };
-  const bool judged = judge();
+  const bool covers = loosened() || !cover_ || cover_->permits(mesh_, assigned_, edit, tolerant);
   const bool meets =
-      judged && !EMAX_FAULT(kSkipsIntersections) && (meets_itself(edit) || meets_another(edit));
+      covers && !EMAX_FAULT(kSkipsIntersections) && (meets_itself(edit) || meets_another(edit));
   const std::size_t after = meets ? crossings(edit.added, edit.removed) : 0;
   if (edit.vertex != kNoIndex) mesh_.move(edit.vertex, before);
-  if (!meets) return judged;
+  if (!meets) return covers;
   removed_.clear();
   for (const std::uint32_t slot : edit.removed) removed_.push_back(mesh_.triangle(slot));
   return after <= crossings(removed_, edit.removed);
 }
 
-bool DecimationState::keeps_back_bound(const MeshEdit& edit) {
-  if (edit.vertex != kNoIndex && !(moved_.share <= permitted_back_) &&
-      !(may_stay_beyond_ && moved_.share <= sight_[edit.vertex].share)) {
+void DecimationState::use_threads(std::size_t threads) {
+  while (back_ != nullptr && searches_.size() < threads) searches_.push_back(back_->make_search());
+}
+
+DecimationState::BackVerdict DecimationState::judge_back(const MeshEdit& edit,
+                                                         std::size_t thread) const {
+  BackVerdict verdict;
+  verdict.added_break.assign(edit.added.size(), 0);
+  if (back_ == nullptr) return verdict;
+  BackBound::Sight& moved = verdict.moved;
+  if (edit.vertex != kNoIndex) {
+    moved = back_->sight_from(edit.position, sight_[edit.vertex].triangle);
+    if (!(moved.share <= permitted_back_)) moved = back_->sight(edit.position, moved.triangle);
+  }
+  if (!EMAX_FAULT(kSkipsBackBound)) verdict.keeps = keeps_back_bound(edit, verdict, thread);
+  return verdict;
+}
+
+bool DecimationState::keeps_back_bound(const MeshEdit& edit, BackVerdict& verdict,
+                                       std::size_t thread) const {
+  const BackBound::Sight& moved = verdict.moved;
+  if (edit.vertex != kNoIndex && !(moved.share <= permitted_back_) &&
+      !(may_stay_beyond_ && moved.share <= sight_[edit.vertex].share)) {
     return false;
   }
   if (loosened()) return true;
@@ -143,6 +157,9 @@ bool DecimationState::keeps_back_bound(const MeshEdit& edit) {
   // are beyond.
   const bool splits = edit.added.size() > edit.removed.size();
   if (splits && spare > 0) spare = std::ssize(edit.added);
+  const auto position = [&](std::uint32_t v) {
+    return v == edit.vertex ? edit.position : mesh_.position(v);
+  };
   for (std::size_t k = 0; k < edit.added.size(); ++k) {
     const Triangle& t = edit.added[k];
     // Begins at the vertex that moved, or at any vertex if none did.
@@ -150,12 +167,12 @@ bool DecimationState::keeps_back_bound(const MeshEdit& edit) {
     if (edit.vertex != kNoIndex) {
       while (i < 2 && t[i] != edit.vertex) ++i;
     }
-    const std::uint32_t near = t[i] == edit.vertex ? moved_.triangle : sight_[t[i]].triangle;
-    const std::array<Point, 3> corners = {mesh_.position(t[i]), mesh_.position(t[(i + 1) % 3]),
-                                          mesh_.position(t[(i + 2) % 3])};
-    if (back_->holds(corners, near)) continue;
+    const std::uint32_t near = t[i] == edit.vertex ? moved.triangle : sight_[t[i]].triangle;
+    const std::array<Point, 3> corners = {position(t[i]), position(t[(i + 1) % 3]),
+                                          position(t[(i + 2) % 3])};
+    if (back_->holds(corners, near, *searches_[thread])) continue;
     if (spare-- <= 0) return false;
-    added_break_[k] = 1;
+    verdict.added_break[k] = 1;
   }
   return true;
 }
@@ -253,7 +270,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   for (const std::uint32_t slot : edit.removed) mesh_.clear(slot);
   if (edit.vertex != kNoIndex) {
     mesh_.move(edit.vertex, edit.position);
-    if (back_ != nullptr) sight_[edit.vertex] = moved_;
+    if (back_ != nullptr) sight_[edit.vertex] = judged_.moved;
   }
   placed_.clear();
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
@@ -270,7 +287,8 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   if (!breaks_back_.empty()) {
     breaks_back_.resize(mesh_.slots(), 0);
     for (const std::uint32_t slot : edit.removed) breaks_back_[slot] = 0;
-    for (std::size_t i = 0; i < placed_.size(); ++i) breaks_back_[placed_[i]] = added_break_[i];
+    for (std::size_t i = 0; i < placed_.size(); ++i)
+      breaks_back_[placed_[i]] = judged_.added_break[i];
   }
   if (cover_ && !loosened()) cover_->apply(placed_, undo == nullptr ? nullptr : &undo->cover);
   assigned_.add_slots(mesh_.slots());
@@ -324,12 +342,27 @@ std::size_t DecimationState::attach_others() {
 void DecimationState::test_back_bound() {
   if (back_ == nullptr) return;
   breaks_back_.assign(mesh_.slots(), 0);
-  for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
-    if (!mesh_.alive(slot)) continue;
-    const std::uint32_t first = mesh_.triangle(slot)[0];
-    sight_[first] = back_->sight(mesh_.position(first), sight_[first].triangle);
-    breaks_back_[slot] = back_->holds(mesh_.corners(slot), sight_[first].triangle) ? 0 : 1;
-  }
+  std::vector<std::uint32_t> slots = mesh_.alive_slots();
+  std::vector<std::uint32_t> first;  // a corner of each
+  for (const std::uint32_t slot : slots) first.push_back(mesh_.triangle(slot)[0]);
+  sort_once(first);
+  constexpr std::size_t kPiece = 64;
+  in_pieces(guards_.threads, first.size(), kPiece,
+            [&](std::size_t, std::size_t begin, std::size_t end) {
+              for (std::size_t i = begin; i < end; ++i) {
+                BackBound::Sight& sight = sight_[first[i]];
+                sight = back_->sight(mesh_.position(first[i]), sight.triangle);
+              }
+            });
+  use_threads(guards_.threads);
+  in_pieces(
+      guards_.threads, slots.size(), kPiece,
+      [&](std::size_t thread, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t slot = slots[i], near = sight_[mesh_.triangle(slot)[0]].triangle;
+          breaks_back_[slot] = back_->holds(mesh_.corners(slot), near, *searches_[thread]) ? 0 : 1;
+        }
+      });
 }
 
 bool DecimationState::keep_limits() {

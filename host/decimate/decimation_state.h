@@ -112,7 +112,20 @@ class DecimationState {
   // limit, and no more pairs of triangles meet than before. Points are not checked. With
   // `tolerant`, triangles of the reference may go beyond the limit; given_up() then lists them, and
   // prove() can prove them again.
-  bool permits(const MeshEdit& edit, bool tolerant = false);
+  bool permits(const MeshEdit& edit, bool tolerant = false) {
+    return permits(edit, judge_back(edit, 0), tolerant);
+  }
+  // The part of it that is about the back bound. It reads the mesh around the edit alone. Safe for
+  // concurrent use by threads of different numbers, below that of use_threads().
+  struct BackVerdict {
+    bool keeps = true;
+    BackBound::Sight moved;         // of the vertex's new position
+    std::vector<char> added_break;  // of each added triangle
+  };
+  void use_threads(std::size_t threads);  // 1 at first
+  BackVerdict judge_back(const MeshEdit& edit, std::size_t thread) const;
+  // With what judge_back() gave, since when nothing has changed that it reads.
+  bool permits(const MeshEdit& edit, BackVerdict back, bool tolerant = false);
   std::span<const std::uint32_t> given_up() const {
     return cover_ ? cover_->given_up() : std::span<const std::uint32_t>{};
   }
@@ -166,7 +179,7 @@ class DecimationState {
     double roundings;  // bound of the rounding of normal times distance, divided by the distance
   };
   SlotTree::Nearest nearest_of(std::uint32_t point, std::uint32_t hint) const;
-  bool keeps_back_bound(const MeshEdit& edit);
+  bool keeps_back_bound(const MeshEdit& edit, BackVerdict& verdict, std::size_t thread) const;
   void cover_reference();
   bool meets_another(const MeshEdit& edit);
   bool meets_itself(const MeshEdit& edit) const;
@@ -190,11 +203,11 @@ class DecimationState {
   std::optional<ReferenceCover> cover_;
   std::vector<Point> area_normals_;  // of each slot
   bool complete_ = false;
-  std::vector<BackBound::Sight> sight_;  // of each vertex
-  BackBound::Sight moved_;               // of the new position of the edit last permitted
-  std::vector<char> breaks_back_;        // of each slot; empty where all keep the bound
-  std::vector<char> added_break_;        // of each triangle that the edit last permitted adds
-  std::vector<std::uint32_t> placed_;    // scratch: slots of the added triangles
+  std::vector<BackBound::Sight> sight_;                       // of each vertex
+  std::vector<std::shared_ptr<BackBound::Search>> searches_;  // of each thread
+  BackVerdict judged_;                                        // of the edit last permitted
+  std::vector<char> breaks_back_;      // of each slot; empty where all keep the bound
+  std::vector<std::uint32_t> placed_;  // scratch: slots of the added triangles
   std::vector<Shape> shapes_;
   std::vector<Triangle> removed_;
 };

@@ -30,7 +30,7 @@ class BackBoundTwin : public testing::Test {
     const ExactMesh reference(mesh.view());
     for (const std::array<Point, 3>& t : triangles) {
       const double exact = farthest(t, reference);
-      const bool held = bound.holds(t, bound.sight(t[0]).triangle);
+      const bool held = bound.holds(t, bound.sight(t[0]).triangle, *bound.make_search());
       EXPECT_TRUE(!held || exact <= limit * (1 + 1e-9)) << exact;
       within_ += exact < 0.95 * limit ? 1 : 0;
       proven_ += held ? 1 : 0;
@@ -120,7 +120,7 @@ TEST(BackBound, ProvesATriangleThatHangsOverAnEdge) {
   for (const double over : {0.0, 0.2, 0.6, 0.9, 1.1}) {
     const double x = 1 + over * kLimit;
     const std::array<Point, 3> t = {Point(-0.9, -0.8, 1), Point(x, -0.9, 1), Point(x, 0.9, 1)};
-    EXPECT_EQ(bound.holds(t, bound.sight(t[0]).triangle), over < 1) << over;
+    EXPECT_EQ(bound.holds(t, bound.sight(t[0]).triangle, *bound.make_search()), over < 1) << over;
   }
 }
 
@@ -215,8 +215,8 @@ TEST(BackBound, RefusesWhatItDoesNotSee) {
   const BackBound bound(bumpy(10, 16), 0.05);
   const std::array<Point, 3> away = {Point(5, 0, 0), Point(6, 0, 0), Point(5, 1, 0)};
   EXPECT_EQ(bound.sight(away[0]).triangle, kNoIndex);
-  EXPECT_FALSE(bound.holds(away, kNoIndex));
-  EXPECT_FALSE(bound.holds(away, 0));
+  EXPECT_FALSE(bound.holds(away, kNoIndex, *bound.make_search()));
+  EXPECT_FALSE(bound.holds(away, 0, *bound.make_search()));
 }
 
 }  // namespace
