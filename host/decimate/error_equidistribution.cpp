@@ -27,8 +27,8 @@ constexpr int kVainRepairs = 6;                   // in a row
 // them, and this is more than a share of the triangles: each of these rounds takes long, and in the
 // end too many triangles would be left.
 constexpr std::size_t kSlowRepairs = 8;
-constexpr double kSlow = 0.8, kManyInRepair = 0.01;
-constexpr double kFew = 20;            // triangles, which are never many
+constexpr double kSlow = 0.8, kManyInRepair = 0.03;
+constexpr double kFew = 100;           // triangles, which are never many
 constexpr int kExactTries = 2;         // of the exact limits
 constexpr int kFirstRestorations = 2;  // rounds without splits
 constexpr double kStuckRadius = 1.5;   // times the longest edge of what is stuck
@@ -145,7 +145,7 @@ bool ErrorEquidistribution::restore(double most) {
     if (i > 0) state_.loosen(kLessLoosened, kLoosened);
     if (!restore_loosely(most, i == 0 ? kFewBeyond : 0)) return false;
     if (restore_exactly()) return true;
-    if (are_many(static_cast<double>(still_beyond().size()), kFewBeyond)) return false;
+    if (are_many(static_cast<double>(still_beyond().size()), kManyInRepair)) return false;
   }
   return false;
 }
