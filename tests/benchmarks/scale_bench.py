@@ -102,6 +102,8 @@ def measure_error(store, points):
     result["triangles"] = store.get("reconstruct", MESH_POINTS)["triangles"]
     result["points"] = result.pop("answer")["points"]
     store.put(("error", points), result)
+    if points > max(RECONSTRUCTED):
+        scan(points).unlink()
 
 
 def measure_tiles(store):
@@ -121,8 +123,6 @@ def measure(store, most):
     for points in MEASURED:
         if points <= most:
             measure_error(store, points)
-            if points > max(RECONSTRUCTED):
-                scan(points).unlink()
     measure_tiles(store)
 
 

@@ -65,7 +65,7 @@ std::vector<Corners> triangles_of(const TriangleMesh& mesh) {
       const Point& p = mesh.vertices[t[k]];
       corners[k] = {p.x(), p.y(), p.z()};
     }
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     all.push_back(corners);
   }
   std::ranges::sort(all);
