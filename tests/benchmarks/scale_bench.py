@@ -17,7 +17,9 @@ import sys
 import time
 from pathlib import Path
 
+import decimation_bench
 import sections
+from decimation_bench import say
 
 PROGRAMS = Path("build/bench/bin")
 FOLDER = Path("build/bench/scale")
@@ -27,31 +29,14 @@ MESH_POINTS = 10**6  # of whose surface clouds are measured from
 DRAGON, PERCENT, TILE = Path("data/dragon.ply"), 0.2, 250000
 
 
-def say(text):
-    print(f"bench: {text}", flush=True)
-
-
-class Store:
-    """One JSON object a result; a later one of the same key stands."""
+class Store(decimation_bench.Store):
+    """The results of this benchmark, each told when it is known."""
 
     def __init__(self, folder):
-        folder.mkdir(parents=True, exist_ok=True)
-        self.file, self.results = folder / "results.jsonl", {}
-        for line in self.file.read_text().splitlines() if self.file.exists() else []:
-            try:
-                result = json.loads(line)
-                self.results[tuple(result["key"])] = result
-            except (ValueError, KeyError):  # torn by an interruption
-                pass
-
-    def get(self, *key):
-        return self.results.get(key)
+        super().__init__(folder / "results.jsonl")
 
     def put(self, key, result):
-        result["key"] = list(key)
-        self.results[key] = result
-        with self.file.open("a") as file:
-            file.write(json.dumps(result) + "\n")
+        super().put(key, result)
         say(f"{' '.join(map(str, key))}: {result['seconds']:.0f} s, {result['bytes'] / 1e6:.0f} MB")
 
 
