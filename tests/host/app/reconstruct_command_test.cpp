@@ -1,13 +1,12 @@
 // `emax reconstruct` as a person sees it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "host/files/mesh_file.h"
 #include "tests/host/app/program.h"
+#include "tests/host/support/corner_positions.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax {
@@ -27,21 +26,8 @@ class ReconstructCommand : public testing::Test {
   }
   std::string bytes(const std::string& name) { return test::file_text(folder_ / name); }
 
-  // By the positions of the corners, whatever their order.
-  std::vector<std::array<std::array<double, 3>, 3>> triangles(const std::string& name) {
-    const TriangleMesh mesh = read_mesh(folder_ / name);
-    std::vector<std::array<std::array<double, 3>, 3>> all;
-    for (const Triangle& t : mesh.triangles) {
-      std::array<std::array<double, 3>, 3> corners;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Point& p = mesh.vertices[t[k]];
-        corners[k] = {p.x(), p.y(), p.z()};
-      }
-      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
-      all.push_back(corners);
-    }
-    std::ranges::sort(all);
-    return all;
+  std::vector<test::CornerPositions> triangles(const std::string& name) {
+    return test::corner_positions(read_mesh(folder_ / name));
   }
 
   test::TemporaryFolder folder_;

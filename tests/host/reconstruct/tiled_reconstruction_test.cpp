@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <random>
-#include <tuple>
 
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
@@ -13,6 +10,7 @@
 #include "host/reconstruct/part_surface.h"
 #include "host/reconstruct/reconstruction.h"
 #include "sw_model/base/error.h"
+#include "tests/host/support/corner_positions.h"
 #include "tests/host/support/scanned_shapes.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -55,23 +53,6 @@ TiledReconstruction in_tiles(const std::vector<Point>& points, std::uint64_t mos
   return reconstruct_in_tiles(cloud, values, estimate_scan(cloud, thin), thin, here(cloud));
 }
 
-// Triangles by the positions of their corners, whatever their order.
-using Corners = std::array<std::array<double, 3>, 3>;
-std::vector<Corners> triangles_of(const TriangleMesh& mesh) {
-  std::vector<Corners> all;
-  for (const Triangle& t : mesh.triangles) {
-    Corners corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Point& p = mesh.vertices[t[k]];
-      corners[k] = {p.x(), p.y(), p.z()};
-    }
-    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
-    all.push_back(corners);
-  }
-  std::ranges::sort(all);
-  return all;
-}
-
 // Smooth noise spares the ties between distances that a grid would have.
 TEST(TiledReconstruction, IsTheSurfaceOfTheWholeCloudToTheLastBit) {
   for (const std::string_view shape : {"sphere", "torus", "sheet", "slots"}) {
@@ -79,7 +60,7 @@ TEST(TiledReconstruction, IsTheSurfaceOfTheWholeCloudToTheLastBit) {
     const TriangleMesh whole = reconstruct(Imls::kName, scan.points, standard(1)).mesh;
     for (const std::uint64_t most : {100000u, 2000u, 700u}) {
       const TiledReconstruction tiled = in_tiles(scan.points, most, standard(1));
-      EXPECT_EQ(triangles_of(tiled.mesh), triangles_of(whole)) << scan.name << ' ' << most;
+      EXPECT_EQ(corner_positions(tiled.mesh), corner_positions(whole)) << scan.name << ' ' << most;
       EXPECT_EQ(tiled.mesh.vertices.size(), whole.vertices.size()) << scan.name << ' ' << most;
       EXPECT_EQ(tiled.points, scan.points.size());
     }
@@ -105,7 +86,7 @@ TEST(TiledReconstruction, ThinsDenseRegionsAlike) {
   for (const std::uint64_t most : {2000u, 700u}) {
     const TiledReconstruction tiled = in_tiles(scan.points, most, standard(), side);
     EXPECT_EQ(tiled.points, expected.size());
-    EXPECT_EQ(triangles_of(tiled.mesh), triangles_of(one.mesh));
+    EXPECT_EQ(corner_positions(tiled.mesh), corner_positions(one.mesh));
   }
 }
 
@@ -159,7 +140,7 @@ TEST(TiledReconstruction, GoesOnWithTheStepsThatAreDone) {
   const CloudPartition again(folder.path());
   const TiledReconstruction tiled = reconstruct_in_tiles(again, standard(), estimate, 0, rest);
   EXPECT_EQ(steps, 3 * cloud.parts().size() - 9);
-  EXPECT_EQ(triangles_of(tiled.mesh), triangles_of(in_tiles(points, 1500).mesh));
+  EXPECT_EQ(corner_positions(tiled.mesh), corner_positions(in_tiles(points, 1500).mesh));
 }
 
 }  // namespace
