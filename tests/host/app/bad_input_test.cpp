@@ -184,7 +184,7 @@ TEST_F(BadInput, Options) {
       test::run_emax({"error", "scan.xyz", "surface.off", "--quantile", "nan"}, folder_.path()),
       {"--quantile", "0 to 100"});
   expect_refusal(test::run_emax({"optimise", "scan.xyz"}, folder_.path()),
-                 {"optimise", "did you mean optimize?", "optimize, decimate"});
+                 {"optimise", "did you mean optimize?", "optimize, reconstruct, decimate"});
   expect_refusal(optimize({"scan.xyz", "--max-eror", "1%", "-o", "out.ply"}),
                  {"--max-eror", "did you mean --max-error?", "optimize --help"});
   expect_refusal(with("--exclude-outliers", "1.5"), {"--exclude-outliers"});
