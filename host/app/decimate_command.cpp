@@ -146,6 +146,7 @@ class DecimateCommand {
 
   int run_once() {
     progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
+    settings_.early = [this](const CertifiedDecimation& made) { write_early(made); };
     result_ = decimate_scan(reference_.surface.mesh, scan_, kept_, settings_,
                             options_.tile_triangles, options_.machines.tiles.get());
     judge();
@@ -160,6 +161,16 @@ class DecimateCommand {
     }
     write_json();
     return exit_code(feasible_);
+  }
+
+  // What is left of long work if it is killed.
+  void write_early(const CertifiedDecimation& made) {
+    result_ = made;
+    prove_and_write();
+    if (!feasible_) return;
+    facts_.add_passing("so far", "{}: {} triangles, certified", output_.string(),
+                       grouped(made.mesh.triangles.size()));
+    std::fflush(stdout);
   }
 
   // A mesh for each bound, the smallest first, from one sequence of collapses.
@@ -230,6 +241,10 @@ class DecimateCommand {
   // Proves the decimator's result, and writes it if it keeps the bounds.
   void judge() {
     progress_.begin("certifying the result", certifying_seconds(kept_.points.size()));
+    prove_and_write();
+  }
+
+  void prove_and_write() {
     proven_ = proofs_of(result_, scan_);
     feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     if (feasible_) write();

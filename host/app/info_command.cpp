@@ -16,6 +16,7 @@
 #include "host/geometry/scan_estimate.h"
 #include "host/report/json_parts.h"
 #include "sw_model/base/error.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
@@ -42,7 +43,7 @@ Contents read(const InfoOptions& options) {
     contents.mesh = read_mesh_file(options.file);
     contents.cloud.points = contents.mesh->mesh.vertices;
     contents.cloud.unit = contents.mesh->unit;
-    contents.validity = check_mesh(contents.mesh->mesh.view());
+    contents.validity = check_mesh(contents.mesh->mesh.view(), processor_threads());
     contents.topology = topology_of(contents.mesh->mesh.view());
   } else {
     contents.cloud = read_cloud(options.file, options.reading);

@@ -47,15 +47,20 @@ CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& sca
   const auto in_tiles = [&](const DecimationSettings& bounded) {
     return TiledDecimator(reference, kept.points, tile, *runner).run(bounded);
   };
-  CertifiedDecimation made = tile == 0
-                                 ? decimate_certified(reference, kept.points, settings)
-                                 : decimate_certified(reference, kept.points, settings, in_tiles);
-  if (kept.outliers.empty()) return made;
-  std::vector<std::uint32_t> excluded = kept.outliers;
-  for (const std::uint32_t i : made.points.excluded) excluded.push_back(kept.index[i]);
-  std::ranges::sort(excluded);
-  made.points = certify(scan.cloud.points, made.mesh.view(), excluded);
-  return made;
+  const auto of_scan = [&](CertifiedDecimation made) {
+    if (kept.outliers.empty()) return made;
+    std::vector<std::uint32_t> excluded = kept.outliers;
+    for (const std::uint32_t i : made.points.excluded) excluded.push_back(kept.index[i]);
+    std::ranges::sort(excluded);
+    made.points = certify(scan.cloud.points, made.mesh.view(), excluded);
+    return made;
+  };
+  if (tile == 0) return of_scan(decimate_certified(reference, kept.points, settings));
+  CertifiedDecimationSettings tiled = settings;
+  if (settings.early) {
+    tiled.early = [&](const CertifiedDecimation& made) { settings.early(of_scan(made)); };
+  }
+  return of_scan(decimate_certified(reference, kept.points, tiled, in_tiles));
 }
 
 ProvenMesh proofs_of(const CertifiedDecimation& made, const Scan& scan) {

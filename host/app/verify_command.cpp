@@ -210,7 +210,7 @@ class Verification {
     check_error();
     check_kernel();
     if (certificate_.reference) check_reference(mesh_);
-    const MeshValidity validity = check_mesh(mesh_.view());
+    const MeshValidity validity = check_mesh(mesh_.view(), processor_threads());
     require("validity",
             validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");

@@ -34,6 +34,15 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
                                    double far, const std::function<bool()>& interrupted = nullptr,
                                    MadeManifold how = MadeManifold::kByDropping);
 
+struct DecimatedMesh {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> left_out;  // points farther than epsilon from the start
+  bool interrupted = false;
+  // Where the work ended early because of the rival: the triangles that all of it would have left,
+  // estimated. Otherwise 0.
+  std::size_t expected = 0;
+};
+
 struct DecimationSettings {
   double epsilon = 0;  // greatest distance of a point of the cloud from the mesh
   bool two_sided = true;
@@ -83,15 +92,8 @@ struct DecimationSettings {
   // Called from time to time with an estimate of the share of the work that is done, from 0 to 1,
   // and the triangles left. With kDeep the time of the last part is not known.
   std::function<void(double, std::size_t)> advanced = nullptr;
-};
-
-struct DecimatedMesh {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> left_out;  // points farther than epsilon from the start
-  bool interrupted = false;
-  // Where the work ended early because of the rival: the triangles that all of it would have left,
-  // estimated. Otherwise 0.
-  std::size_t expected = 0;
+  // Called once in long work, of TiledDecimator alone, with a mesh within the bounds.
+  std::function<void(DecimatedMesh)> early = nullptr;
 };
 
 // Decimation under a certified bound: as few triangles as can be found such that every point of the

@@ -22,7 +22,7 @@ class Attempts {
            const CertifiedDecimationSettings& settings, const Decimate& decimate)
       : reference_(reference),
         exact_reference_(reference.view()),
-        own_validity_(check_mesh(reference.view())),
+        own_validity_(check_mesh(reference.view(), settings.decimation.threads)),
         cloud_(cloud),
         settings_(settings),
         decimate_(decimate),
@@ -58,10 +58,19 @@ class Attempts {
     DecimationSettings settings = settings_.decimation;
     settings.epsilon = epsilon_ * (1 - reduction);
     settings.epsilon_back = epsilon_back_ * (1 - reduction);
+    if (settings_.early) {
+      settings.early = [this](DecimatedMesh early) { show(std::move(early)); };
+    }
     DecimatedMesh decimated = decimate_(settings);
     result_.interrupted = result_.interrupted || decimated.interrupted;
     left_out_.insert(left_out_.end(), decimated.left_out.begin(), decimated.left_out.end());
     return std::move(decimated.mesh);
+  }
+
+  void show(DecimatedMesh early) {
+    std::swap(left_out_, early.left_out);
+    if (holds(early.mesh)) settings_.early(result_);
+    std::swap(left_out_, early.left_out);
   }
 
   // Checks the mesh as it is stored.

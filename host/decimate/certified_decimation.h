@@ -12,11 +12,6 @@
 
 namespace emax {
 
-struct CertifiedDecimationSettings {
-  DecimationSettings decimation;
-  Storage storage = Storage::kExact;  // the mesh is checked as it is stored in this way
-};
-
 // A decimated mesh within all bounds, with its proofs.
 struct CertifiedDecimation {
   TriangleMesh mesh;      // as stored
@@ -26,6 +21,13 @@ struct CertifiedDecimation {
   std::optional<SurfaceDistance> reference_to_mesh;  // if two-sided
   bool interrupted = false;
   int repairs = 0;  // how often a result missed a bound and was made again
+};
+
+struct CertifiedDecimationSettings {
+  DecimationSettings decimation;
+  Storage storage = Storage::kExact;  // the mesh is checked as it is stored in this way
+  // Called with a mesh that is certified before the work ends (DecimationSettings::early).
+  std::function<void(const CertifiedDecimation&)> early = nullptr;
 };
 
 // Runs BoundedDecimator and checks its result with code that it does not share: the certificate,

@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 namespace emax {
 
 // Sets of the numbers 0 to size - 1. At first each number is a set of its own. The least number of
-// a set is its root. Nearly O(1) a call.
+// a set is its root. Nearly O(1) a call. Four bytes a number.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  // Throws std::length_error for more than 2^32 numbers.
+  explicit DisjointSets(std::size_t size) {
+    if (size > std::size_t{1} << 32) throw std::length_error("more than 2^32 numbers in sets");
+    parent_.resize(size);
+    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
   }
   std::size_t root(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -22,12 +27,12 @@ class DisjointSets {
   bool join(std::size_t i, std::size_t j) {
     i = root(i);
     j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
+    parent_[std::max(i, j)] = static_cast<std::uint32_t>(std::min(i, j));
     return i != j;
   }
 
  private:
-  std::vector<std::size_t> parent_;
+  std::vector<std::uint32_t> parent_;
 };
 
 }  // namespace emax

@@ -1,14 +1,11 @@
 #include "host/geometry/mesh_validity.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
-#include "host/geometry/box_pairs.h"
 #include "host/geometry/disjoint_sets.h"
 #include "host/geometry/edge_sides.h"
-#include "host/geometry/exact_predicates.h"
-#include "host/geometry/triangle_pair.h"
+#include "host/geometry/self_intersections.h"
 
 namespace emax {
 namespace {
@@ -39,33 +36,22 @@ void check_topology(const MeshView& mesh, MeshValidity& validity) {
       static_cast<std::size_t>(std::count(fans_at.begin(), fans_at.end(), 2));
 }
 
+// Several slabs for each thread.
+std::size_t slab_for(const MeshView& mesh, std::size_t threads) {
+  if (threads == 1) return kTrianglesOfASlab;
+  constexpr std::size_t kLeast = 4096;
+  return std::clamp(mesh.triangles.size() / (4 * threads), kLeast, kTrianglesOfASlab);
+}
+
 }  // namespace
 
-MeshValidity check_mesh(const MeshView& mesh) {
+MeshValidity check_mesh(const MeshView& mesh, std::size_t threads) {
   MeshValidity validity;
   check_topology(mesh, validity);
-
-  std::vector<Bounds> boxes;
-  std::vector<std::uint32_t> triangle_of;  // of each box
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::array<Point, 3> corners = mesh.corners(t);
-    if (repeats_index(mesh.triangles[t]) || collinear(corners[0], corners[1], corners[2])) {
-      ++validity.degenerate_triangles;
-      continue;
-    }
-    boxes.push_back(bounds_of(corners));
-    triangle_of.push_back(static_cast<std::uint32_t>(t));
-  }
-  std::vector<std::uint8_t> intersects(mesh.triangles.size(), 0);
-  BoxPairs(boxes).for_each([&](std::uint32_t i, std::uint32_t j) {
-    const std::uint32_t first = triangle_of[i];
-    const std::uint32_t second = triangle_of[j];
-    if (!intersect_beyond_shared(mesh, first, second)) return;
-    ++validity.self_intersections;
-    intersects[first] = intersects[second] = 1;
-  });
-  validity.self_intersecting_triangles =
-      static_cast<std::size_t>(std::count(intersects.begin(), intersects.end(), 1));
+  const SelfIntersections found = self_intersections(mesh, threads, slab_for(mesh, threads));
+  validity.degenerate_triangles = found.flat;
+  validity.self_intersections = found.pairs;
+  validity.self_intersecting_triangles = found.triangles.size();
   return validity;
 }
 

@@ -45,16 +45,21 @@ class TiledDecimator::Run {
       cut(kFirstCuts[round]);
       decimate_patches(round);
       if (patches_.size() == 1) break;
+      if (round == 0 && settings_.early && !stopped_) settings_.early(reached());
     }
+    return reached();
+  }
+
+ private:
+  DecimatedMesh reached() const {
+    DecimatedMesh result{compact(), left_out_, stopped_, 0};
     for (std::uint32_t p = 0; p < seen_.size(); ++p) {
-      if (seen_[p] == 0) left_out_.push_back(p);  // near no tile
+      if (seen_[p] == 0) result.left_out.push_back(p);  // near no tile
     }
-    DecimatedMesh result{compact(), std::move(left_out_), stopped_, 0};
     sort_once(result.left_out);
     return result;
   }
 
- private:
   Bounds box_of(const Triangle& t) const {
     return bounds_of(std::array{mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
   }
@@ -150,6 +155,7 @@ class TiledDecimator::Run {
     own.rival = 0;
     own.progress = nullptr;
     own.advanced = nullptr;
+    own.early = nullptr;
     if (round == 0 && patches_.size() > 1 && own.effort != Effort::kSweep) {
       own.effort = Effort::kCollapse;
     }

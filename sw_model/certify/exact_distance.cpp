@@ -96,6 +96,7 @@ double squared_distance_to_box(const Point& p, const Point& low, const Point& hi
 }
 
 constexpr std::uint32_t kLeafSize = 4;
+constexpr std::uint32_t kNone = ~0u;
 constexpr std::size_t kMostLevels = 64;  // a median split halves 2^32 triangles in 32 levels
 
 DistanceBounds bounds(const Point& p, const std::array<Point, 3>& corners) {
@@ -204,27 +205,19 @@ ExactMesh::ExactMesh(MeshView mesh) {
   require_no_flush("the exact distance");
   require_measurable(mesh);
   const std::size_t count = mesh.triangles.size();
-  corners_.reserve(count);
-  std::vector<Centre> centres;
-  centres.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::array<Point, 3> corners = mesh.corners(i);
-    corners_.push_back(corners);
-    centres.push_back({corners[0] / 3 + corners[1] / 3 + corners[2] / 3, i});
+  {
+    std::vector<Centre> centres;
+    centres.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::array<Point, 3> corners = mesh.corners(i);
+      centres.push_back({corners[0] / 3 + corners[1] / 3 + corners[2] / 3, i});
+    }
+    nodes_.reserve(2 * count / kLeafSize + 1);
+    build(mesh, 0, static_cast<std::uint32_t>(count), centres);
+    order_.resize(count);
+    for (std::uint32_t place = 0; place < count; ++place) order_[place] = centres[place].triangle;
   }
-  nodes_.reserve(2 * count / kLeafSize + 1);
-  build(0, static_cast<std::uint32_t>(count), centres);
-
-  // Leaves read their corners in the order of the tree.
-  order_.resize(count);
-  place_of_.resize(count);
-  std::vector<std::array<Point, 3>> by_place(count);
-  for (std::uint32_t place = 0; place < count; ++place) {
-    order_[place] = centres[place].triangle;
-    place_of_[order_[place]] = place;
-    by_place[place] = corners_[order_[place]];
-  }
-  corners_ = std::move(by_place);
+  take_triangles(mesh);
   const double extent = (nodes_[0].high - nodes_[0].low).maxCoeff();
   if (extent > 0x1p-900) {
     scale_ = std::ldexp(1, -std::ilogb(extent));
@@ -232,11 +225,31 @@ ExactMesh::ExactMesh(MeshView mesh) {
   }
   is_sliver_.resize(count);
   for (std::uint32_t place = 0; place < count; ++place) {
-    is_sliver_[place] = is_sliver(corners_[place], scale_) ? 1 : 0;
+    is_sliver_[place] = is_sliver(corners_at(place), scale_) ? 1 : 0;
   }
 }
 
-std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
+// In the order of the tree, which is that in which leaves read them.
+void ExactMesh::take_triangles(MeshView mesh) {
+  const std::size_t count = order_.size();
+  place_of_.resize(count);
+  triangles_.resize(count);
+  std::vector<std::uint32_t> taken(mesh.vertices.size(), kNone);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    place_of_[order_[place]] = place;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh.triangles[order_[place]][k];
+      if (taken[vertex] == kNone) {
+        taken[vertex] = static_cast<std::uint32_t>(vertices_.size());
+        vertices_.push_back(mesh.vertices[vertex]);
+      }
+      triangles_[place][k] = taken[vertex];
+    }
+  }
+  vertices_.shrink_to_fit();
+}
+
+std::uint32_t ExactMesh::build(MeshView mesh, std::uint32_t begin, std::uint32_t end,
                                std::vector<Centre>& centres) {
   const std::uint32_t node = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({Point::Constant(kInfinity), Point::Constant(-kInfinity), begin, end, 0});
@@ -246,7 +259,7 @@ std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
   };
   if (end - begin <= kLeafSize) {
     for (std::uint32_t i = begin; i < end; ++i) {
-      for (const Point& corner : corners_[centres[i].triangle]) enclose(corner, corner);
+      for (const Point& corner : mesh.corners(centres[i].triangle)) enclose(corner, corner);
     }
     return node;
   }
@@ -260,8 +273,8 @@ std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
   const std::uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(centres.begin() + begin, centres.begin() + middle, centres.begin() + end,
                    [&](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; });
-  const std::uint32_t left = build(begin, middle, centres);
-  const std::uint32_t right = build(middle, end, centres);
+  const std::uint32_t left = build(mesh, begin, middle, centres);
+  const std::uint32_t right = build(mesh, middle, end, centres);
   nodes_[node].right = right;
   for (const std::uint32_t child : {left, right}) enclose(nodes_[child].low, nodes_[child].high);
   return node;
@@ -269,7 +282,7 @@ std::uint32_t ExactMesh::build(std::uint32_t begin, std::uint32_t end,
 
 DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) const {
   require_no_flush("the exact distance");
-  return bounds(p, corners_[place_of_.at(triangle)]);
+  return bounds(p, corners_at(place_of_.at(triangle)));
 }
 
 // docs/numerics.md, "The oracle's rounding": the square of a length, and a size, such that the
@@ -277,7 +290,7 @@ DistanceBounds ExactMesh::distance_to(const Point& p, std::uint32_t triangle) co
 // Both are times scale_. Nothing where plain arithmetic does not prove that.
 inline std::optional<ExactMesh::Quick> ExactMesh::quick(const Point& p, std::uint32_t place) const {
   if (is_sliver_[place]) return std::nullopt;
-  const std::array<Point, 3>& corners = corners_[place];
+  const std::array<Point, 3> corners = corners_at(place);
   const Point a = scale_ * (corners[0] - p), b = scale_ * (corners[1] - p),
               c = scale_ * (corners[2] - p);
   const Foot foot = likely_foot(a, b, c);
@@ -297,12 +310,12 @@ double ExactMesh::upper_to(const Point& p, std::uint32_t triangle) const {
                (1 + 32 * kUnitRoundoff) * unscale_ +
            0x1p-1060;
   }
-  return bounds(p, corners_[place]).upper;
+  return bounds(p, corners_at(place)).upper;
 }
 
 // The square of about the distance.
 inline double ExactMesh::likely_squared(const Point& p, std::uint32_t place) const {
-  const std::array<Point, 3>& corners = corners_[place];
+  const std::array<Point, 3> corners = corners_at(place);
   if (!is_sliver_[place]) {
     const Point a = scale_ * (corners[0] - p), b = scale_ * (corners[1] - p),
                 c = scale_ * (corners[2] - p);
@@ -357,7 +370,7 @@ std::uint32_t ExactMesh::likely_nearest(const Point& p, std::uint32_t seed) cons
 
 bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) const {
   const std::uint32_t place = place_of_.at(triangle);
-  const std::array<Point, 3>& corners = corners_[place];
+  const std::array<Point, 3> corners = corners_at(place);
   // docs/numerics.md, "The oracle's rounding": such a corner, or such a point of the triangle,
   // keeps the upper end within the limit.
   if (limit > 0x1p-400 && limit < 0x1p400) {
@@ -382,7 +395,7 @@ ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32
   Nearest best = {{kInfinity, kInfinity}, 0};
   double best_squared = kInfinity;
   if (seed < order_.size()) {
-    best = {bounds(p, corners_[place_of_[seed]]), seed};
+    best = {bounds(p, corners_at(place_of_[seed])), seed};
     best_squared = squared_up(best.distance.upper);
   }
   struct Pending {
@@ -408,8 +421,9 @@ ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32
       continue;
     }
     for (std::uint32_t place = node.begin; place < node.end; ++place) {
-      if (is_farther(p, corners_[place], best.distance.upper)) continue;
-      const DistanceBounds distance = bounds(p, corners_[place]);
+      const std::array<Point, 3> corners = corners_at(place);
+      if (is_farther(p, corners, best.distance.upper)) continue;
+      const DistanceBounds distance = bounds(p, corners);
       best.distance.lower = std::min(best.distance.lower, distance.lower);
       if (distance.upper < best.distance.upper ||
           (distance.upper == best.distance.upper && order_[place] < best.triangle)) {

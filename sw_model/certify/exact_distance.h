@@ -50,8 +50,8 @@ class ExactMesh {
 
   DistanceBounds distance(const Point& p) const { return nearest(p).distance; }
 
-  const std::array<Point, 3>& corners(std::uint32_t triangle) const {
-    return corners_[place_of_[triangle]];
+  std::array<Point, 3> corners(std::uint32_t triangle) const {
+    return corners_at(place_of_[triangle]);
   }
 
   // Bounds of the distance to one triangle of the mesh.
@@ -80,7 +80,13 @@ class ExactMesh {
     Point at;
     std::uint32_t triangle;
   };
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Centre>& centres);
+  std::uint32_t build(MeshView mesh, std::uint32_t begin, std::uint32_t end,
+                      std::vector<Centre>& centres);
+  void take_triangles(MeshView mesh);
+  std::array<Point, 3> corners_at(std::uint32_t place) const {
+    const Triangle& t = triangles_[place];
+    return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
+  }
   double likely_squared(const Point& p, std::uint32_t place) const;
   struct Quick {
     double squared, size;
@@ -90,7 +96,8 @@ class ExactMesh {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;     // the triangle at each place in the leaves
   std::vector<std::uint32_t> place_of_;  // the place of each triangle
-  std::vector<std::array<Point, 3>> corners_;
+  std::vector<Triangle> triangles_;      // at each place
+  std::vector<Point> vertices_;          // in the order of the places
   std::vector<std::uint8_t> is_sliver_;  // at each place: plain arithmetic may be far off
   double scale_ = 1, unscale_ = 1;       // keep fourth powers of lengths representable
 };

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 DOCUMENT = Path("docs/benchmarks.md")
-NAMES = ["error", "search", "scans", "decimation", "corpus", "scale"]
+NAMES = ["error", "search", "scans", "decimation", "corpus", "surfaces", "scale"]
 
 
 def marks(name):

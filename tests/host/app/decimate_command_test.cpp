@@ -206,6 +206,7 @@ TEST_F(DecimateCommand, InTilesKeepsAllBoundsForAnyNumberOfThreads) {
   const std::vector<std::string> tiles = {"--tiles", "1000", "--json", "r.json"};
   const ProgramRun run = decimate("one.ply", tiles);
   ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_NE(run.output.find("so far         one.ply: "), std::string::npos) << run.output;
   EXPECT_EQ(verify("one.ply"), 0);
   const TriangleMesh result = read_mesh(folder_ / "one.ply");
   EXPECT_TRUE(check_mesh(result.view()).valid());

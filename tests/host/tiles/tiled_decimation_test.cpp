@@ -89,6 +89,27 @@ TEST(TiledDecimator, IsTheDecimatorWhereOneTileHoldsAll) {
   EXPECT_EQ(tiled.mesh.triangles.size(), whole.mesh.triangles.size());
 }
 
+TEST(TiledDecimator, GivesAMeshWithinAllBoundsBeforeTheSeamsAreDecimated) {
+  const TriangleMesh mesh = bumpy(40, 60);
+  const Point far(9, 9, 9);
+  std::vector<Point> cloud = mesh.vertices;
+  cloud.push_back(far);
+  std::vector<DecimatedMesh> early;
+  DecimationSettings settings = with(0.02);
+  settings.early = [&early](DecimatedMesh made) { early.push_back(std::move(made)); };
+  const DecimatedMesh result = TiledDecimator(mesh, cloud, 600, local).run(settings);
+  ASSERT_EQ(early.size(), 1u);
+  const TriangleMesh& made = early[0].mesh;
+  EXPECT_LT(result.mesh.triangles.size(), made.triangles.size());
+  EXPECT_LT(made.triangles.size(), mesh.triangles.size());
+  EXPECT_TRUE(check_mesh(made.view()).valid());
+  EXPECT_TRUE(within(made.view(), mesh.view(), 0.02));
+  EXPECT_TRUE(within(mesh.view(), made.view(), 0.02));
+  EXPECT_EQ(early[0].left_out,
+            std::vector<std::uint32_t>{static_cast<std::uint32_t>(mesh.vertices.size())});
+  EXPECT_EQ(result.left_out, early[0].left_out);
+}
+
 TEST(TiledDecimator, AnInterruptLeavesAMeshWithinAllBounds) {
   const TriangleMesh mesh = bumpy(40, 60);
   for (const int polls : {0, 20, 200}) {
