@@ -46,13 +46,16 @@ install(FILES sw_model/model/arithmetic_probe.h sw_model/model/emax_model.h
 install(DIRECTORY hls/rtl DESTINATION ${CMAKE_INSTALL_DATADIR}/emax
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f")
 file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
-install(FILES LICENSE ${documents} docs/user/report.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+set(of_no_command docs/user/large-scans.md docs/user/mpi.md docs/user/python.md docs/user/report.md)
+install(FILES LICENSE ${documents} ${of_no_command} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A manual page for emax and one for each command, of the program's own --help and of docs/user/.
 if(EMAX_MAN)
   find_program(LOWDOWN lowdown REQUIRED)
   file(GLOB documents CONFIGURE_DEPENDS docs/user/*.md)
-  list(FILTER documents EXCLUDE REGEX "/(large-scans|mpi|report|python)[.]md$")  # of no command
+  foreach(document ${of_no_command})
+    list(REMOVE_ITEM documents ${PROJECT_SOURCE_DIR}/${document})
+  endforeach()
   foreach(document ${documents})
     get_filename_component(command ${document} NAME_WE)
     set(page emax-${command})

@@ -34,7 +34,7 @@ expect fail "no --device" "a page of another command" has_options emax-verify op
 echo '.NONSENSE' >"$man_pages/fault.1"
 expect fail "warning" "a page with a fault" reads_well fault
 # Documents that pages name.
-grep -ohE '[a-z0-9_]+\.md' "$man_pages"/*.1 | sort -u >"$folder/named"
+grep -ohE '[a-z0-9_-]+\.md' "$man_pages"/*.1 | sort -u >"$folder/named"
 expect pass "run_folder.md" "documents named" cat "$folder/named"
 while read -r document; do
   expect pass "" "$document is installed" test -f "$prefix/share/doc/emax/$document"
