@@ -40,21 +40,29 @@ inline std::string las_bytes(const std::vector<std::array<std::int32_t, 4>>& poi
   return bytes;
 }
 
+// Bytes of a page of an E57 file, without its checksum.
+inline constexpr std::size_t kE57Page = 1020;
+
+// The page of this content, with its checksum.
+inline std::string e57_page(std::string_view content) {
+  std::uint32_t crc = ~0u;  // CRC-32C
+  for (const char c : content) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0x82f63b78u : 0u);
+  }
+  crc = ~crc;
+  std::string page(content);
+  for (int shift = 24; shift >= 0; shift -= 8) page += static_cast<char>(crc >> shift);
+  return page;
+}
+
 // The E57 file of this content: cut into pages with their checksums, and its length in the header.
 inline std::string e57_pages(std::string content) {
-  constexpr std::size_t kPage = 1020;
-  content.resize(std::max<std::size_t>(1, (content.size() + kPage - 1) / kPage) * kPage);
-  put(content, 16, std::uint64_t{content.size() / kPage * 1024});
+  content.resize(std::max<std::size_t>(1, (content.size() + kE57Page - 1) / kE57Page) * kE57Page);
+  put(content, 16, std::uint64_t{content.size() / kE57Page * 1024});
   std::string file;
-  for (std::size_t at = 0; at < content.size(); at += kPage) {
-    std::uint32_t crc = ~0u;  // CRC-32C
-    for (std::size_t i = 0; i < kPage; ++i) {
-      crc ^= static_cast<unsigned char>(content[at + i]);
-      for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0x82f63b78u : 0u);
-    }
-    crc = ~crc;
-    file.append(content, at, kPage);
-    for (int shift = 24; shift >= 0; shift -= 8) file += static_cast<char>(crc >> shift);
+  for (std::size_t at = 0; at < content.size(); at += kE57Page) {
+    file += e57_page(std::string_view(content).substr(at, kE57Page));
   }
   return file;
 }

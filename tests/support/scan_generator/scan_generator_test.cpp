@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <sstream>
 
 #include "host/files/cloud_file.h"
+#include "host/geometry/bounds.h"
 #include "sw_model/certify/exact_distance.h"
 #include "tests/support/scan_generator/scan_writer.h"
 #include "tests/support/scan_generator/scanner.h"
@@ -98,14 +101,48 @@ TEST(ScanGenerator, FilesHoldThePoints) {
   std::ostringstream stream;
   write_ply_scan(folder / "a.ply", source);
   write_las_scan(folder / "a.las", source);
+  write_e57_scan(folder / "a.e57", source);
   write_ply_scan(stream, points.size(), source);
   folder.write("b.ply", stream.str());
-  for (const auto& [name, step] : {std::pair("a.ply", 1e-6), {"b.ply", 1e-6}, {"a.las", 6e-5}}) {
+  for (const auto& [name, step] :
+       {std::pair("a.ply", 1e-6), {"b.ply", 1e-6}, {"a.las", 6e-5}, {"a.e57", 6e-5}}) {
     const PointCloud cloud = read_cloud(folder / name);
     ASSERT_EQ(cloud.points.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       ASSERT_LT((cloud.points[i] - points[i]).cwiseAbs().maxCoeff(), step) << name;
     }
+  }
+}
+
+// More points than a packet of E57 has.
+TEST(ScanGenerator, E57HasTheNumbersOfLas) {
+  const Scene scene = terrain();
+  const Scanner scanner(scene, {.points = 20000});
+  const PointSource source = [&](const auto& take) { scanner.scan(take); };
+  TemporaryFolder folder;
+  write_las_scan(folder / "a.las", source);
+  write_e57_scan(folder / "a.e57", source);
+  EXPECT_EQ(read_cloud(folder / "a.e57").points, read_cloud(folder / "a.las").points);
+}
+
+TEST(ScanGenerator, AStreamOfLasHasTheBytesOfTheFile) {
+  const Scene scene = bumpy_statue();
+  const Scanner scanner(scene, {.points = 3000});
+  const PointSource source = [&](const auto& take) { scanner.scan(take); };
+  TemporaryFolder folder;
+  write_las_scan(folder / "a.las", source);
+  std::ostringstream stream, file;
+  write_las_scan(stream, source);
+  file << std::ifstream(folder / "a.las", std::ios::binary).rdbuf();
+  ASSERT_GT(stream.str().size(), 227u);
+  EXPECT_EQ(stream.str(), file.str());
+
+  const Bounds box = bounds_of(read_cloud(folder / "a.las").points);
+  for (std::size_t k = 0; k < 3; ++k) {
+    double bounds[2];  // greatest, least
+    std::memcpy(bounds, stream.str().data() + 179 + 16 * k, sizeof bounds);
+    EXPECT_EQ(bounds[0], box.upper[static_cast<Eigen::Index>(k)]);
+    EXPECT_EQ(bounds[1], box.lower[static_cast<Eigen::Index>(k)]);
   }
 }
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tests/support/scan_bytes.h"
+#include "tests/support/scan_generator/steps.h"
 
 namespace emax::test {
 namespace {
@@ -31,6 +31,48 @@ void write_ply_points(std::ostream& to, const PointSource& points) {
     to.write(reinterpret_cast<const char*>(values.data()),
              static_cast<std::streamsize>(values.size() * sizeof(float)));
   });
+}
+
+// What the header of LAS tells of the points.
+struct LasSummary {
+  std::uint32_t count = 0;
+  Steps least = {}, greatest = {};
+
+  void add(const Steps& point) {
+    if (count++ == 0) least = greatest = point;
+    for (std::size_t k = 0; k < 3; ++k) {
+      least[k] = std::min(least[k], point[k]);
+      greatest[k] = std::max(greatest[k], point[k]);
+    }
+  }
+};
+
+std::string las_header(const LasSummary& summary) {
+  std::string header = las_bytes({});
+  put(header, 107, summary.count);
+  for (std::size_t k = 0; k < 3; ++k) {
+    put(header, 131 + 8 * k, kStep);
+    put(header, 155 + 8 * k, 0.0);
+    put(header, 179 + 16 * k, summary.greatest[k] * kStep);
+    put(header, 187 + 16 * k, summary.least[k] * kStep);
+  }
+  return header;
+}
+
+LasSummary write_las_points(std::ostream& to, const PointSource& points) {
+  constexpr std::size_t kPoint = 20;
+  LasSummary summary;
+  std::string bytes;
+  points([&](std::span<const Point> some) {
+    bytes.assign(kPoint * some.size(), '\0');
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const Steps steps = in_steps(some[i]);
+      summary.add(steps);
+      put(bytes, kPoint * i, steps);
+    }
+    to << bytes;
+  });
+  return summary;
 }
 
 void check(const std::ostream& to, const std::string& name) {
@@ -60,41 +102,22 @@ void write_ply_scan(const std::filesystem::path& file, const PointSource& points
   check(to.flush(), file.string());
 }
 
-void write_las_scan(const std::filesystem::path& file, const PointSource& points) {
-  constexpr double kScale = 1e-4;
-  constexpr std::size_t kPoint = 20;
-  std::string header = las_bytes({});
-  for (std::size_t k = 0; k < 3; ++k) {
-    put(header, 131 + 8 * k, kScale);
-    put(header, 155 + 8 * k, 0.0);
-  }
-  std::ofstream to(file, std::ios::binary);
-  to << header;
-  std::uint64_t count = 0;
-  Point least = Point::Constant(std::numeric_limits<double>::infinity()), greatest = -least;
-  std::string bytes;
+void write_las_scan(std::ostream& to, const PointSource& points) {
+  LasSummary summary;
   points([&](std::span<const Point> some) {
-    bytes.assign(kPoint * some.size(), '\0');
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      Point stored;
-      for (int k = 0; k < 3; ++k) {
-        const auto whole = static_cast<std::int32_t>(std::lround(some[i][k] / kScale));
-        put(bytes, kPoint * i + 4 * static_cast<std::size_t>(k), whole);
-        stored[k] = whole * kScale;
-      }
-      least = least.cwiseMin(stored);
-      greatest = greatest.cwiseMax(stored);
-    }
-    to << bytes;
-    count += some.size();
+    for (const Point& p : some) summary.add(in_steps(p));
   });
-  put(header, 107, static_cast<std::uint32_t>(count));
-  for (std::size_t k = 0; k < 3; ++k) {
-    put(header, 179 + 16 * k, greatest[static_cast<Eigen::Index>(k)]);
-    put(header, 187 + 16 * k, least[static_cast<Eigen::Index>(k)]);
-  }
+  to << las_header(summary);
+  write_las_points(to, points);
+  check(to.flush(), "the stream");
+}
+
+void write_las_scan(const std::filesystem::path& file, const PointSource& points) {
+  std::ofstream to(file, std::ios::binary);
+  to << las_header({});
+  const LasSummary summary = write_las_points(to, points);
   to.seekp(0);
-  to << header;
+  to << las_header(summary);
   check(to.flush(), file.string());
 }
 
