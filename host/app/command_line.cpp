@@ -112,6 +112,7 @@ void add_common(CLI::App& command, CommonOptions& options) {
       .add_option("CLOUD", options.cloud,
                   input_help("point cloud", fmt::format("{}", fmt::join(cloud_endings(), " "))) +
                       "; or a folder of them")
+      ->transform(standard_input_by_one_name())
       ->required();
   command
       .add_option("--device", options.device, "device that evaluates the kernel: " + device_help())

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <memory>
 #include <numeric>
 
 #include "host/app/commands.h"
@@ -17,8 +18,11 @@
 #include "host/app/report_output.h"
 #include "host/files/atomic_file.h"
 #include "host/files/cloud_file.h"
+#include "host/files/las_stream.h"
 #include "host/files/mesh_file.h"
+#include "host/files/pipe_input.h"
 #include "host/files/sha256.h"
+#include "host/files/spooled_input.h"
 #include "host/files/tolerance.h"
 #include "host/geometry/merge_vertices.h"
 #include "host/measure/error_constraint.h"
@@ -58,6 +62,35 @@ void require_room(const ErrorOptions& options, const ScanPieces& scan) {
   if (!options.color.empty()) scan.require_in_memory("--color");
   if (!options.deviations.empty()) scan.require_in_memory("--deviations");
   scan.require_in_memory(options.common.report);
+  if (parse_share(options.common.excluded_share) > 0) {
+    scan.require_more_than_once("--exclude-outliers");
+  }
+  if (!options.common.reading.left_out_classes.empty()) scan.require_more_than_once("--class");
+}
+
+// Whether one look at the points of a cloud that does not fit into memory is enough.
+bool is_one_look(const ErrorOptions& options) {
+  const bool is_two_sided_alone = options.two_sided && options.reference.empty();
+  return options.common.device == "cpu" && !is_two_sided_alone && options.color.empty() &&
+         options.deviations.empty() && !options.common.report.any() &&
+         parse_share(options.common.excluded_share) == 0 &&
+         options.common.reading.left_out_classes.empty() && options.reference != kStandardInput;
+}
+
+// The cloud, where it comes through a pipe and is measured as it comes. Standard input is copied
+// into a file where that is not enough.
+std::unique_ptr<LasStream> stream_of(const ErrorOptions& options) {
+  const std::string& cloud = options.common.cloud;
+  if (!is_pipe(cloud)) return nullptr;
+  const bool is_copied =
+      cloud == kStandardInput &&
+      (!is_one_look(options) || format_of_content(standard_input_head()) != ".las");
+  if (is_copied) return nullptr;
+  if (!options.common.report.report.empty()) {
+    throw Error(fmt::format("{}: is a pipe, and --report states the checksum of a file; {}", cloud,
+                            kStoreFirst));
+  }
+  return std::make_unique<LasStream>(cloud);
 }
 
 ErrorReference read_reference(const ErrorOptions& options, const Scan& scan) {
@@ -201,7 +234,7 @@ int run_error(const ErrorOptions& options) {
   PhaseProgress phase;
   phase.begin("reading the cloud", reading_seconds(options.common.cloud));
   const ScanPieces pieces(options.common.cloud, options.common.reading, options.common.unit,
-                          question.memory, was_interrupted);
+                          question.memory, was_interrupted, stream_of(options));
   phase.end();
   const Scan& scan = pieces.scan();
   require_room(options, pieces);

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "host/files/number_text.h"
+#include "host/files/spooled_input.h"
 
 namespace emax {
 
@@ -51,6 +52,14 @@ CLI::Validator not_negative() {
 
 CLI::Validator not_empty() {
   return {[](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, ""};
+}
+
+CLI::Validator standard_input_by_one_name() {
+  return {[](std::string& text) {
+            if (text == "/dev/stdin") text = kStandardInput;
+            return std::string();
+          },
+          ""};
 }
 
 bool is_utf8(const std::string& text) {

@@ -14,6 +14,8 @@ CLI::Validator whole();
 CLI::Validator not_negative();
 // For texts. A shell passes an empty text for a variable that is not set.
 CLI::Validator not_empty();
+// Makes "-" of /dev/stdin, which has no ending and may be opened only once.
+CLI::Validator standard_input_by_one_name();
 
 // Whether the text is UTF-8, which JSON needs.
 bool is_utf8(const std::string& text);

@@ -7,13 +7,16 @@
 #include <deque>
 #include <exception>
 #include <fstream>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "host/files/las_stream.h"
 #include "host/optimize/evaluation_limits.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/parallel.h"
 
@@ -134,9 +137,37 @@ ScanPieces::ScanPieces(const Scan& scan)
 ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
                        std::string_view unit, std::uint64_t memory,
                        std::function<bool()> interrupted)
-    : scan_(&own_), reading_(reading), memory_(memory), interrupted_(std::move(interrupted)) {
+    : ScanPieces(path, reading, unit, memory, std::move(interrupted), nullptr) {}
+
+ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
+                       std::string_view unit, std::uint64_t memory,
+                       std::function<bool()> interrupted, std::unique_ptr<LasStream> stream)
+    : scan_(&own_),
+      reading_(reading),
+      memory_(memory),
+      interrupted_(std::move(interrupted)),
+      stream_(std::move(stream)) {
   own_.path = path;
   own_.unit = unit_named(unit);
+  if (stream_ && stream_->points() * kBytesPerPoint > memory) {
+    take_promise();
+  } else {
+    read_first();
+  }
+  own_.width = bounds_.width();
+  if (unit.empty()) own_.unit = own_.cloud.unit;
+}
+
+ScanPieces::~ScanPieces() = default;
+
+void ScanPieces::take_promise() {
+  points_ = stream_->points();
+  bounds_ = stream_->box();
+  own_.cloud.unit = stream_->unit();
+  own_.cloud.resolution = stream_->resolution();
+}
+
+void ScanPieces::read_first() {
   std::vector<PointCloud> kept;
   bool are_kept = true;
   read(
@@ -144,7 +175,7 @@ ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions
         const Bounds box = bounds_of(piece.points);
         bounds_ = points_ == 0 ? box : joined(bounds_, box);
         points_ += piece.points.size();
-        are_kept = are_kept && points_ * kBytesPerPoint <= memory;
+        are_kept = are_kept && points_ * kBytesPerPoint <= memory_;
         if (are_kept) {
           kept.push_back(std::move(piece));
         } else {
@@ -152,20 +183,21 @@ ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions
         }
       },
       own_.cloud);
-  own_.width = bounds_.width();
+  stream_.reset();
   if (are_kept) {
     own_.cloud = joined_pieces(std::move(kept), std::move(own_.cloud), points_);
-    check_cloud(own_.cloud, path.string());
+    check_cloud(own_.cloud, own_.path.string());
   }
-  if (unit.empty()) own_.unit = own_.cloud.unit;
 }
 
 void ScanPieces::read(const std::function<void(PointCloud)>& take, PointCloud& rest) const {
-  rest =
-      read_cloud_in_pieces(scan_->path, reading_, points_of_piece(memory_), [&](PointCloud piece) {
-        if (interrupted_ && interrupted_()) throw Interrupted{};
-        take(std::move(piece));
-      });
+  const std::size_t size = points_of_piece(memory_);
+  const auto take_one = [&](PointCloud piece) {
+    if (interrupted_ && interrupted_()) throw Interrupted{};
+    take(std::move(piece));
+  };
+  rest = stream_ ? read_cloud_in_pieces(*stream_, reading_, size, take_one)
+                 : read_cloud_in_pieces(scan_->path, reading_, size, take_one);
 }
 
 void ScanPieces::require_in_memory(std::string_view what) const {
@@ -180,6 +212,41 @@ void ScanPieces::require_in_memory(std::string_view what) const {
 void ScanPieces::require_in_memory(const ReportOptions& wanted) const {
   if (!wanted.report.empty()) require_in_memory("--report");
   if (!wanted.picture.empty()) require_in_memory("--picture");
+}
+
+void ScanPieces::require_more_than_once(std::string_view what) const {
+  if (!stream_) return;
+  stream_->input().fail(
+      fmt::format("{} points need {:.3g} GB, more than the {:.3g} GB of --memory, so the stream is "
+                  "measured as it comes, and {} needs to see it twice",
+                  grouped(points_), static_cast<double>(points_ * kBytesPerPoint) / 1e9,
+                  static_cast<double>(memory_) / 1e9, what),
+      kStoreFirst);
+}
+
+void ScanPieces::fail_as_other() const {
+  if (stream_) {
+    stream_->input().fail("the box of its points is not the one that its header promises",
+                          kStoreFirst);
+  }
+  throw Error(fmt::format("{}: was changed while it was read; leave it as it is meanwhile",
+                          scan_->path.string()));
+}
+
+void ScanPieces::require_known(const Bounds& piece) const {
+  if (!is_in(piece, bounds_)) fail_as_other();
+}
+
+void ScanPieces::require_all(const Bounds& found, std::uint64_t points,
+                             const PointCloud& rest) const {
+  if (stream_ && points != points_) {
+    stream_->input().fail(
+        fmt::format("its header promises the box of {} points, but some are left out ({})",
+                    grouped(points_), describe(rest.left_out)),
+        kStoreFirst);
+  }
+  if (points != points_) fail_as_other();
+  if (!is_in(bounds_, found) && !EMAX_FAULT(kTrustsPromises)) fail_as_other();
 }
 
 std::vector<std::uint32_t> ScanPieces::Piece::indices_of(
@@ -220,12 +287,12 @@ void ScanPieces::for_each(std::size_t threads,
 
 void ScanPieces::for_each_read(std::size_t threads,
                                const std::function<void(const Piece&)>& work) const {
-  const auto fail_as_changed = [&] {
-    throw Error(fmt::format("{}: was changed while it was read; leave it as it is meanwhile",
-                            scan_->path.string()));
-  };
   PieceQueue queue(threads);
   std::uint64_t points = 0;
+  PointCloud rest;
+  std::mutex mutex;
+  Bounds found = {Point::Constant(std::numeric_limits<double>::infinity()),
+                  Point::Constant(-std::numeric_limits<double>::infinity())};
   {
     std::vector<std::jthread> workers;
     for (std::size_t i = 0; i < threads; ++i) {
@@ -233,8 +300,11 @@ void ScanPieces::for_each_read(std::size_t threads,
         try {
           while (const auto next = queue.pop()) {
             const auto& [piece, first] = *next;
-            if (!is_in(bounds_of(piece.points), bounds_)) fail_as_changed();
+            const Bounds box = bounds_of(piece.points);
+            require_known(box);
             work({piece.points, first, {piece.first_index, piece.file_index}});
+            const std::lock_guard lock(mutex);
+            found = joined(found, box);
           }
         } catch (...) {
           queue.fail(std::current_exception());
@@ -242,7 +312,6 @@ void ScanPieces::for_each_read(std::size_t threads,
       });
     }
     try {
-      PointCloud rest;
       read(
           [&](PointCloud piece) {
             const std::uint64_t first = points;
@@ -258,7 +327,7 @@ void ScanPieces::for_each_read(std::size_t threads,
     }
   }
   queue.rethrow();
-  if (points != points_) fail_as_changed();
+  require_all(found, points, rest);
 }
 
 }  // namespace emax

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "sw_model/model/normalization.h"
 
 namespace emax {
+
+class LasStream;
 
 // Half of the bytes that are free now: of the machine, or of its control group where that has less.
 std::uint64_t standard_memory();
@@ -25,6 +28,12 @@ class ScanPieces {
   // Interrupted when `interrupted` returns true.
   ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
              std::string_view unit, std::uint64_t memory, std::function<bool()> interrupted);
+  // Of a stream, if there is one, in place of the file: it is read at once if `memory` bytes hold
+  // its points, else by for_each().
+  ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
+             std::string_view unit, std::uint64_t memory, std::function<bool()> interrupted,
+             std::unique_ptr<LasStream> stream);
+  ~ScanPieces();
 
   ScanPieces(const ScanPieces&) = delete;  // scan_ may be own_
   ScanPieces& operator=(const ScanPieces&) = delete;
@@ -36,6 +45,8 @@ class ScanPieces {
   // Throws Error if the points are not in memory, where `what` needs all of them at a time.
   void require_in_memory(std::string_view what) const;
   void require_in_memory(const ReportOptions& wanted) const;  // what --report and --picture need
+  // Throws Error if the points are a stream that is read once, where `what` needs more than that.
+  void require_more_than_once(std::string_view what) const;
 
   struct Piece {
     std::span<const Point> points;
@@ -47,11 +58,19 @@ class ScanPieces {
     std::vector<std::uint32_t> indices_of(std::span<const std::uint32_t> ascending) const;
   };
   // Calls work(piece) for all points, in pieces of neighbours in the file, on so many threads; in
-  // any order. Rethrows the first exception. Throws Error if the file was changed meanwhile.
+  // any order. Rethrows the first exception. Throws Error if the file was changed meanwhile, and if
+  // the points of a stream are not those that its header promised. Once for a stream.
   void for_each(std::size_t threads, const std::function<void(const Piece&)>& work) const;
 
  private:
   void read(const std::function<void(PointCloud)>& take, PointCloud& rest) const;
+  void read_first();
+  void take_promise();
+  // Throw Error if the points are not in the box that was found or promised before, or are not all
+  // of these.
+  void require_known(const Bounds& piece) const;
+  void require_all(const Bounds& found, std::uint64_t points, const PointCloud& rest) const;
+  [[noreturn]] void fail_as_other() const;
   void for_each_read(std::size_t threads, const std::function<void(const Piece&)>& work) const;
 
   Scan own_ = {};
@@ -61,6 +80,7 @@ class ScanPieces {
   std::function<bool()> interrupted_;
   std::uint64_t points_ = 0;
   Bounds bounds_;
+  std::unique_ptr<LasStream> stream_;  // until it is read
 };
 
 }  // namespace emax

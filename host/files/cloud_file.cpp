@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/files/file_content.h"
+#include "host/files/las_stream.h"
 #include "host/files/scan_folder.h"
 #include "sw_model/base/error.h"
 
@@ -111,6 +112,34 @@ std::pair<Point, double> farthest(const std::vector<Point>& points, const Measur
   return best;
 }
 
+// As read_cloud_in_pieces(), of what `read` adds to a content.
+PointCloud pieces_of(const NamedInput& input, const CloudReadOptions& options,
+                     std::size_t piece_points, const std::function<void(PointCloud)>& take,
+                     const std::function<void(FileContent&)>& read) {
+  FileContent content;
+  std::uint64_t points = 0, not_finite = 0;
+  content.take_pieces(piece_points, [&](FileContent& c) {
+    PointCloud piece;
+    piece.first_index = static_cast<std::uint32_t>(c.points_given - c.vertices.size());
+    piece.points = std::move(c.vertices);
+    piece.file_index = std::move(c.file_index);
+    drop_invalid(input, options, c.first_invalid, piece);
+    for (const LeftOut& part : piece.left_out) not_finite += part.points;
+    points += piece.points.size();
+    if (!piece.points.empty()) take(std::move(piece));
+  });
+  read(content);
+  content.give_piece();
+  check_content(input, options, content);
+  require_points(input, points);
+  if (not_finite > 0) content.left_out.push_back({std::string(kNotFinite), not_finite});
+  PointCloud rest;
+  rest.left_out = std::move(content.left_out);
+  rest.unit = content.unit;
+  rest.resolution = content.resolution;
+  return rest;
+}
+
 }  // namespace
 
 std::span<const std::string_view> cloud_endings() { return kEndings; }
@@ -147,29 +176,15 @@ PointCloud read_cloud_in_pieces(const std::filesystem::path& path, const CloudRe
   if (std::filesystem::is_directory(path)) {
     return read_scan_folder_in_pieces(path, options, piece_points, take);
   }
-  const NamedInput input{path.string()};
-  FileContent content;
-  std::uint64_t points = 0, not_finite = 0;
-  content.take_pieces(piece_points, [&](FileContent& c) {
-    PointCloud piece;
-    piece.first_index = static_cast<std::uint32_t>(c.points_given - c.vertices.size());
-    piece.points = std::move(c.vertices);
-    piece.file_index = std::move(c.file_index);
-    drop_invalid(input, options, c.first_invalid, piece);
-    for (const LeftOut& part : piece.left_out) not_finite += part.points;
-    points += piece.points.size();
-    if (!piece.points.empty()) take(std::move(piece));
-  });
-  read_content(path, options, content);
-  content.give_piece();
-  check_content(input, options, content);
-  require_points(input, points);
-  if (not_finite > 0) content.left_out.push_back({std::string(kNotFinite), not_finite});
-  PointCloud rest;
-  rest.left_out = std::move(content.left_out);
-  rest.unit = content.unit;
-  rest.resolution = content.resolution;
-  return rest;
+  return pieces_of(NamedInput{path.string()}, options, piece_points, take,
+                   [&](FileContent& content) { read_content(path, options, content); });
+}
+
+PointCloud read_cloud_in_pieces(LasStream& stream, const CloudReadOptions& options,
+                                std::size_t piece_points,
+                                const std::function<void(PointCloud)>& take) {
+  return pieces_of(stream.input(), options, piece_points, take,
+                   [&](FileContent& content) { stream.read(options, content); });
 }
 
 void check_cloud(const PointCloud& cloud, std::string_view file) {

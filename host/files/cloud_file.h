@@ -12,6 +12,8 @@
 
 namespace emax {
 
+class LasStream;
+
 struct CloudReadOptions {
   // Leaves out points with a NaN or infinite coordinate instead of refusing the file.
   // PointCloud::file_index then holds the indices in the file of the points that are left.
@@ -42,6 +44,11 @@ PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions&
 // points and scans. Files of .obj .off .glb .3mf and compressed .pcd
 // are held whole.
 PointCloud read_cloud_in_pieces(const std::filesystem::path& path, const CloudReadOptions& options,
+                                std::size_t piece_points,
+                                const std::function<void(PointCloud)>& take);
+
+// The same of a stream, which is read to its end.
+PointCloud read_cloud_in_pieces(LasStream& stream, const CloudReadOptions& options,
                                 std::size_t piece_points,
                                 const std::function<void(PointCloud)>& take);
 

@@ -18,29 +18,9 @@
 namespace emax {
 namespace {
 
-constexpr std::size_t kHeadBytes = 4096;
-
-// The ending of the format that the first bytes indicate; empty if they indicate none.
-std::string_view ending_by_content(std::string_view bytes) {
-  if (bytes.starts_with("ASTM-E57")) return ".e57";
-  constexpr std::size_t kPointFormat = 104;  // its highest bit marks compressed points
-  if (bytes.starts_with("LASF") && bytes.size() > kPointFormat) {
-    return (static_cast<unsigned char>(bytes[kPointFormat]) & 0x80) != 0 ? ".laz" : ".las";
-  }
-  if (bytes.starts_with("glTF")) return ".glb";
-  if (bytes.starts_with("PK\3\4")) return ".3mf";
-  const std::string_view first_line = trimmed(bytes.substr(0, bytes.find('\n')));
-  if (first_line == "ply") return ".ply";
-  if (first_line.starts_with("# .PCD") || first_line.starts_with("VERSION ")) return ".pcd";
-  const std::string_view word = first_line.substr(0, first_line.find(' '));
-  if (word.size() <= 8 && word.ends_with("OFF")) return ".off";
-  if (word == "solid") return ".stl";
-  return {};
-}
-
-// As ending_by_content(), but for all formats that can be told apart; .xyz if it is none of these.
+// As format_of_content(), but for all formats that can be told apart; .xyz if it is none of these.
 std::string_view ending_shown_by(std::string_view head, std::uint64_t size) {
-  const std::string_view known = ending_by_content(head);
+  const std::string_view known = format_of_content(head);
   if (!known.empty()) return known;
   constexpr std::size_t kStlHeader = 84, kStlTriangle = 50;
   if (head.size() >= kStlHeader) {
@@ -174,8 +154,25 @@ std::string format_ending(const std::filesystem::path& path) {
   return lower_case_ending(is_plain ? path : std::filesystem::path(path).replace_extension());
 }
 
+std::string_view format_of_content(std::string_view bytes) {
+  if (bytes.starts_with("ASTM-E57")) return ".e57";
+  constexpr std::size_t kPointFormat = 104;  // its highest bit marks compressed points
+  if (bytes.starts_with("LASF") && bytes.size() > kPointFormat) {
+    return (static_cast<unsigned char>(bytes[kPointFormat]) & 0x80) != 0 ? ".laz" : ".las";
+  }
+  if (bytes.starts_with("glTF")) return ".glb";
+  if (bytes.starts_with("PK\3\4")) return ".3mf";
+  const std::string_view first_line = trimmed(bytes.substr(0, bytes.find('\n')));
+  if (first_line == "ply") return ".ply";
+  if (first_line.starts_with("# .PCD") || first_line.starts_with("VERSION ")) return ".pcd";
+  const std::string_view word = first_line.substr(0, first_line.find(' '));
+  if (word.size() <= 8 && word.ends_with("OFF")) return ".off";
+  if (word == "solid") return ".stl";
+  return {};
+}
+
 void check_ending_fits(const NamedInput& input, std::string_view head, std::string_view ending) {
-  const std::string_view content = ending_by_content(head);
+  const std::string_view content = format_of_content(head);
   if (!content.empty() && content != ending) {
     input.fail(
         fmt::format("the ending is {} but the content is that of a {} file", ending, content),

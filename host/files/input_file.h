@@ -63,6 +63,11 @@ std::string lower_case_ending(const std::filesystem::path& path);
 // that its content shows, .xyz if it shows none.
 std::string format_ending(const std::filesystem::path& path);
 
+// Bytes that tell the format.
+inline constexpr std::size_t kHeadBytes = 4096;
+// The ending of the format that the first bytes indicate; empty if they indicate none.
+std::string_view format_of_content(std::string_view head);
+
 // Throws Error if the content, which begins with `head`, is that of another format than the one of
 // `ending`.
 void check_ending_fits(const NamedInput& input, std::string_view head, std::string_view ending);

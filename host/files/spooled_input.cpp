@@ -131,9 +131,15 @@ int inflated_by(const NamedInput& input, int descriptor, std::uint64_t size) {
   return spool.release();
 }
 
+bool is_copied = false;
+
+NamedInput named_standard_input() { return {std::string(kStandardInputInMessages)}; }
+
 int copied_standard_input() {
-  const NamedInput input{std::string(kStandardInputInMessages)};
+  const NamedInput input = named_standard_input();
   NamelessFile spool(input, kUnpacked);
+  spool.append(standard_input_head());
+  is_copied = true;
   std::vector<char> piece(kPieceBytes);
   while (const std::size_t n = read_piece(input, STDIN_FILENO, std::nullopt, piece)) {
     spool.append({piece.data(), n});
@@ -163,6 +169,25 @@ int inflated(const NamedInput& input, int descriptor, std::uint64_t size, Compre
   return compression == Compression::kGzip ? inflated_by<Gunzip>(input, descriptor, size)
                                            : inflated_by<Unzstd>(input, descriptor, size);
 }
+
+std::string head_of_pipe(const NamedInput& input, int descriptor) {
+  std::string head(kHeadBytes, '\0');
+  std::size_t used = 0;
+  while (const std::size_t n =
+             read_piece(input, descriptor, std::nullopt, std::span(head).subspan(used))) {
+    used += n;
+    if (used == head.size()) break;
+  }
+  head.resize(used);
+  return head;
+}
+
+const std::string& standard_input_head() {
+  static const std::string head = head_of_pipe(named_standard_input(), STDIN_FILENO);
+  return head;
+}
+
+bool standard_input_is_copied() { return is_copied; }
 
 int standard_input() {
   static const int copy = copied_standard_input();

@@ -20,10 +20,11 @@ enum class Fault {
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change
   // In the readers of files, messages and frames.
-  kTrustsCounts,   // a count or length is not compared with the bytes that are there
-  kTrustsIndices,  // an index is not compared with the number of vertices
-  kKeepsInvalid,   // points that a file marks as invalid are kept
-  kSkipsCrc,       // a CRC is not compared
+  kTrustsCounts,    // a count or length is not compared with the bytes that are there
+  kTrustsIndices,   // an index is not compared with the number of vertices
+  kKeepsInvalid,    // points that a file marks as invalid are kept
+  kSkipsCrc,        // a CRC is not compared
+  kTrustsPromises,  // the box that a stream promises is not compared with that of its points
   // In reports.
   kSideOfOneTriangle,    // the side of a mesh is taken from the nearest triangle's normal alone
   kPictureWithoutDepth,  // what is drawn first hides what is nearer

@@ -31,6 +31,14 @@ TEST(OptionChecks, WholeTakesWhatFitsWithoutWrapping) {
   }
 }
 
+TEST(OptionChecks, StandardInputHasOneName) {
+  std::string name = "/dev/stdin", other = "/dev/stdin.las";
+  EXPECT_EQ(standard_input_by_one_name()(name), "");
+  EXPECT_EQ(standard_input_by_one_name()(other), "");
+  EXPECT_EQ(name, "-");
+  EXPECT_EQ(other, "/dev/stdin.las");
+}
+
 TEST(OptionChecks, TextsAreNeitherNegativeNorEmpty) {
   EXPECT_EQ(complaint(not_negative(), "5min"), "");
   EXPECT_EQ(complaint(not_negative(), "-5min"), "'-5min' is negative");
