@@ -3,6 +3,7 @@
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import scale_bench as bench
@@ -30,6 +31,34 @@ class ScaleBenchTest(DocumentsCase):
         self.put_reconstruction(10**6, 40)
         self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
         self.assertIn("| 1000000 | 0.5 | 500 | 300 |", bench.section(self.store))
+
+    def test_tells_what_was_streamed(self):
+        self.put_reconstruction(10**6, 40)
+        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
+        self.assertNotIn("streamed", bench.section(self.store))
+        self.store.put(("stream", 10**9), {"points": 10**9, "seconds": 900, "processor": 600, "bytes": 4e8})
+        told = bench.section(self.store)
+        self.assertIn("| 1000000000, streamed | 900.0 | 900 | 400 |", told)
+        self.assertIn("`emax error` alone took 600 s of processor.", told)
+
+    def test_measures_a_stream_that_is_not_stored(self):
+        programs = Path("programs")
+        programs.mkdir()
+        for name, folder in (("PROGRAMS", programs.absolute()), ("FOLDER", Path.cwd())):
+            patch = mock.patch.object(bench, name, folder)
+            patch.start()
+            self.addCleanup(patch.stop)
+        (programs / "emax_scan").write_text("#!/bin/sh\n[ \"$3 $5\" = '9 -' ] && printf 123456789\n")
+        # Answers with the number of bytes that it was given.
+        (programs / "emax").write_text("#!/bin/sh\n[ \"$1 $2\" = 'error -' ] || exit 1\n"
+                                       "for last; do :; done; printf '{\"points\": %d}' \"$(wc -c)\" >\"$last\"\n")
+        for program in programs.iterdir():
+            program.chmod(0o700)
+        bench.measure_stream(self.store, 9)
+        self.assertEqual(self.store.get("stream", 9)["points"], 9)
+        (programs / "emax_scan").write_text("#!/bin/sh\nexit 3\n")
+        with self.assertRaisesRegex(SystemExit, "emax_scan failed"):
+            bench.measure_stream(self.store, 10)
 
     def test_tells_what_tiles_cost(self):
         self.store.put(("decimate", "whole"), {"triangles": 1000, "seconds": 20, "bytes": 8e8})
