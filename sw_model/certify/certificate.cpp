@@ -140,6 +140,21 @@ void PiecewiseCertificate::add(std::span<const Point> piece, const PointNumbers&
   state_->excluded.insert(state_->excluded.end(), left_out.begin(), left_out.end());
 }
 
+CertificatePart PiecewiseCertificate::part() const {
+  const std::lock_guard lock(state_->mutex);
+  const Worst& worst = state_->worst;
+  return {worst.upper, worst.point, worst.at, state_->points, state_->excluded};
+}
+
+void PiecewiseCertificate::add(const CertificatePart& part) {
+  const std::lock_guard lock(state_->mutex);
+  if (part.upper >= 0) {
+    state_->worst.raise({part.upper, static_cast<std::size_t>(part.worst_point), part.at});
+  }
+  state_->points += static_cast<std::size_t>(part.points);
+  state_->excluded.insert(state_->excluded.end(), part.excluded.begin(), part.excluded.end());
+}
+
 CertifiedError PiecewiseCertificate::finish() {
   require_no_flush("the certificate");
   if (state_->points == 0) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sw_model/base/mesh_view.h"
@@ -41,6 +42,15 @@ CertifiedError certify(std::span<const Point> cloud, const ExactMesh& mesh,
 CertifiedError certify(std::span<const Point> cloud, MeshView mesh,
                        std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
 
+// What pieces of a cloud add to its certificate.
+struct CertificatePart {
+  double upper = -1;  // the greatest distance of a kept point; -1: there is none
+  std::uint64_t worst_point = 0;
+  Point at = Point::Zero();                                // of the worst point
+  std::uint64_t points = 0;                                // kept
+  std::vector<std::pair<std::uint32_t, double>> excluded;  // number and distance of each
+};
+
 // The same of a cloud that comes in pieces, in any order: certify() is one piece.
 class PiecewiseCertificate {
  public:
@@ -54,6 +64,10 @@ class PiecewiseCertificate {
   // threads may add pieces at a time. Throws as certify(), which names points by their numbers.
   void add(std::span<const Point> piece, const PointNumbers& numbers,
            std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
+  // What the pieces so far add, and the same of pieces that were added to another certificate of
+  // this mesh, in another process perhaps.
+  CertificatePart part() const;
+  void add(const CertificatePart& part);
   // Once all pieces are there. Points are given by their numbers, the excluded ascending. Throws
   // Error where nothing is left to certify.
   CertifiedError finish();

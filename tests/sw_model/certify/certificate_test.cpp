@@ -90,6 +90,20 @@ TEST(Certificate, PiecesInAnyOrderGiveThatOfTheWhole) {
   }
 }
 
+TEST(Certificate, PartsOfSeveralGiveThatOfTheWhole) {
+  for (const test::Stimulus& s : test::all_stimuli(75)) {
+    SCOPED_TRACE(s.name + ", seed 75");
+    const std::span<const Point> cloud = s.cloud;
+    const std::array<std::uint32_t, 2> excluded = {0, 2};
+    const ExactMesh mesh(s.mesh());
+    PiecewiseCertificate first(mesh), rest(mesh), joined(mesh), empty(mesh);
+    first.add(cloud.first(3), {}, excluded);
+    rest.add(cloud.subspan(3), {3});
+    for (const PiecewiseCertificate* part : {&rest, &empty, &first}) joined.add(part->part());
+    expect_equal(joined.finish(), certify(cloud, mesh, excluded));
+  }
+}
+
 // A bumpy sphere and three points far from it.
 test::Stimulus with_outliers() {
   test::Stimulus s = test::bumpy_sphere(12, 16, 300, 72);
