@@ -115,19 +115,24 @@ std::pair<Point, double> farthest(const std::vector<Point>& points, const Measur
 // As read_cloud_in_pieces(), of what `read` adds to a content.
 PointCloud pieces_of(const NamedInput& input, const CloudReadOptions& options,
                      std::size_t piece_points, const std::function<void(PointCloud)>& take,
-                     const std::function<void(FileContent&)>& read) {
+                     const PieceChoice& choice, const std::function<void(FileContent&)>& read) {
   FileContent content;
   std::uint64_t points = 0, not_finite = 0;
-  content.take_pieces(piece_points, [&](FileContent& c) {
+  const auto give = [&](FileContent& c) {
     PointCloud piece;
     piece.first_index = static_cast<std::uint32_t>(c.points_given - c.vertices.size());
     piece.points = std::move(c.vertices);
     piece.file_index = std::move(c.file_index);
     drop_invalid(input, options, c.first_invalid, piece);
     for (const LeftOut& part : piece.left_out) not_finite += part.points;
-    points += piece.points.size();
-    if (!piece.points.empty()) take(std::move(piece));
-  });
+    if (!c.wants_piece()) {
+      piece.unwanted = piece.points.size() + c.points_passed;
+      piece.points.clear();
+    }
+    points += piece.points.size() + piece.unwanted;
+    if (!piece.points.empty() || piece.unwanted > 0) take(std::move(piece));
+  };
+  content.take_pieces(piece_points, give, choice);
   read(content);
   content.give_piece();
   check_content(input, options, content);
@@ -172,18 +177,20 @@ PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions&
 
 PointCloud read_cloud_in_pieces(const std::filesystem::path& path, const CloudReadOptions& options,
                                 std::size_t piece_points,
-                                const std::function<void(PointCloud)>& take) {
+                                const std::function<void(PointCloud)>& take,
+                                const PieceChoice& choice) {
   if (std::filesystem::is_directory(path)) {
-    return read_scan_folder_in_pieces(path, options, piece_points, take);
+    return read_scan_folder_in_pieces(path, options, piece_points, take, choice);
   }
-  return pieces_of(NamedInput{path.string()}, options, piece_points, take,
+  return pieces_of(NamedInput{path.string()}, options, piece_points, take, choice,
                    [&](FileContent& content) { read_content(path, options, content); });
 }
 
 PointCloud read_cloud_in_pieces(LasStream& stream, const CloudReadOptions& options,
                                 std::size_t piece_points,
-                                const std::function<void(PointCloud)>& take) {
-  return pieces_of(stream.input(), options, piece_points, take,
+                                const std::function<void(PointCloud)>& take,
+                                const PieceChoice& choice) {
+  return pieces_of(stream.input(), options, piece_points, take, choice,
                    [&](FileContent& content) { stream.read(options, content); });
 }
 

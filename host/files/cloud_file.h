@@ -39,18 +39,30 @@ std::span<const std::string_view> cloud_endings();
 // (scan_folder.h); `path` may be compressed or standard input as InputStream's may.
 PointCloud read_cloud(const std::filesystem::path& path, const CloudReadOptions& options = {});
 
+// Which pieces of a cloud are wanted.
+struct PieceChoice {
+  // Asked once for each piece, in their order; nothing: all are. A piece that is not wanted is
+  // given without points (PointCloud::unwanted).
+  std::function<bool()> wants = nullptr;
+  // Nothing in the file is left out, as is known of one that was read before. Pieces of
+  // uncompressed binary PLY, PCD and LAS files that are not wanted are not read then.
+  bool is_complete = false;
+};
+
 // As read_cloud(), but gives the points to `take` in file order, `piece_points` or fewer at a time,
 // and holds no more of them; without normals. Returns the rest of what the file says, without
 // points and scans. Files of .obj .off .glb .3mf and compressed .pcd
 // are held whole.
 PointCloud read_cloud_in_pieces(const std::filesystem::path& path, const CloudReadOptions& options,
                                 std::size_t piece_points,
-                                const std::function<void(PointCloud)>& take);
+                                const std::function<void(PointCloud)>& take,
+                                const PieceChoice& choice = {});
 
 // The same of a stream, which is read to its end.
 PointCloud read_cloud_in_pieces(LasStream& stream, const CloudReadOptions& options,
                                 std::size_t piece_points,
-                                const std::function<void(PointCloud)>& take);
+                                const std::function<void(PointCloud)>& take,
+                                const PieceChoice& choice = {});
 
 // "120 empty cells, 3 not finite"
 std::string describe(const std::vector<LeftOut>& left_out);

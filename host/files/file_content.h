@@ -51,19 +51,39 @@ struct FileContent {
 
   // Gives the points to `take` as they come, at most `points` at a time, and holds no more than
   // these; normals and triangles are not kept.
-  void take_pieces(std::size_t points, std::function<void(FileContent&)> take) {
+  void take_pieces(std::size_t points, std::function<void(FileContent&)> take,
+                   PieceChoice chosen = {}) {
     piece_points = points;
     take_piece = std::move(take);
+    choice = std::move(chosen);
   }
   bool points_only() const { return take_piece != nullptr; }
   void give_piece() {
     if (vertices.empty()) return;
     points_given += vertices.size();
     take_piece(*this);
+    is_wanted.reset();
     vertices.clear();
     file_index.clear();
     if (points_expected > points_given) expect_points(points_expected - points_given);
   }
+  bool wants_piece() {
+    if (!is_wanted) is_wanted = !choice.wants || choice.wants();
+    return *is_wanted;
+  }
+  // How many of the next `left` points need not be read. They are given as a piece without points.
+  std::uint64_t pass_unwanted(std::uint64_t left) {
+    if (!choice.is_complete || !vertices.empty() || wants_piece()) return 0;
+    const std::uint64_t passed = std::min<std::uint64_t>(left, piece_points);
+    points_given += passed;
+    points_passed = passed;
+    take_piece(*this);
+    points_passed = 0;
+    is_wanted.reset();
+    return passed;
+  }
+  // The points that the piece has room for.
+  std::size_t room() const { return piece_points - vertices.size(); }
   // Takes the content of a file that was read whole.
   void take(FileContent whole);
   // The points that were added so far.
@@ -108,6 +128,9 @@ struct FileContent {
   std::uint64_t points_expected = 0;
   std::size_t piece_points = std::numeric_limits<std::size_t>::max();
   std::function<void(FileContent&)> take_piece;
+  PieceChoice choice;
+  std::optional<bool> is_wanted;    // the piece that is read, once that was asked
+  std::uint64_t points_passed = 0;  // those of a piece that is given without having been read
 
   void note_attribute(std::string_view name) {
     if (std::ranges::find(attributes, name) == attributes.end()) attributes.emplace_back(name);

@@ -75,13 +75,21 @@ void note_header(const NamedInput& input, const LasHeader& header, const LasReco
 }
 
 // Points that are not compressed.
-void read_plain_points(const LasBytes& bytes, const LasHeader& header, PointReader& reader) {
+void read_plain_points(const LasBytes& bytes, const LasHeader& header, FileContent& content,
+                       PointReader& reader) {
   constexpr std::uint64_t kPiece = 1 << 16;
   std::vector<std::uint8_t> piece;
-  for (std::uint64_t i = 0; i < header.points; i += kPiece) {
-    piece.resize(std::min(kPiece, header.points - i) * header.point_bytes);
+  for (std::uint64_t i = 0; i < header.points;) {
+    const std::uint64_t left = header.points - i;
+    if (const std::uint64_t passed = content.pass_unwanted(left)) {
+      i += passed;
+      continue;
+    }
+    const std::uint64_t count = std::min({kPiece, left, std::uint64_t{content.room()}});
+    piece.resize(count * header.point_bytes);
     bytes.read(header.offset + i * header.point_bytes, piece);
     reader.read(piece);
+    i += count;
   }
 }
 
@@ -120,7 +128,7 @@ void read_las(const InputStream& input, const CloudReadOptions& options, FileCon
                kExportAgain);
   }
   content.expect_points(header.points);
-  read_plain_points(bytes, header, reader);
+  read_plain_points(bytes, header, content, reader);
 }
 
 LasStream::LasStream(const std::filesystem::path& path) : pipe_(path) {
@@ -154,7 +162,7 @@ void LasStream::read(const CloudReadOptions& options, FileContent& content) {
   note_header(pipe_, header_, records_, content);
   PointReader reader(pipe_, header_, options, content);
   content.expect_points(header_.points);
-  read_plain_points(bytes(), header_, reader);
+  read_plain_points(bytes(), header_, content, reader);
   if (EMAX_FAULT(kTrustsPromises)) return;
   if (header_.may_follow) {
     pipe_.skip(std::numeric_limits<std::uint64_t>::max());

@@ -240,7 +240,8 @@ void read_pcd(const InputStream& input, FileContent& content) {
   const std::uint64_t room = input.size() - header.body;
   const std::size_t point_bytes = header.point_bytes();
 
-  const auto add_all = [&](std::string_view place, auto&& value, auto&& number) {
+  // `pass(left)`: how many of the next points need not be read.
+  const auto add_all = [&](std::string_view place, auto&& value, auto&& number, auto&& pass) {
     content.expect_points(header.points);
     const auto three = [&](const ThreePlaces& at, std::size_t i) {
       Point point;
@@ -248,12 +249,17 @@ void read_pcd(const InputStream& input, FileContent& content) {
       return point;
     };
     for (std::size_t i = 0; i < header.points; ++i) {
+      if (const std::uint64_t passed = pass(header.points - i)) {
+        i += passed - 1;
+        continue;
+      }
       const std::uint64_t n = number(i);
       content.add_vertex(three(*coordinates, i), place, n);
       if (normal) content.normals.push_back(three(*normal, i));
     }
   };
   const auto vertex_number = [](std::size_t i) { return i; };
+  const auto read_all = [](std::uint64_t) { return std::uint64_t{0}; };
 
   if (header.data == Data::kText) {
     check_count(input, header.points, "points", 2 * header.columns(), room + 1);
@@ -268,7 +274,8 @@ void read_pcd(const InputStream& input, FileContent& content) {
       return lines.line();
     };
     add_all(
-        "line", [&](const Place& p, std::size_t) { return lines.number(p.column); }, next_line);
+        "line", [&](const Place& p, std::size_t) { return lines.number(p.column); }, next_line,
+        read_all);
     if (lines.next() && is_point(lines, header.columns())) {
       lines.fail(fmt::format("more points than the {} of the header", header.points));
     }
@@ -284,7 +291,7 @@ void read_pcd(const InputStream& input, FileContent& content) {
           const std::uint64_t at = header.body + i * point_bytes + p.offset;
           return load(*p.field, window.bytes(at, p.field->size).data());
         },
-        vertex_number);
+        vertex_number, [&](std::uint64_t left) { return content.pass_unwanted(left); });
     return;
   }
 
@@ -297,7 +304,7 @@ void read_pcd(const InputStream& input, FileContent& content) {
       [&](const Place& p, std::size_t i) {
         return load(*p.field, body.data() + header.points * p.offset + i * p.field->size);
       },
-      vertex_number);
+      vertex_number, read_all);
 }
 
 }  // namespace emax

@@ -141,6 +141,8 @@ class TextValues {
     for (std::uint64_t i = 0; i < count; ++i) lines_.number(take());
   }
   bool has_room(Type, std::uint64_t count) const { return count <= lines_.size() - field_; }
+  static constexpr bool kCanPass = false;  // where a line begins is not known
+  void pass(std::uint64_t) {}
   void end_item() {
     if (field_ != lines_.size()) {
       lines_.fail(fmt::format("{} values where {} are expected", lines_.size(), field_));
@@ -212,6 +214,8 @@ class BinaryValues {
   bool has_room(Type type, std::uint64_t count) const {
     return count <= (window_.size() - at_) / size_of(type);
   }
+  static constexpr bool kCanPass = true;
+  void pass(std::uint64_t bytes) { at_ += bytes; }
   void end_item() {}
   void end() {
     if (at_ != window_.size()) {
@@ -372,7 +376,16 @@ class Body {
     content_.expect_points(element.count);
     if (normal) content_.normals.reserve(element.count);
     std::vector<double> item(element.properties.size());
+    const bool has_lists = std::ranges::any_of(
+        element.properties, [](const Property& p) { return p.list_count.has_value(); });
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (Values::kCanPass && !has_lists) {
+        if (const std::uint64_t passed = content_.pass_unwanted(element.count - i)) {
+          values_.pass(passed * least_item_bytes(element));
+          i += passed - 1;
+          continue;
+        }
+      }
       values_.begin_item(element, i);
       for (std::size_t k = 0; k < item.size(); ++k) {
         const Property& property = element.properties[k];

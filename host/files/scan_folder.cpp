@@ -132,19 +132,20 @@ PointCloud read_scan_folder(const fs::path& folder, const CloudReadOptions& opti
 
 PointCloud read_scan_folder_in_pieces(const fs::path& folder, const CloudReadOptions& options,
                                       std::size_t piece_points,
-                                      const std::function<void(PointCloud)>& take) {
+                                      const std::function<void(PointCloud)>& take,
+                                      const PieceChoice& choice) {
   const std::vector<fs::path> files = scans_in(folder);
   JoinedFacts facts(files.front().filename().string());
   for (const fs::path& file : files) {
     const auto before = static_cast<std::uint32_t>(facts.points());
     std::uint64_t kept = 0;
-    const PointCloud rest =
-        read_cloud_in_pieces(file, options, piece_points, [&](PointCloud piece) {
-          piece.first_index += before;
-          for (std::uint32_t& index : piece.file_index) index += before;
-          kept += piece.points.size();
-          take(std::move(piece));
-        });
+    const auto give = [&](PointCloud piece) {
+      piece.first_index += before;
+      for (std::uint32_t& index : piece.file_index) index += before;
+      kept += piece.points.size() + piece.unwanted;
+      take(std::move(piece));
+    };
+    const PointCloud rest = read_cloud_in_pieces(file, options, piece_points, give, choice);
     facts.add(file, rest, kept);
   }
   return facts.finish();

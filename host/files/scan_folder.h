@@ -22,7 +22,8 @@ PointCloud read_scan_folder(const std::filesystem::path& folder, const CloudRead
 // The same in pieces, as read_cloud_in_pieces().
 PointCloud read_scan_folder_in_pieces(const std::filesystem::path& folder,
                                       const CloudReadOptions& options, std::size_t piece_points,
-                                      const std::function<void(PointCloud)>& take);
+                                      const std::function<void(PointCloud)>& take,
+                                      const PieceChoice& choice = {});
 
 // The SHA-256 of the lines that `sha256sum` prints for these files in the folder: it holds their
 // names, too.

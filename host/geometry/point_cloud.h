@@ -38,6 +38,8 @@ struct PointCloud {
   // The index in the file of the first point where file_index is empty: not 0 in a piece of a
   // cloud.
   std::uint32_t first_index = 0;
+  // Of a piece that was not wanted: the number of its points, none of which is given.
+  std::uint64_t unwanted = 0;
 
   std::uint32_t index_in_file(std::size_t i) const {
     return file_index.empty() ? first_index + static_cast<std::uint32_t>(i) : file_index[i];

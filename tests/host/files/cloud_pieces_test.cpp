@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "file_bytes.h"
 #include "host/files/cloud_file.h"
@@ -76,6 +77,81 @@ TEST_F(CloudPieces, AreTheWhole) {
     const std::string ending = entry.path().extension().string();
     if (std::ranges::find(cloud_endings(), ending) == cloud_endings().end()) continue;
     expect_same_in_pieces(entry.path());
+  }
+}
+
+// Every second piece, or every third, and whether the others may stay unread.
+void expect_same_pieces_chosen(const std::filesystem::path& path, bool skip_invalid = false) {
+  for (const std::size_t piece_points : {1, 2, 1000}) {
+    std::vector<PointCloud> all;
+    const PointCloud whole =
+        read_cloud_in_pieces(path, {skip_invalid}, piece_points,
+                             [&](PointCloud piece) { all.push_back(std::move(piece)); });
+    for (const std::size_t each : {2, 3}) {
+      SCOPED_TRACE(path.string() + " in pieces of " + std::to_string(piece_points));
+      std::size_t asked = 0, given = 0;
+      const PointCloud rest = read_cloud_in_pieces(
+          path, {skip_invalid}, piece_points,
+          [&](const PointCloud& piece) {
+            ASSERT_LT(given, all.size());
+            const PointCloud& expected = all[given++];
+            const bool is_wanted = (asked - 1) % each == 0;
+            EXPECT_EQ(piece.points, is_wanted ? expected.points : std::vector<Point>());
+            EXPECT_EQ(piece.unwanted, is_wanted ? 0 : expected.points.size());
+            if (is_wanted) {
+              EXPECT_EQ(piece.index_in_file(0), expected.index_in_file(0));
+            }
+          },
+          {[&] { return asked++ % each == 0; }, whole.left_out.empty()});
+      EXPECT_EQ(given, all.size());
+      EXPECT_EQ(describe(rest.left_out), describe(whole.left_out));
+    }
+  }
+}
+
+TEST_F(CloudPieces, ThatAreNotWantedHaveNoPoints) {
+  expect_same_pieces_chosen(folder_.write("a.ply", kTextPly), true);
+  expect_same_pieces_chosen(folder_.write("a.xyz", "1 2 3\n4 5 6\n7 8 9\n1 2 4\n1 2 5\n"));
+  expect_same_pieces_chosen(folder_.write("a.obj", "v 1 2 3\nv nan 5 6\nv 7 8 9\n"), true);
+  expect_same_pieces_chosen(folder_.write(
+      "a.las", las_bytes({{0, 0, 0, 2}, {1, 0, 0, 0x80 | 2}, {2, 0, 0, 2}, {3, 1, 0, 2}})));
+  expect_same_pieces_chosen(
+      folder_.write("b.las", las_bytes({{0, 0, 0, 2}, {1, 0, 0, 2}, {2, 0, 0, 2}, {3, 1, 0, 2}})));
+  for (const auto& entry : std::filesystem::directory_iterator(EMAX_TEST_DATA)) {
+    const std::string ending = entry.path().extension().string();
+    if (std::ranges::find(cloud_endings(), ending) == cloud_endings().end()) continue;
+    expect_same_pieces_chosen(entry.path());
+  }
+  expect_same_pieces_chosen(folder_.path(), true);
+}
+
+// What is not read may be damaged.
+TEST_F(CloudPieces, ThatAreNotWantedAreNotRead) {
+  std::string pcd =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\n"
+      "POINTS 4\nDATA binary\n";
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n";
+  for (const float x : {0.0f, 1.0f, std::numeric_limits<float>::quiet_NaN(), 3.0f}) {
+    for (std::string* bytes : {&pcd, &ply}) {
+      for (const float value : {x, 0.0f, 0.0f}) append(*bytes, value);
+    }
+  }
+  for (const auto& path : {folder_.write("a.pcd", pcd), folder_.write("a.ply", ply)}) {
+    SCOPED_TRACE(path.string());
+    const auto choose = [&](bool is_complete) {
+      std::size_t asked = 0;
+      std::vector<double> found;
+      read_cloud_in_pieces(path, {}, 1,
+                           [&](const PointCloud& piece) {
+                             for (const Point& point : piece.points) found.push_back(point[0]);
+                           },
+                           {[&] { return asked++ != 2; }, is_complete});
+      return found;
+    };
+    EXPECT_EQ(choose(true), (std::vector<double>{0, 1, 3}));
+    EXPECT_NE(message_of([&] { choose(false); }), "");
   }
 }
 
