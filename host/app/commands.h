@@ -99,6 +99,7 @@ struct ErrorOptions {
   std::string color, color_mesh;        // PLY files; empty: none
   std::string deviations;               // PLY or GLB; empty: none
   std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
+  Machines machines;
 };
 int run_error(const ErrorOptions& options);
 
@@ -115,6 +116,7 @@ struct VerifyOptions {
   std::string json;
   ReportOptions report;
   std::optional<std::uint64_t> memory;  // bytes; nothing: half of what is free
+  Machines machines;
 };
 int run_verify(const VerifyOptions& options);
 

@@ -231,10 +231,13 @@ int run_error(const ErrorOptions& options) {
   TriangleMesh& mesh = file.mesh;
   drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
   question.memory = options.memory.value_or(question.memory);
+  question.runner = options.machines.pieces.get();
+  question.files = {options.mesh, {}, true};
   PhaseProgress phase;
   phase.begin("reading the cloud", reading_seconds(options.common.cloud));
   const ScanPieces pieces(options.common.cloud, options.common.reading, options.common.unit,
-                          question.memory, was_interrupted, stream_of(options));
+                          question.memory, was_interrupted, stream_of(options),
+                          question.runner->threads(options.common.cloud, question.files));
   phase.end();
   const Scan& scan = pieces.scan();
   require_room(options, pieces);

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <future>
 #include <iterator>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <utility>
 
 #include "host/app/device_report.h"
-#include "host/measure/piece_measurement.h"
 #include "host/measure/point_distances.h"
 #include "host/report/distance_store.h"
 #include "host/report/surface_samples.h"
@@ -37,41 +34,46 @@ class CloudMeasurement {
         question_(question),
         limit_(limit),
         excludable_(excludable_points(question.excluded_share, scan.points())),
-        exact_of_(std::async(std::launch::async,
-                             [&] { return std::make_unique<const ExactMesh>(mesh.view()); })),
-        kernel_(mesh.view(), scan.normalization(), question.brute_force, processor_threads()),
-        margin_(limit ? point_distance_margin(kernel_.normalization(), mesh.view(), *limit) : 0),
-        exact_(exact_of_.get()),
-        certificate_(*exact_),
+        meter_(mesh, nullptr, scan.normalization(), question.brute_force, processor_threads()),
+        margin_(limit ? point_distance_margin(meter_.normalization(), mesh.view(), *limit) : 0),
         farthest_(excludable_),
         store_(scan.points(), question.memory / 4, scan.scan().path.string()) {}
 
-  const ExactMesh& exact() const { return *exact_; }
+  const ExactMesh& exact() const { return meter_.exact(); }
   std::size_t excludable() const { return excludable_; }
   const FarthestPoints& farthest() const { return farthest_; }
   // Of the kernel alone, on all threads together.
   double kernel_seconds() const {
-    const std::size_t threads = std::min(processor_threads(), pieces_done_);
+    const std::size_t shared = runner().threads(scan_.scan().path, question_.files);
+    const std::size_t threads = std::min(std::max(processor_threads(), shared), pieces_done_);
     return kernel_seconds_ / static_cast<double>(threads);
   }
 
   void measure() {
-    scan_.for_each(processor_threads(), [this](const ScanPieces::Piece& piece) { add(piece); });
+    PieceQuestion asked;
+    asked.distances = true;
+    asked.certify = excludable_ == 0;
+    asked.limit = limit_;
+    asked.margin = margin_;
+    // At least one, even if none is to be shown: it gives the maximum.
+    asked.farthest = std::max<std::size_t>(question_.worst, 1);
+    run(asked, [&](const PieceFindings& found) { add(found, asked.farthest); });
   }
 
   // `excluded`: numbers of points, ascending.
   CertifiedError certify(std::span<const std::uint32_t> excluded) {
-    if (excludable_ == 0) return certificate_.finish();
-    scan_.for_each(processor_threads(), [&](const ScanPieces::Piece& piece) {
-      certificate_.add(piece.points, piece.numbers, piece.indices_of(excluded));
-    });
-    return certificate_.finish();
+    if (excludable_ > 0) {
+      PieceQuestion asked;
+      asked.excluded.assign(excluded.begin(), excluded.end());
+      run(asked, [](const PieceFindings&) {});
+    }
+    return meter_.certificate().finish();
   }
 
   CloudErrors errors(const std::vector<double>& quantiles) {
     std::vector<FarPoint> worst;
-    for (const Shown& shown : shown_) {
-      const ExactMesh::Nearest nearest = exact_->nearest(shown.at);
+    for (const FarthestPoint& shown : shown_) {
+      const ExactMesh::Nearest nearest = exact().nearest(shown.at);
       store_.put(shown.index, {&nearest.distance.upper, 1});
       worst.push_back({shown.number, shown.at, nearest.distance.upper, nearest.triangle});
     }
@@ -85,51 +87,26 @@ class CloudMeasurement {
   std::vector<double> distances() && { return store_.release(); }
 
  private:
-  // A point that is among the farthest so far.
-  struct Shown {
-    double distance;
-    std::uint32_t number;
-    std::uint64_t index;
-    Point at;
-    // The farthest first.
-    bool operator<(const Shown& other) const {
-      return distance != other.distance ? distance > other.distance : index < other.index;
-    }
-  };
-
-  void add(const ScanPieces::Piece& piece) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::vector<std::uint32_t> bits =
-        kernel_.squared_distances(piece.points, question_.interrupted);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    std::vector<double> distances;
-    distances.reserve(bits.size());
-    for (std::size_t i = 0; i < bits.size(); ++i) {
-      const double distance = in_file_units(kernel_.normalization(), bits[i]);
-      const bool is_open = limit_ && std::abs(distance - *limit_) <= margin_;
-      distances.push_back(is_open ? exact_->distance(piece.points[i]).upper : distance);
-    }
-    store_.put(piece.first, distances);
-    if (excludable_ == 0) certificate_.add(piece.points, piece.numbers);
-    const std::lock_guard lock(mutex_);
-    kernel_seconds_ += took.count();
-    farthest_.add(bits, piece.numbers);
-    show(piece, distances);
-    ++pieces_done_;
-    points_done_ += piece.points.size();
-    if (question_.advance) {
-      question_.advance(static_cast<double>(points_done_) / static_cast<double>(scan_.points()));
-    }
+  PieceRunner& runner() const {
+    static LocalPieces here;
+    return question_.runner ? *question_.runner : here;
   }
 
-  void show(const ScanPieces::Piece& piece, std::span<const double> distances) {
-    // At least one, even if none is to be shown: it gives the maximum.
-    const std::size_t most = std::max<std::size_t>(question_.worst, 1);
-    for (std::size_t i = 0; i < distances.size(); ++i) {
-      const Shown point = {distances[i], piece.numbers[i], piece.first + i, piece.points[i]};
-      if (shown_.size() == most && !(point < *shown_.rbegin())) continue;
-      shown_.insert(point);
-      if (shown_.size() > most) shown_.erase(std::prev(shown_.end()));
+  void run(const PieceQuestion& asked, const PieceRunner::Take& take) {
+    runner().run(scan_, meter_, question_.files, asked, question_.interrupted, take);
+  }
+
+  void add(const PieceFindings& found, std::size_t most) {
+    store_.put(found.first, found.distances);
+    const std::lock_guard lock(mutex_);
+    kernel_seconds_ += found.seconds;
+    farthest_.add(found.squared_bits, found.numbers());
+    shown_.insert(found.farthest.begin(), found.farthest.end());
+    while (shown_.size() > most) shown_.erase(std::prev(shown_.end()));
+    ++pieces_done_;
+    points_done_ += found.points;
+    if (question_.advance) {
+      question_.advance(static_cast<double>(points_done_) / static_cast<double>(scan_.points()));
     }
   }
 
@@ -137,15 +114,12 @@ class CloudMeasurement {
   const ErrorQuestion& question_;
   const std::optional<double> limit_;
   const std::size_t excludable_;
-  std::future<std::unique_ptr<const ExactMesh>> exact_of_;
-  PieceMeasurement kernel_;
+  PieceMeter meter_;
   const double margin_;
-  std::unique_ptr<const ExactMesh> exact_;
-  PiecewiseCertificate certificate_;
 
   std::mutex mutex_;  // of what follows
   FarthestPoints farthest_;
-  std::set<Shown> shown_;
+  std::set<FarthestPoint> shown_;
   double kernel_seconds_ = 0;  // the sum of all threads
   std::size_t pieces_done_ = 0;
   std::uint64_t points_done_ = 0;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/app/piece_runner.h"
 #include "host/app/scan_pieces.h"
 #include "host/measure/error_constraint.h"
 #include "host/report/result_json.h"
@@ -33,6 +34,8 @@ struct ErrorQuestion {
   std::uint64_t memory = standard_memory();  // bytes for the distances of the points
   std::function<bool()> interrupted;
   std::function<void(double)> advance;  // told the share of the points that are measured
+  PieceRunner* runner = nullptr;        // nullptr: the threads of this processor
+  MeterFiles files = {};                // of the mesh, where the runner has other processes
 };
 
 // All results for the mesh. Indices of points are the file's, but those of `measured.excluded` are

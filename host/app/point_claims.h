@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "host/app/piece_runner.h"
 #include "host/app/scan_pieces.h"
 #include "host/geometry/triangle_mesh.h"
 #include "sw_model/certify/certificate.h"
@@ -21,7 +22,9 @@ struct PointClaims {
 };
 
 // `excluded`: ascending, each once, fewer than the scan has points. `reference` may be nullptr.
+// `files`: those of the meshes, where the runner has other processes.
 PointClaims recompute(const ScanPieces& scan, const TriangleMesh& mesh,
-                      const TriangleMesh* reference, std::span<const std::uint32_t> excluded);
+                      const TriangleMesh* reference, std::span<const std::uint32_t> excluded,
+                      PieceRunner& runner, const MeterFiles& files);
 
 }  // namespace emax

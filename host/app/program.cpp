@@ -40,6 +40,7 @@ int run(int argc, char** argv, const Machines& machines) {
   });
   CommandLine line;
   line.optimize.machines = line.reconstruct.machines = line.decimate.machines = machines;
+  line.error.machines = line.verify.machines = machines;
   add_commands(app, line);
   std::vector<std::string> words =
       checked_words(app, std::span(argv, static_cast<std::size_t>(argc)));

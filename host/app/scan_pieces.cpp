@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "host/files/las_stream.h"
+#include "host/files/scan_folder.h"
 #include "host/optimize/evaluation_limits.h"
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
@@ -45,29 +47,38 @@ std::optional<std::uint64_t> free_bytes_of_machine() {
   return std::nullopt;
 }
 
+// So many pieces for each thread of several processes, so that all end at about the same time. How
+// many points a file has is not known before it is read: it has about one in so many bytes.
+constexpr std::uint64_t kPiecesOfThread = 8, kBytesInFile = 16;
+
 // Pieces on their way from the thread that reads to those that work.
 class PieceQueue {
  public:
   struct Stopped {};  // thrown where a worker failed
+  struct Entry {
+    PointCloud piece;
+    std::uint64_t first;  // the index of its first point
+    std::size_t number;
+  };
 
   explicit PieceQueue(std::size_t room) : room_(room) {}
 
-  void push(PointCloud piece, std::uint64_t first) {
+  void push(Entry entry) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return failure_ || pieces_.size() < room_; });
     if (failure_) throw Stopped{};
-    pieces_.emplace_back(std::move(piece), first);
+    pieces_.push_back(std::move(entry));
     changed_.notify_all();
   }
   // Nothing at the end, and where a worker failed.
-  std::optional<std::pair<PointCloud, std::uint64_t>> pop() {
+  std::optional<Entry> pop() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return failure_ || at_end_ || !pieces_.empty(); });
     if (failure_ || pieces_.empty()) return std::nullopt;
-    auto piece = std::move(pieces_.front());
+    Entry entry = std::move(pieces_.front());
     pieces_.pop_front();
     changed_.notify_all();
-    return piece;
+    return entry;
   }
   void end() {
     const std::lock_guard lock(mutex_);
@@ -87,7 +98,7 @@ class PieceQueue {
   const std::size_t room_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::pair<PointCloud, std::uint64_t>> pieces_;
+  std::deque<Entry> pieces_;
   bool at_end_ = false;
   std::exception_ptr failure_;
 };
@@ -108,9 +119,28 @@ PointCloud joined_pieces(std::vector<PointCloud> pieces, PointCloud rest, std::u
 }
 
 // Each thread works on a piece while another one waits for it.
-std::size_t points_of_piece(std::uint64_t memory) {
-  const std::uint64_t room = memory / (kBytesPerPointOfPiece * 2 * processor_threads());
+std::size_t points_of_piece(std::uint64_t memory, std::size_t threads) {
+  const std::uint64_t room = memory / (kBytesPerPointOfPiece * 2 * threads);
   return std::clamp<std::uint64_t>(room, kLeastPoints, kMostPoints);
+}
+
+// Of a cloud whose pieces several processes share, perhaps on one machine.
+std::size_t points_of_shared_piece(std::uint64_t memory, std::size_t threads,
+                                   std::uint64_t file_bytes) {
+  const std::uint64_t wanted = file_bytes / (kBytesInFile * kPiecesOfThread * threads);
+  return std::clamp<std::uint64_t>(wanted, kLeastPoints, points_of_piece(memory, threads));
+}
+
+PieceMark mark_of(std::span<const Point> points) {
+  PieceMark mark;
+  mark.points = points.size();
+  for (const Point& point : points) {
+    for (int k = 0; k < 3; ++k) {
+      mark.sum += std::bit_cast<std::uint64_t>(point[k]);
+      mark.sum_of_sums += mark.sum;
+    }
+  }
+  return mark;
 }
 
 bool is_in(const Bounds& inner, const Bounds& outer) {
@@ -136,19 +166,22 @@ ScanPieces::ScanPieces(const Scan& scan)
 
 ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
                        std::string_view unit, std::uint64_t memory,
-                       std::function<bool()> interrupted)
-    : ScanPieces(path, reading, unit, memory, std::move(interrupted), nullptr) {}
+                       std::function<bool()> interrupted, std::size_t threads)
+    : ScanPieces(path, reading, unit, memory, std::move(interrupted), nullptr, threads) {}
 
 ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions& reading,
                        std::string_view unit, std::uint64_t memory,
-                       std::function<bool()> interrupted, std::unique_ptr<LasStream> stream)
+                       std::function<bool()> interrupted, std::unique_ptr<LasStream> stream,
+                       std::size_t threads)
     : scan_(&own_),
       reading_(reading),
       memory_(memory),
       interrupted_(std::move(interrupted)),
-      stream_(std::move(stream)) {
+      stream_(std::move(stream)),
+      piece_points_(points_of_piece(memory, processor_threads())) {
   own_.path = path;
   own_.unit = unit_named(unit);
+  if (threads > 0 && !stream_) begin_cut(threads);
   if (stream_ && stream_->points() * kBytesPerPoint > memory) {
     take_promise();
   } else {
@@ -158,7 +191,33 @@ ScanPieces::ScanPieces(const std::filesystem::path& path, const CloudReadOptions
   if (unit.empty()) own_.unit = own_.cloud.unit;
 }
 
+ScanPieces::ScanPieces(CloudCut cut, std::function<bool()> interrupted)
+    : scan_(&own_),
+      reading_(cut.reading),
+      interrupted_(std::move(interrupted)),
+      bounds_(cut.bounds),
+      piece_points_(cut.piece_points),
+      cut_(std::move(cut)),
+      is_cut_elsewhere_(true) {
+  own_.path = cut_->path;
+  for (const PieceMark& mark : cut_->marks) points_ += mark.points;
+  if (!exists(cut_->path)) throw Error(own_.path.string() + ": no such file");
+  const std::uint64_t bytes = bytes_of_input(cut_->path);
+  if (bytes == cut_->bytes) return;
+  throw Error(fmt::format("{}: has {} bytes, not {}", own_.path.string(), grouped(bytes),
+                          grouped(cut_->bytes)));
+}
+
 ScanPieces::~ScanPieces() = default;
+
+void ScanPieces::begin_cut(std::size_t threads) {
+  cut_.emplace();
+  cut_->path = own_.path;
+  cut_->reading = reading_;
+  cut_->bytes = bytes_of_input(own_.path);
+  piece_points_ = points_of_shared_piece(memory_, threads, cut_->bytes);
+  cut_->piece_points = piece_points_;
+}
 
 void ScanPieces::take_promise() {
   points_ = stream_->points();
@@ -170,34 +229,46 @@ void ScanPieces::take_promise() {
 void ScanPieces::read_first() {
   std::vector<PointCloud> kept;
   bool are_kept = true;
-  read(
-      [&](PointCloud piece) {
-        const Bounds box = bounds_of(piece.points);
-        bounds_ = points_ == 0 ? box : joined(bounds_, box);
-        points_ += piece.points.size();
-        are_kept = are_kept && points_ * kBytesPerPoint <= memory_;
-        if (are_kept) {
-          kept.push_back(std::move(piece));
-        } else {
-          kept.clear();
-        }
-      },
-      own_.cloud);
+  own_.cloud = read({}, [&](std::size_t number, PointCloud piece) {
+    count(number, piece);
+    are_kept = are_kept && points_ * kBytesPerPoint <= memory_;
+    if (are_kept) {
+      kept.push_back(std::move(piece));
+    } else {
+      kept.clear();
+    }
+  });
   stream_.reset();
+  if (cut_) {
+    cut_->bounds = bounds_;
+    cut_->is_complete = own_.cloud.left_out.empty();
+  }
   if (are_kept) {
     own_.cloud = joined_pieces(std::move(kept), std::move(own_.cloud), points_);
     check_cloud(own_.cloud, own_.path.string());
   }
 }
 
-void ScanPieces::read(const std::function<void(PointCloud)>& take, PointCloud& rest) const {
-  const std::size_t size = points_of_piece(memory_);
-  const auto take_one = [&](PointCloud piece) {
+// A piece of the first reading.
+void ScanPieces::count(std::size_t number, const PointCloud& piece) {
+  const Bounds box = bounds_of(piece.points);
+  bounds_ = points_ == 0 ? box : joined(bounds_, box);
+  points_ += piece.points.size();
+  if (!cut_) return;
+  cut_->marks.resize(number + 1);
+  cut_->marks[number] = mark_of(piece.points);
+}
+
+PointCloud ScanPieces::read(const PieceShare& share, const Take& take) const {
+  std::size_t next = 0;
+  const auto wants = [&] { return share.has(next++); };
+  const auto give = [&](PointCloud piece) {
     if (interrupted_ && interrupted_()) throw Interrupted{};
-    take(std::move(piece));
+    take(next - 1, std::move(piece));
   };
-  rest = stream_ ? read_cloud_in_pieces(*stream_, reading_, size, take_one)
-                 : read_cloud_in_pieces(scan_->path, reading_, size, take_one);
+  const PieceChoice choice = {wants, cut_ && cut_->is_complete};
+  return stream_ ? read_cloud_in_pieces(*stream_, reading_, piece_points_, give, choice)
+                 : read_cloud_in_pieces(scan_->path, reading_, piece_points_, give, choice);
 }
 
 void ScanPieces::require_in_memory(std::string_view what) const {
@@ -229,12 +300,18 @@ void ScanPieces::fail_as_other() const {
     stream_->input().fail("the box of its points is not the one that its header promises",
                           kStoreFirst);
   }
-  throw Error(fmt::format("{}: was changed while it was read; leave it as it is meanwhile",
-                          scan_->path.string()));
+  throw Error(fmt::format("{}: {}", scan_->path.string(),
+                          is_cut_elsewhere_
+                              ? "has other points"
+                              : "was changed while it was read; leave it as it is meanwhile"));
 }
 
-void ScanPieces::require_known(const Bounds& piece) const {
-  if (!is_in(piece, bounds_)) fail_as_other();
+void ScanPieces::require_known(std::size_t number, const PointCloud& piece,
+                               const Bounds& box) const {
+  const bool is_known =
+      cut_ ? number < cut_->marks.size() && mark_of(piece.points) == cut_->marks[number]
+           : is_in(box, bounds_);
+  if (!is_known) fail_as_other();
 }
 
 void ScanPieces::require_all(const Bounds& found, std::uint64_t points,
@@ -246,6 +323,7 @@ void ScanPieces::require_all(const Bounds& found, std::uint64_t points,
         kStoreFirst);
   }
   if (points != points_) fail_as_other();
+  if (cut_) return;  // its marks tell more, and a share of its pieces has a smaller box
   if (!is_in(bounds_, found) && !EMAX_FAULT(kTrustsPromises)) fail_as_other();
 }
 
@@ -265,27 +343,47 @@ std::vector<std::uint32_t> ScanPieces::Piece::indices_of(
   return indices;
 }
 
+ScanPieces::Piece ScanPieces::held(std::size_t first, std::size_t last) const {
+  const PointCloud& cloud = scan_->cloud;
+  const auto of_piece = [&](const auto& all) {
+    return std::span(all).subspan(first, last - first);
+  };
+  PointNumbers numbers{cloud.index_in_file(first)};
+  if (!cloud.file_index.empty()) numbers.listed = of_piece(cloud.file_index);
+  return {of_piece(cloud.points), first, numbers};
+}
+
 void ScanPieces::for_each(std::size_t threads,
                           const std::function<void(const Piece&)>& work) const {
   if (!is_in_memory()) {
-    for_each_read(threads, work);
+    for_each_read(threads, {}, work);
     return;
   }
-  const PointCloud& cloud = scan_->cloud;
-  const std::size_t size =
-      std::clamp(cloud.points.size() / (4 * threads), kLeastPoints, kMostPoints);
-  in_pieces(threads, cloud.points.size(), size,
-            [&](std::size_t, std::size_t first, std::size_t last) {
-              const auto of_piece = [&](const auto& all) {
-                return std::span(all).subspan(first, last - first);
-              };
-              PointNumbers numbers{cloud.index_in_file(first)};
-              if (!cloud.file_index.empty()) numbers.listed = of_piece(cloud.file_index);
-              work({of_piece(cloud.points), first, numbers});
-            });
+  const std::size_t points = scan_->cloud.points.size();
+  const std::size_t size = std::clamp(points / (4 * threads), kLeastPoints, kMostPoints);
+  in_pieces(threads, points, size,
+            [&](std::size_t, std::size_t first, std::size_t last) { work(held(first, last)); });
 }
 
-void ScanPieces::for_each_read(std::size_t threads,
+void ScanPieces::for_each(std::size_t threads, const PieceShare& share,
+                          const std::function<void(const Piece&)>& work) const {
+  if (!is_in_memory()) {
+    for_each_read(threads, share, work);
+    return;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> pieces;  // first point and end
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < cut_->marks.size(); ++i) {
+    const std::size_t end = first + static_cast<std::size_t>(cut_->marks[i].points);
+    if (share.has(i) && end > first) pieces.emplace_back(first, end);
+    first = end;
+  }
+  in_pieces(threads, pieces.size(), 1, [&](std::size_t, std::size_t i, std::size_t) {
+    work(held(pieces[i].first, pieces[i].second));
+  });
+}
+
+void ScanPieces::for_each_read(std::size_t threads, const PieceShare& share,
                                const std::function<void(const Piece&)>& work) const {
   PieceQueue queue(threads);
   std::uint64_t points = 0;
@@ -299,10 +397,10 @@ void ScanPieces::for_each_read(std::size_t threads,
       workers.emplace_back([&] {
         try {
           while (const auto next = queue.pop()) {
-            const auto& [piece, first] = *next;
+            const PointCloud& piece = next->piece;
             const Bounds box = bounds_of(piece.points);
-            require_known(box);
-            work({piece.points, first, {piece.first_index, piece.file_index}});
+            require_known(next->number, piece, box);
+            work({piece.points, next->first, {piece.first_index, piece.file_index}});
             const std::lock_guard lock(mutex);
             found = joined(found, box);
           }
@@ -312,13 +410,11 @@ void ScanPieces::for_each_read(std::size_t threads,
       });
     }
     try {
-      read(
-          [&](PointCloud piece) {
-            const std::uint64_t first = points;
-            points += piece.points.size();
-            queue.push(std::move(piece), first);
-          },
-          rest);
+      rest = read(share, [&](std::size_t number, PointCloud piece) {
+        const std::uint64_t first = points;
+        points += piece.points.size() + piece.unwanted;
+        if (!piece.points.empty()) queue.push({std::move(piece), first, number});
+      });
       queue.end();
     } catch (const PieceQueue::Stopped&) {
       // The worker's failure is rethrown below.

@@ -53,7 +53,8 @@ class Verification {
       : path_(options.certificate),
         certificate_(read_certificate(path_)),
         report_(options.report),
-        memory_(options.memory.value_or(standard_memory())) {
+        memory_(options.memory.value_or(standard_memory())),
+        runner_(options.machines.pieces) {
     if (!options.report.report.empty()) certificate_text_ = read_input(path_).bytes;
     mesh_path_ = locate(options.mesh, certificate_.mesh_file, "mesh", path_, false);
     cloud_path_ = locate(options.cloud, certificate_.cloud_file, "cloud", path_, true);
@@ -105,7 +106,8 @@ class Verification {
     const bool once = std::ranges::adjacent_find(excluded_) == excluded_.end();
     const bool leave_some = excluded_.size() < scan_->points();
     if (once && leave_some) {
-      points_ = recompute(*scan_, mesh_, certificate_.reference ? &reference_ : nullptr, excluded_);
+      points_ = recompute(*scan_, mesh_, certificate_.reference ? &reference_ : nullptr, excluded_,
+                          *runner_, files());
     }
     check_sizes(once, leave_some);
     if (reasons_.empty()) check_claims();
@@ -183,11 +185,14 @@ class Verification {
       vertices_ = vertices_of(cloud_path_, read_mesh(cloud_path_));
       scan_.emplace(*vertices_);
     } else {
-      scan_.emplace(cloud_path_, certificate_.reading, "", memory_, was_interrupted);
+      scan_.emplace(cloud_path_, certificate_.reading, "", memory_, was_interrupted,
+                    runner_->threads(cloud_path_, files()));
       scan_->require_in_memory(report_);
     }
     if (certificate_.reference) reference_ = read_mesh(reference_path_);
   }
+
+  MeterFiles files() const { return {mesh_path_, reference_path_}; }
 
   void check_sizes(bool once, bool leave_some) {
     require("sizes",
@@ -358,7 +363,8 @@ class Verification {
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
   TriangleMesh mesh_, reference_;
   ReportOptions report_;
-  std::uint64_t memory_ = 0;             // bytes
+  std::uint64_t memory_ = 0;  // bytes
+  std::shared_ptr<PieceRunner> runner_ = std::make_shared<LocalPieces>();
   std::optional<Scan> vertices_;         // of the mesh that is the cloud
   std::optional<ScanPieces> scan_;       // read with the meshes
   std::vector<std::uint32_t> excluded_;  // numbers in the file, ascending

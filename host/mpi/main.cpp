@@ -9,6 +9,7 @@
 #include "host/app/standard_streams.h"
 #include "host/mpi/rank_identity.h"
 #include "host/mpi/rank_parts.h"
+#include "host/mpi/rank_pieces.h"
 #include "host/mpi/rank_pool.h"
 #include "host/mpi/rank_server.h"
 #include "host/mpi/rank_tiles.h"
@@ -17,7 +18,8 @@
 namespace emax {
 namespace {
 
-// Rank 0 is `emax`, and the others make evaluations, decimate tiles and reconstruct parts for it.
+// Rank 0 is `emax`, and the others make evaluations, decimate tiles, reconstruct parts and measure
+// pieces for it.
 int run_first(RankLink& link, const std::vector<RankIdentity>& ranks, int argc, char** argv) {
   Machines machines;
   std::vector<std::string> hosts;
@@ -29,6 +31,7 @@ int run_first(RankLink& link, const std::vector<RankIdentity>& ranks, int argc, 
   machines.processes_on_one = most_on_one_host(ranks);
   RankJob job(link, machines.processors, hosts);
   machines.tiles = std::make_shared<RankTiles>(link, hosts);
+  machines.pieces = std::make_shared<RankPieces>(link, machines.processors, hosts);
   machines.make_pool = [&job](std::span<const Point> points, const DecimationBound& bound,
                               const WorkerPoolOptions& options) {
     return job.make_pool(points, bound, options);

@@ -27,13 +27,17 @@ enum class RankMessageKind : std::uint64_t {
   kEnd,     // of the pool
   kTile,    // content: TileTask; kStop ends it soon
   kPart,    // content: the "part" message
-  kQuit,    // of the program
+  kPieces,  // content: PiecesTask; kEndPieces ends it soon
+  kEndPieces,
+  kQuit,  // of the program
   // From a rank.
   kMesh,     // content: the "mesh" message
   kFailure,  // content: one byte, the reason, then the message
   kDecimatedTile,
   kPartDone,
-  kUnusable,  // content: a text; no evaluation can be made there
+  kPieceFound,  // content: PieceFindings
+  kPiecesDone,  // content: MeterParts, or nothing where rank 0 ended it
+  kUnusable,    // content: a text; no evaluation can be made there
 };
 
 struct RankMessage {
@@ -62,6 +66,9 @@ class RankLink {
     int from;
     RankMessage message;
   };
+  // How many messages are on their way.
+  std::size_t unsent() const { return sending_.size(); }
+
   // A message that is arriving, from any rank; nothing where there is none.
   std::optional<Received> receive();
 

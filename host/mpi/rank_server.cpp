@@ -2,10 +2,13 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "host/mpi/piece_message.h"
+#include "host/mpi/rank_measurement.h"
 #include "host/mpi/rank_pool.h"
 #include "host/mpi/tile_message.h"
 #include "host/worker_pool/worker_parts.h"
@@ -34,6 +37,8 @@ class Server {
           if (std::optional<Completed> completed = pool_->wait_for(kBetweenLooks))
             answer(*completed);
         });
+      } else if (measurement_) {
+        guarded([&] { send_found(); });
       } else if (!quit_) {
         std::this_thread::sleep_for(kBetweenLooks);
       }
@@ -48,6 +53,7 @@ class Server {
       f();
     } catch (const std::exception& error) {
       pool_.reset();
+      measurement_.reset();
       const std::string text = error.what();
       send(RankMessageKind::kUnusable, 0, {text.begin(), text.end()});
     }
@@ -78,11 +84,21 @@ class Server {
         parts_.start(part.folder, part_step_named(part.step), part.part);
         break;
       }
+      case RankMessageKind::kPieces:
+        number_ = message.pool;
+        measurement_.emplace(decode_pieces_task(*message.content), threads_);
+        break;
+      case RankMessageKind::kEndPieces:
+        if (!measurement_) break;  // it has ended by itself
+        measurement_.reset();
+        send(RankMessageKind::kPiecesDone, 0, {});
+        break;
       case RankMessageKind::kEnd:
         pool_.reset();
         break;
       case RankMessageKind::kQuit:
         pool_.reset();
+        measurement_.reset();
         quit_ = true;
         break;
       default:
@@ -117,6 +133,21 @@ class Server {
          encode(decimate_tile(task.tile, task.settings)));
   }
 
+  // What waits to be sent is no more than a few pieces.
+  void send_found() {
+    constexpr std::size_t kMostUnsent = 4;
+    if (link_.unsent() >= kMostUnsent) {
+      std::this_thread::sleep_for(kBetweenLooks);
+      return;
+    }
+    if (std::optional<Bytes> found = measurement_->wait_for(kBetweenLooks)) {
+      send(RankMessageKind::kPieceFound, 0, std::move(*found));
+    } else if (measurement_->is_done()) {
+      send(RankMessageKind::kPiecesDone, 0, measurement_->parts());
+      measurement_.reset();
+    }
+  }
+
   void answer(const Completed& completed) {
     if (const auto* made = std::get_if<ChainResult>(&completed.outcome)) {
       send(RankMessageKind::kMesh, completed.ticket, encode(MeshMessage{completed.ticket, *made}));
@@ -137,7 +168,8 @@ class Server {
   PointsMessage points_;
   std::unique_ptr<WorkerPool> pool_;
   PartProcesses parts_{{}, 0};
-  std::uint64_t number_ = 0;  // of the pool
+  std::optional<RankMeasurement> measurement_;
+  std::uint64_t number_ = 0;  // of the pool, or the measurement
   bool quit_ = false;
 };
 

@@ -50,6 +50,19 @@ TEST(ScanStream, KeepsItsPromises) {
   EXPECT_THROW(streamed(with_other_number()), Error);
 }
 
+TEST(ScanStream, IsNotShared) {
+  const test::TemporaryFolder folder;
+  for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
+    const test::PipeWriter writer(folder / "pipe", sphere());
+    const ScanPieces pieces(folder / "pipe", {}, "", memory, nullptr,
+                            std::make_unique<LasStream>(folder / "pipe"), 4);
+    EXPECT_FALSE(pieces.cut());
+    std::atomic<std::uint64_t> points = 0;
+    pieces.for_each(2, [&](const ScanPieces::Piece& piece) { points += piece.points.size(); });
+    EXPECT_EQ(points, 40000u);
+  }
+}
+
 TEST(ScanStreamFault, APromiseThatIsTrustedIsNoticed) {
   const DeliberateFault fault(Fault::kTrustsPromises);
   EXPECT_EQ(streamed(with_other_box()), 40000u);

@@ -4,6 +4,9 @@
     ranks_test.py same-bytes EMAX_MPI MPIEXEC [--fault]   1, 2, 3 and 8 ranks against `emax`
     ranks_test.py tiles EMAX_MPI MPIEXEC                  a mesh in tiles on 1, 2 and 3 ranks
     ranks_test.py parts EMAX_MPI MPIEXEC                  a cloud reconstructed in tiles, with ranks that are lost
+    ranks_test.py error EMAX_MPI MPIEXEC [--fault]        a cloud measured on 1, 2, 3 and 8 ranks
+    ranks_test.py verify EMAX_MPI MPIEXEC [--fault]       a certificate checked on 2, 3 and 8 ranks
+    ranks_test.py other-files EMAX_MPI MPIEXEC            ranks that see other files are refused
     ranks_test.py lost-ranks EMAX_MPI MPIEXEC             ranks are killed, the command goes on
     ranks_test.py unlike-ranks EMAX_MPI MPIEXEC           ranks of other bits are refused
 """
@@ -14,6 +17,7 @@ import pathlib
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -157,6 +161,114 @@ def parts(options, job):
         print(f"a rank of {ranks} was lost: continued, the same bytes", flush=True)
 
 
+def bumpy_points(count, generator):
+    """Points near the surface of write_mesh(), some of them farther."""
+    for i in range(count):
+        polar, turn = math.acos(generator.uniform(-1, 1)), generator.uniform(0, 2 * math.pi)
+        r = 1 + 0.1 * math.sin(3 * polar) * math.cos(4 * turn) + generator.uniform(-0.005, 0.005)
+        r += 0.02 * (i % 1009 == 7)
+        yield (r * math.sin(polar) * math.cos(turn), r * math.sin(polar) * math.sin(turn),
+               r * math.cos(polar))
+
+
+def write_ply(path, points):
+    points = list(points)
+    with open(path, "wb") as ply:
+        ply.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+                  "property float x\nproperty float y\nproperty float z\nend_header\n".encode())
+        for point in points:
+            ply.write(struct.pack("<3f", *point))
+
+
+def expect_same_on_ranks(options, job, words, files, counts, code=0):
+    """The words give these files, the exit code and the text but for the line with the time."""
+    def lines(text):
+        return [line for line in text.splitlines() if not line.startswith("device ")]
+
+    def result(process, what):
+        output, errors = process.communicate()
+        if process.returncode != code:
+            sys.exit(f"{what}: exit code {process.returncode}\n{output}{errors}")
+        return [lines(output), *((job.folder / file).read_bytes() for file in files)]
+
+    alone = subprocess.Popen([job.program.parent / "emax", *words], cwd=job.folder,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    expected = result(alone, "emax")
+    if options.fault:
+        expected[-1] = expected[-1][:-1] + bytes([expected[-1][-1] ^ 1])
+    for ranks in counts:
+        for file in files:
+            (job.folder / file).unlink()
+        if result(job.start(ranks, words), f"{ranks} ranks") != expected:
+            sys.exit(f"{words} on {ranks} ranks: the result differs")
+        print(f"{words[0]} on {ranks} ranks: the bytes of emax", flush=True)
+
+
+def write_measured(options, job):
+    """A cloud of seven pieces, and a mesh."""
+    write_mesh(job.folder / "mesh.off", 12, 20)
+    write_ply(job.folder / "scan.ply", bumpy_points(100000, random.Random(options.seed)))
+
+
+def error(options, job):
+    """A cloud in memory, and one that is read twice, whose outliers need another pass."""
+    write_measured(options, job)
+    words = ["error", "scan.ply", "mesh.off", "--max-error", "0.01", "--json", "error.json"]
+    expect_same_on_ranks(options, job, [*words, "--deviations", "deviations.ply"],
+                         ["deviations.ply", "error.json"], (1, 2, 3, 8), code=2)
+    expect_same_on_ranks(options, job, [*words, "--memory", "5MB", "--exclude-outliers", "0.2%"],
+                         ["error.json"], (3,), code=2)
+
+
+def verify(options, job):
+    """The certificate of a mesh that was decimated."""
+    write_measured(options, job)
+    words = ["decimate", "mesh.off", "--cloud", "scan.ply", "--max-error", "0.1", "-o", "small.ply",
+             "--effort", "quick"]
+    checked(subprocess.Popen([job.program.parent / "emax", *words], cwd=job.folder,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True), "emax")
+    words = ["verify", "small.ply.certificate.json", "--json", "verify.json", "--memory", "5MB"]
+    expect_same_on_ranks(options, job, words, ["verify.json"], (2, 3, 8))
+
+
+def other_files(options, job):
+    """Rank 1 sees other files under the same names: those of the folder in which it stands."""
+    write_measured(options, job)
+    points = list(bumpy_points(100000, random.Random(options.seed)))
+    other = job.folder / "other"
+    other.mkdir()
+    here = pathlib.Path("/proc/self/cwd")
+    words = [str(word) for word in ("error", here / "scan.ply", here / "mesh.off",
+                                    "--json", "error.json")]
+
+    def refusal(what, rank_points, rings, wanted):
+        write_mesh(other / "mesh.off", rings, 20)
+        if rank_points is None:
+            (other / "scan.ply").unlink(missing_ok=True)
+        else:
+            write_ply(other / "scan.ply", rank_points)
+        process = job.start_job(["-n", "1", job.program, *words, ":", "-n", "1", "-wdir", other,
+                                 job.program, *words])
+        output, errors = process.communicate()
+        line = next((line for line in errors.splitlines() if line.startswith("emax: ")), errors)
+        print(f"{what}: exit code {process.returncode}, {line}", flush=True)
+        if wanted is None:
+            if process.returncode != 0:
+                sys.exit(f"{what}: refused\n{output}{errors}")
+        elif process.returncode == 0 or (job.folder / "error.json").exists():
+            sys.exit(f"{what}: not refused\n{output}")
+        elif "rank 1 on" not in line or wanted not in line:
+            sys.exit(f"the refusal does not name rank and file: {line}")
+
+    moved = list(points)
+    moved[20000] = points[20001]  # in a piece of rank 1, within the box
+    refusal("fewer points", points[1:], 12, "scan.ply: has ")
+    refusal("a point that was moved", moved, 12, "scan.ply: has other points")
+    refusal("another mesh", points, 13, "mesh.off: holds another mesh")
+    refusal("no cloud", None, 12, "scan.ply: no such file")
+    refusal("the same files", points, 12, None)
+
+
 def processes_of(folder, name):
     """The process numbers of programs of this name that work in the folder."""
     found = []
@@ -262,7 +374,8 @@ def unlike_ranks(options, job):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    tests = {"same-bytes": same_bytes, "tiles": tiles, "parts": parts, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
+    tests = {"same-bytes": same_bytes, "tiles": tiles, "parts": parts, "error": error,
+             "verify": verify, "other-files": other_files, "lost-ranks": lost_ranks, "unlike-ranks": unlike_ranks}
     parser.add_argument("test", choices=tests)
     parser.add_argument("emax_mpi", type=pathlib.Path)
     parser.add_argument("mpiexec")
