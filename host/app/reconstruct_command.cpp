@@ -103,6 +103,7 @@ class ReconstructCommand {
     }
     chain_ = fitted_chain(method, estimate, pieces_->scan().width);
     chain_.parameters.set(Fill::kMethod, Fill::Method::kNone);
+    if (method == Imls::kName && may_be_coarse(estimate)) chain_.parameters.set(Imls::kCell, 2.0);
     for (const std::string& text : options_.parameters) set(text);
     facts_.add("scan", "points {:.3g} apart, noise {:.2g}", estimate.spacing, estimate.noise);
     std::string told;
@@ -111,6 +112,13 @@ class ReconstructCommand {
                           chain_.parameters.by_name().at(p.name));
     }
     facts_.add("method", "{}: {}", method, told);
+  }
+
+  // A quarter of the triangles, from which a decimation comes to about as many
+  // (docs/decisions/0032-reconstruction-in-tiles.md).
+  bool may_be_coarse(const ScanEstimate& estimate) const {
+    return options_.tolerance &&
+           options_.tolerance->in_units(pieces_->scan().width) >= estimate.spacing / 2;
   }
 
   // NAME=VALUE.

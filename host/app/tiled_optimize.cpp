@@ -40,9 +40,10 @@ ReconstructOptions reconstruction(const OptimizeOptions& options) {
   made.output = surface_file(options);
   made.unit = options.common.unit;
   made.method = std::string(Imls::kName);
+  made.tolerance = given_tolerance(options.max_error, options.level);
   made.thin = options.thin;
   if (!made.thin) {  // finer details are not asked for
-    made.thin = given_tolerance(options.max_error, options.level);
+    made.thin = made.tolerance;
     made.thin->value /= 2;
   }
   made.tile_points = kTilePoints;

@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "host/files/spooled_input.h"
 #include "host/mpi/piece_message.h"
 #include "sw_model/base/error.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 // What other ranks can read, too: not standard input, nor a pipe.
 bool is_shared(const std::filesystem::path& path) {
+  if (path == kStandardInput) return false;
   return std::filesystem::is_regular_file(path) || std::filesystem::is_directory(path);
 }
 

@@ -54,11 +54,11 @@ class ScaleBenchTest(DocumentsCase):
                                        "for last; do :; done; printf '{\"points\": %d}' \"$(wc -c)\" >\"$last\"\n")
         for program in programs.iterdir():
             program.chmod(0o700)
-        bench.measure_stream(self.store, 9)
+        bench.measure_stream(self.store, 9, "mesh.ply")
         self.assertEqual(self.store.get("stream", 9)["points"], 9)
         (programs / "emax_scan").write_text("#!/bin/sh\nexit 3\n")
         with self.assertRaisesRegex(SystemExit, "emax_scan failed"):
-            bench.measure_stream(self.store, 10)
+            bench.measure_stream(self.store, 10, "mesh.ply")
 
     def test_tells_what_tiles_cost(self):
         self.store.put(("decimate", "whole"), {"triangles": 1000, "seconds": 20, "bytes": 8e8})
