@@ -77,7 +77,7 @@ class ReconstructCommand {
     print_doubtful_unit(facts_, pieces_->scan().width, pieces_->scan().unit);
     in_tiles_ ? reconstruct_tiles() : reconstruct_whole();
     progress_.begin("checking the surface");
-    validity_ = check_mesh(mesh_.view(), processor_threads());
+    validity_ = check_mesh(mesh_.view(), jobs_);
     topology_ = topology_of(mesh_.view());
     progress_.begin("writing");
     write_mesh(options_.output, mesh_, {.unit = pieces_->scan().unit});
