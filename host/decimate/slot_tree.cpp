@@ -241,8 +241,8 @@ void SlotTree::insert(std::uint32_t slot, const Box& box) {
 }
 
 bool SlotTree::outgrown(const EditableMesh& mesh) const {
-  constexpr std::size_t kFew = 128;
-  return 2 * mesh.triangles() < triangles_at_rebuild_ || inserted_ > triangles_at_rebuild_ + kFew ||
+  constexpr std::size_t kFewInserted = 128;
+  return 2 * mesh.triangles() < triangles_at_rebuild_ || inserted_ > triangles_at_rebuild_ + kFewInserted ||
          deepest_ >= kDeepest;
 }
 
