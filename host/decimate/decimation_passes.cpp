@@ -13,7 +13,7 @@ namespace {
 
 // Squared distance / limit^2 for a collapse that keeps an end in place.
 constexpr double kSecondChoice = 0.5;
-constexpr std::size_t kBatch = 64;  // proposals between two looks at the clock
+constexpr std::size_t kBatch = 256;  // proposals between two looks at the clock
 
 constexpr double kFirstSweep = 0.01, kSweepGrowth = 1.4, kLastSweep = 0.3;  // of limit^2
 constexpr double kLeastSwept = 0.1;  // the least share of the triangles that a sweep must remove
