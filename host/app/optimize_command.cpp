@@ -128,10 +128,16 @@ class OptimizeCommand {
     facts_.add("tolerance", "{}{}, {}", to_text(tolerance, scan_.width, scan_.unit),
                level_text(options_.level), settings_.epsilon_back ? "two-sided" : "one-sided");
     const std::size_t processes = options_.machines.processors.size();
-    facts_.add_passing(
-        "search", "{} + {}, {} evaluations, seed {}, {} jobs{}, device {}", settings_.method,
-        settings_.decimator, settings_.config.search.budget, settings_.seed, settings_.jobs,
-        processes > 1 ? fmt::format(" on {} ranks", processes) : "", options_.common.device);
+    const std::size_t budget = settings_.config.search.budget;
+    facts_.add_passing("search", "{} + {}, {} {}, seed {}, {} jobs{}, device {}", settings_.method,
+                       settings_.decimator, budget, budget == 1 ? "evaluation" : "evaluations",
+                       settings_.seed, settings_.jobs,
+                       processes > 1 ? fmt::format(" on {} ranks", processes) : "",
+                       options_.common.device);
+    if (is_one_deep(options_, scan_.cloud.points.size())) {
+      facts_.add_passing("effort",
+                         "one deep decimation, since the cloud is large; --budget N searches");
+    }
     print_expected_time();
     std::fflush(stdout);
   }

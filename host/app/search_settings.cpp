@@ -8,6 +8,7 @@
 
 #include "host/app/interrupt.h"
 #include "host/parameters/descriptions.h"
+#include "host/parameters/registry.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -83,6 +84,12 @@ OptimizeSettings search_settings(const OptimizeOptions& options) {
   return settings;
 }
 
+bool is_one_deep(const OptimizeOptions& options, std::size_t points) {
+  return options.effort == "normal" && !options.budget && options.config.empty() &&
+         options.polish && space_of(options) == SearchSpace::kOneReference &&
+         decimates_deep_at_once(points);
+}
+
 void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, std::size_t points) {
   std::size_t& budget = settings.config.search.budget;
   budget = budget_of(options, budget, points);
@@ -92,11 +99,21 @@ void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, s
         std::max(1u, jobs_in_memory(*settings.limits) / options.machines.processes_on_one);
     settings.jobs = std::min(settings.jobs, all_jobs(options.machines, in_memory));
   }
+  if (is_one_deep(options, points)) {
+    for (Parameter& gene : settings.config.genes) {
+      if (gene.name == Bounded::kEffort.name) gene.fixed = Bounded::kDeepEffort;
+    }
+    if (!options.evaluation_seconds) settings.limits->time *= kDeepTimeLimit;
+  }
 }
 
 double expected_search_seconds(const OptimizeSettings& settings, const OptimizeOptions& options,
                                std::size_t points, std::size_t logged) {
   const std::size_t budget = settings.config.search.budget;
+  if (is_one_deep(options, points)) {
+    return expected_seconds(SearchSpace::kOneReference, points, 0,
+                            budget - std::min(budget, logged), settings.jobs);
+  }
   const bool polishes = settings.polish && takes_bound(settings.decimator);
   return expected_seconds(space_of(options), points, budget - std::min(budget, logged),
                           polishes ? std::min(budget, polished_candidates(points)) : 0,

@@ -15,7 +15,10 @@ bool is_two_sided(const OptimizeOptions& options);
 // each other, and as read_config() does.
 OptimizeSettings search_settings(const OptimizeOptions& options);
 
-// Sets budget, limits and jobs, where they depend on the number of points.
+// Whether one deep decimation is made instead of a search (decimates_deep_at_once()): by default,
+// where nobody asked for another number of evaluations.
+bool is_one_deep(const OptimizeOptions& options, std::size_t points);
+// Sets budget, effort, limits and jobs, where they depend on the number of points.
 void suit_to_cloud(OptimizeSettings& settings, const OptimizeOptions& options, std::size_t points);
 
 // About how many seconds the search takes once the bound is made, for settings that suit the cloud.

@@ -64,6 +64,10 @@ std::size_t polished_candidates(std::size_t points) {
   return points > kManyPoints ? kFewPolished : kManyPolished;
 }
 
+bool decimates_deep_at_once(std::size_t points) {
+  return is_thinned(points) && points <= kVeryManyPoints;
+}
+
 std::uint64_t usable_memory(const std::filesystem::path& group_limit) {
   const auto machine = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                        static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
@@ -87,7 +91,8 @@ std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace
   if (effort == SearchEffort::kQuick) return kQuickBudget[which];
   std::uint64_t normal = kNormalBudget[which];
   if (space == SearchSpace::kOneReference) {
-    normal = budget_from_one_reference(points);
+    const bool once = effort == SearchEffort::kNormal && decimates_deep_at_once(points);
+    normal = once ? 1 : budget_from_one_reference(points);
   } else if (points > kManyPoints) {
     normal = std::max(normal / kLeastShare, normal * kManyPoints / points);
   }

@@ -37,10 +37,18 @@ std::size_t points_of_reference(std::size_t points);
 // to the next.
 std::size_t polished_candidates(std::size_t points);
 
+// A deep decimation may take so many times as long as an evaluation.
+inline constexpr int kDeepTimeLimit = 10;
+
+// Whether a search from one reference spends its time on one deep decimation by all threads,
+// instead of several normal ones before it: where the reference is made of thinned points, and so
+// that more would take the better part of an hour.
+bool decimates_deep_at_once(std::size_t points);
+
 // How many evaluations a search makes unless it is told. `configured`: what a configuration says is
 // normal. Without one, a search from one reference makes from 16 down to 2, so that with the deep
-// decimations it takes about ten minutes on two cores, up to ten million points; the others make
-// fewer for more than 100,000 points, down to a fifth.
+// decimations it takes about ten minutes on two cores, and one where decimates_deep_at_once(); the
+// others make fewer for more than 100,000 points, down to a fifth.
 std::uint64_t search_budget(SearchEffort effort, std::size_t points, SearchSpace space,
                             std::optional<std::uint64_t> configured);
 

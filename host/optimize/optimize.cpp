@@ -14,7 +14,6 @@
 namespace emax {
 namespace {
 
-constexpr int kPolishTimes = 10;  // as long as an evaluation may the deep decimation take
 // So many of the longest decimations is it expected to take: 1.3 to 1.6, and up to 3 where the
 // reference is rough (decision 0020).
 constexpr double kPolishDecimations = 3;
@@ -281,7 +280,7 @@ class Run {
   void decimate_deep(std::size_t before) {
     state_.polishing = true;
     state_.polish_seconds = expected_polish_seconds(in_work_.size());
-    start_workers(settings_.jobs, kPolishTimes);
+    start_workers(settings_.jobs, kDeepTimeLimit);
     const std::size_t deep = in_work_.size();
     for (const auto& [index, work] : in_work_) {
       pool_->submit({index, chain(work.genes), 0, threads_for(deep)});
@@ -508,7 +507,7 @@ class Run {
   }
 
   TriangleMesh make_again(const LoggedEvaluation& known) {
-    start_workers(1, known.index >= kPolishIndex ? kPolishTimes : 1);
+    start_workers(1, known.index >= kPolishIndex ? kDeepTimeLimit : 1);
     pool_->submit({known.index, chain(known)});
     Completed completed = wait_for_next(*pool_, settings_);
     pool_.reset();

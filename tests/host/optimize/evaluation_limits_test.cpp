@@ -26,6 +26,13 @@ TEST(SearchBudget, FollowsEffortAndPoints) {
   EXPECT_LT(large, search_budget(kNormal, 120'000, kOneReference, {}));
   EXPECT_LE(search_budget(kNormal, 10'000'000, kOneReference, {}), large);
   EXPECT_EQ(search_budget(kNormal, 10'000'000, kOneReference, {}), 2u);
+  // Or one that is deep.
+  EXPECT_FALSE(decimates_deep_at_once(240'000));
+  EXPECT_TRUE(decimates_deep_at_once(250'000));
+  EXPECT_FALSE(decimates_deep_at_once(10'000'000));
+  EXPECT_EQ(search_budget(kNormal, 400'000, kOneReference, {}), 1u);
+  EXPECT_EQ(search_budget(kNormal, 400'000, kOneReference, 5), 5u);
+  EXPECT_GT(search_budget(kDeep, 400'000, kOneReference, {}), 4u);
   EXPECT_LT(polished_candidates(10'000'000), polished_candidates(40'000));
   for (const SearchSpace space : {kSurfaces, kDecimations}) {
     const std::uint64_t normal = search_budget(kNormal, 100'000, space, {});
