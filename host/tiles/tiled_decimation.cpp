@@ -17,9 +17,9 @@ using Effort = DecimationSettings::Effort;
 
 // Where the first cut of a round's tiles lies, as a share of the triangles. Cuts of different
 // rounds meet along few lines only.
-constexpr std::array<double, 3> kFirstCuts = {0.5, 0.3, 0.62};
+constexpr std::array<double, 4> kFirstCuts = {0.5, 0.3, 0.62, 0.4};
 // The parts of the rounds in the time, roughly.
-constexpr std::array<double, 3> kShares = {0.6, 0.25, 0.15};
+constexpr std::array<double, 4> kShares = {0.5, 0.2, 0.15, 0.15};
 
 // The free triangles of a tile.
 struct Patch {
