@@ -12,6 +12,7 @@
 #include "hls/lowering/designs.h"
 #include "hls/lowering/graph_json.h"
 #include "hls/lowering/identifiers.h"
+#include "hls/lowering/opencl.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/systemverilog.h"
 
@@ -26,6 +27,7 @@ FORM is visible_edge (the kernel's), three_edge, barycentric, minimum or maximum
 what to write (the datapath unless one of these is given)
   --unit              the record memory beside the datapath, module NAME_unit
   --schedule          macros with the schedule's figures, for the modules that use the unit
+  --opencl            the same arithmetic as a function in OpenCL C
   --dot               the graph, for Graphviz
   --report            operations, latency and delay bits, as JSON
   --graph             the graph with its schedule, as JSON
@@ -124,11 +126,8 @@ int run(const std::vector<std::string>& arguments) {
   std::optional<std::string> delay;
   std::string (*writer)(const LoweredDesign&) = datapath_module;
   const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
-      {"--unit", unit_module},
-      {"--schedule", schedule_header},
-      {"--dot", dot_graph},
-      {"--report", report_json},
-      {"--graph", graph_json}};
+      {"--unit", unit_module}, {"--schedule", schedule_header}, {"--opencl", opencl_function},
+      {"--dot", dot_graph},    {"--report", report_json},       {"--graph", graph_json}};
   bool has_writer = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];

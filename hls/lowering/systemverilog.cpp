@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "hls/lowering/canonical.h"
 #include "hls/lowering/datapath_names.h"
 #include "hls/lowering/kernel_sources.h"
 #include "hls/lowering/report.h"
@@ -20,9 +21,12 @@ std::string padded(const std::string& text, std::size_t length) {
 class DatapathWriter {
  public:
   explicit DatapathWriter(const LoweredDesign& design)
-      : design_(design), graph_(design.graph), schedule_(design.schedule), names_(design) {
+      : design_(design),
+        graph_(design.graph),
+        schedule_(design.schedule),
+        names_(design),
+        canonical_(canonical_nodes(design.graph)) {
     for (const int ready : schedule_.ready) clocked_ = clocked_ || ready > 0;
-    find_canonical();
   }
 
   std::string write() const {
@@ -30,32 +34,6 @@ class DatapathWriter {
   }
 
  private:
-  // Results of arithmetic are never subnormal, and NaN only as 0x7fc00000, so comparing them with
-  // zero takes fewer bits.
-  void find_canonical() {
-    for (const Node& node : graph_.nodes()) {
-      bool canonical = node.kind == ValueKind::kReal;
-      switch (node.operation) {
-        case Operation::kInput:
-        case Operation::kConstant:
-          canonical = false;
-          break;
-        case Operation::kMagnitude:
-          canonical = canonical_[node.operands[0]];
-          break;
-        case Operation::kSelect:
-          for (const NodeId operand : {node.operands[1], node.operands[2]}) {
-            canonical = canonical && (canonical_[operand] ||
-                                      graph_.node(operand).operation == Operation::kConstant);
-          }
-          break;
-        default:
-          break;
-      }
-      canonical_.push_back(canonical);
-    }
-  }
-
   std::string comment() const {
     const FormInfo& form = info(design_.form);
     std::string text = "// " + std::string(form.function) + ": ";
@@ -265,7 +243,7 @@ class DatapathWriter {
   const DataflowGraph& graph_;
   const Schedule& schedule_;
   DatapathNames names_;
-  std::vector<bool> canonical_;
+  std::vector<bool> canonical_;  // comparing these with zero takes fewer bits
   bool clocked_ = false;
 };
 

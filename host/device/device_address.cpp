@@ -5,6 +5,7 @@
 
 #include "host/device/device_evaluator.h"
 #include "host/device/link_device.h"
+#include "host/device/opencl_device.h"
 #include "host/device/queued_device.h"
 #include "host/device/xrt_device.h"
 #include "sw_model/base/error.h"
@@ -23,6 +24,7 @@ constexpr Form kForms[] = {
     {"sim", "the device in C++"},
     {"sim:board=NAME", "the same, with a prediction of the time that a board would take"},
     {"rtl[:pes=N]", "the Verilated core of N elements"},
+    {"opencl[:N]", "a GPU by OpenCL, or a processor"},
     {"tty:PATH[@BAUD]", "a board on a serial port"},
     {"xrt:XCLBIN[@INDEX]", "an Alveo card; not tested on a card"},
 };
@@ -54,6 +56,12 @@ DeviceAddress parse_rtl(std::string_view text, std::string_view options) {
   return {.kind = "rtl", .elements = *elements};
 }
 
+DeviceAddress parse_opencl(std::string_view text, std::string_view place) {
+  const auto which = number(place);
+  if (!which) refuse(text, "the number after opencl: counts devices from 0");
+  return {.kind = "opencl", .number = *which};
+}
+
 DeviceAddress parse_tty(std::string_view text, std::string_view place) {
   DeviceAddress address = {.kind = "tty"};
   const std::size_t at = place.rfind('@');
@@ -70,8 +78,15 @@ DeviceAddress parse_tty(std::string_view text, std::string_view place) {
   return address;
 }
 
+std::unique_ptr<Device> make_opencl_device(std::uint32_t number) {
+  auto device = std::make_unique<OpenclDevice>(OpenclChoice{.number = number});
+  device->verify_arithmetic();
+  return device;
+}
+
 std::unique_ptr<Device> make_device(const DeviceAddress& address) {
   if (address.kind == "rtl") return make_rtl_device(address.elements);
+  if (address.kind == "opencl") return make_opencl_device(address.number);
   if (address.kind == "tty") {
     return std::make_unique<LinkDevice>(
         std::make_unique<SerialChannel>(address.place, address.baud),
@@ -83,7 +98,8 @@ std::unique_ptr<Device> make_device(const DeviceAddress& address) {
 }  // namespace
 
 DeviceAddress DeviceAddress::parse(std::string_view text) {
-  if (text == "cpu" || text == "sim" || text == "rtl") return {.kind = std::string(text)};
+  if (text == "cpu" || text == "sim" || text == "rtl" || text == "opencl")
+    return {.kind = std::string(text)};
   const std::size_t colon = text.find(':');
   const std::string_view kind = text.substr(0, colon);
   const std::string_view rest = colon == text.npos ? "" : text.substr(colon + 1);
@@ -93,6 +109,7 @@ DeviceAddress DeviceAddress::parse(std::string_view text) {
     return {.kind = "sim", .board = board, .elements = board.elements};
   }
   if (kind == "rtl" && colon != text.npos) return parse_rtl(text, rest);
+  if (kind == "opencl" && colon != text.npos) return parse_opencl(text, rest);
   if (kind == "tty") return parse_tty(text, rest);
   if (kind == "xrt" && !rest.empty()) return {.kind = "xrt", .place = std::string(rest)};
   std::string accepted;

@@ -11,6 +11,7 @@
 #include "sw_model/base/float_bits.h"
 #include "sw_model/base/flush_mode.h"
 #include "sw_model/model/emax_model.h"
+#include "sw_model/model/probe_pairs.h"
 
 namespace emax {
 // Static: each translation unit probes the flags it was compiled with.
@@ -55,21 +56,10 @@ namespace {
     }
   }
   // Rounding each product shows in these bits; contracting any of them changes some.
-  std::uint32_t state = 0x2545f491;
-  const auto next = [&state] {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<float>(state >> 8) * 0x1p-23f - 1.0f;
-  };
+  ProbePairs pairs;
   for (int i = 0; i < 64; ++i) {
-    TriangleRecord<float> record = {{next(), next(), next()},
-                                    {next(), next(), next()},
-                                    {next(), next(), next()},
-                                    {next(), next(), next()},
-                                    std::abs(next()),
-                                    {{next(), next()}, std::abs(next())},
-                                    {{next(), next()}, std::abs(next())},
-                                    0};
-    const Vector3<float> point = {next(), next(), next()};
+    const TriangleRecord<float> record = pairs.record();
+    const Vector3<float> point = pairs.point();
     const ScopedFlushMode flush;
     if (float_bits(native_squared_distance(record, point)) != pair_squared_bits(point, record)) {
       return "the kernel's arithmetic differs from the model: a multiplication and an addition "

@@ -22,6 +22,10 @@ expect pass "usage: emax_lower FORM" "help" "$lower" --help
 expect pass "module emax_minimum (" "a form to standard output" "$lower" minimum
 expect pass '"multiplications": 24' "the report of a form" "$lower" three_edge --report
 expect pass 'digraph "emax_distance" {' "the graph" "$lower" visible_edge --dot
+expect pass "return squared_distance;" "the function in OpenCL C" \
+  "$lower" visible_edge --opencl
+expect pass "*result_index_out = result_index;" "several outputs in OpenCL C" \
+  "$lower" maximum --opencl
 expect pass "ADD_LATENCY = 9;" "latencies" "$lower" visible_edge --latency add=9,square=7
 expect pass '.STYLE("shift_register")' "the family" "$lower" visible_edge --family xilinx
 expect pass '.DEPTH(12), .STYLE("registers")' "delay styles" \

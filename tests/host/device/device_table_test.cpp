@@ -79,7 +79,7 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
     const EmaxResult cpu = run(name, "cpu", cloud, tree, false).result;
     const Row sim = run(name, "sim", cloud, tree, false);
     EXPECT_EQ(sim.result, cpu);
-    for (const char* device : {"rtl", "rtl:pes=2", "rtl:pes=4"}) {
+    for (const char* device : {"rtl", "rtl:pes=2", "rtl:pes=4", "opencl"}) {
       const Row rtl = run(name, device, cloud, tree, false);
       EXPECT_EQ(rtl.result, cpu) << device;
       EXPECT_EQ(rtl.counters.blocks, sim.counters.blocks) << device;
@@ -114,7 +114,7 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
   thin("  thinned", serial_step, {"tty:" + board}, false);
   // Every pair of a sample: what the search must give.
   const std::size_t sample = scan.size() / 100;
-  const EmaxResult all = thin("  sample, all pairs", sample, {"rtl", "rtl:pes=4"}, true);
+  const EmaxResult all = thin("  sample, all pairs", sample, {"rtl", "rtl:pes=4", "opencl"}, true);
   const EmaxResult searched = thin("  sample", sample, {"rtl", "tty:" + board}, false);
   EXPECT_EQ(all, searched);
   // Every point's own bits.
@@ -122,7 +122,8 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
   const TriangleTree tree(mesh.view(), cloud.normalization());
   const auto expected = nearest_squared_bits(cloud.points(), tree.records());
   for (const std::string& device :
-       {std::string("cpu"), std::string("sim"), std::string("rtl:pes=2"), "tty:" + board}) {
+       {std::string("cpu"), std::string("sim"), std::string("rtl:pes=2"), std::string("opencl"),
+        "tty:" + board}) {
     const auto evaluator = test::evaluator_of(device);
     EXPECT_EQ(search_nearest(cloud, tree, *evaluator), expected) << device;
   }
