@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hls/opencl/opencl_text.h"
 #include "sw_model/protocol/commands.h"
@@ -19,6 +20,9 @@ struct OpenclChoice {
   std::optional<std::uint32_t> lanes = {};
   std::string_view text = opencl_text();
 };
+
+// The names of the hardware, in the order of the numbers. Throws Error if a driver fails.
+std::vector<std::string> opencl_devices();
 
 // The `opencl` device: a GPU, or a processor with an OpenCL driver, runs the kernel's text. Points
 // and records go there as commands come, and the points' minima come back with the answer. Blocks

@@ -46,10 +46,10 @@ cl::Device device_of(std::uint32_t number) {
                 "its processor (Debian: pocl-opencl-icd), or leave out --device");
   }
   if (number < devices.size()) return devices[number];
+  const std::vector<std::string> titles = opencl_devices();
   std::string there;
-  for (std::size_t i = 0; i < devices.size(); ++i) {
-    there += (i == 0 ? "opencl:" : ", opencl:") + std::to_string(i) + " (" +
-             devices[i].getInfo<CL_DEVICE_NAME>() + ")";
+  for (std::size_t i = 0; i < titles.size(); ++i) {
+    there += (i == 0 ? "opencl:" : ", opencl:") + std::to_string(i) + " (" + titles[i] + ")";
   }
   throw Error(name + ": there is no such device; use " + there);
 }
@@ -84,6 +84,15 @@ cl::Program compiled(const std::string& title, const cl::Context& context, const
 }
 
 }  // namespace
+
+std::vector<std::string> opencl_devices() {
+  return with_opencl("opencl", [] {
+    std::vector<std::string> names;
+    for (const cl::Device& device : all_devices())
+      names.push_back(device.getInfo<CL_DEVICE_NAME>());
+    return names;
+  });
+}
 
 void throw_opencl(const std::string& title, const cl::Error& error) {
   throw Error("device " + title + ": " + error.what() + " failed with OpenCL's error " +

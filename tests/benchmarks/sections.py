@@ -33,11 +33,12 @@ def write(file, body):
     os.replace(partial, file)
 
 
-def put(name, body):
+def put(name, body, file=None):
     """In place of the section that is there, else at the end."""
-    document, old, new = text(), existing(name), marked(name, body)
+    file = file or DOCUMENT
+    document, old, new = text(file), existing(name, file), marked(name, body)
     document = document.replace(old, new) if old else document.rstrip("\n") + "\n\n" + new
-    write(DOCUMENT, document)
+    write(file, document)
 
 
 def kept():

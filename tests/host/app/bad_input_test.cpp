@@ -166,6 +166,10 @@ TEST_F(BadInput, Options) {
                  {"bounded"});
   expect_refusal(with("--device", "toaster"), {"toaster", "cpu", "sim", "rtl"});
   expect_refusal(with("--device", "sim:board=toaster"), {"toaster", "ulx3s"});
+  expect_refusal(with("--device", "opencl:99"), {"opencl:99", "use opencl:0"});
+  setenv("OCL_ICD_VENDORS", folder_.path().c_str(), 1);  // where no driver is
+  expect_refusal(with("--device", "opencl"), {"no OpenCL device", "pocl-opencl-icd"});
+  unsetenv("OCL_ICD_VENDORS");
   expect_refusal(with("--device", "xrt:none.xclbin"), {"xrt:none.xclbin"});
   expect_refusal(with("--budget", "0"), {"--budget"});
   expect_refusal(with("--jobs", "-1"), {"--jobs"});
