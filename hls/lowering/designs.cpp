@@ -153,13 +153,13 @@ LoweredDesign lower(Form form, const LoweringOptions& options) {
   DataflowGraph graph;
   Labels labels;
   record(form, graph, labels);
-  return lower_graph(form, std::move(graph), kernel_source, labels, options);
+  return lower_graph(info(form), std::move(graph), kernel_source, labels, options);
 }
 
-LoweredDesign lower_graph(Form form, DataflowGraph graph, const SourceText& source_text,
+LoweredDesign lower_graph(const FormInfo& about, DataflowGraph graph, const SourceText& source_text,
                           const Labels& labels, const LoweringOptions& options) {
-  LoweredDesign design{form, options, std::move(graph), {}, {}};
-  if (design.options.module.empty()) design.options.module = info(form).module;
+  LoweredDesign design{about, options, std::move(graph), {}, {}};
+  if (design.options.module.empty()) design.options.module = about.module;
   check_module_name(design.options.module);
   const std::vector<NodeId> renamed = design.graph.remove_dead();
   Labels live;

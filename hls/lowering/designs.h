@@ -46,7 +46,7 @@ struct LoweringOptions {
 };
 
 struct LoweredDesign {
-  Form form;
+  FormInfo about;
   LoweringOptions options;  // with the module's name
   DataflowGraph graph;
   Schedule schedule;
@@ -62,9 +62,9 @@ struct LoweredDesign {
 // built and for a module name that SystemVerilog does not permit.
 LoweredDesign lower(Form form, const LoweringOptions& options);
 
-// The same for a graph that was recorded elsewhere. `form` determines the comments of the text and
+// The same for a graph that was recorded elsewhere. `about` determines the comments of the text and
 // the size of the record. Operations that no output needs are removed.
-LoweredDesign lower_graph(Form form, DataflowGraph graph, const SourceText& source_text,
+LoweredDesign lower_graph(const FormInfo& about, DataflowGraph graph, const SourceText& source_text,
                           const Labels& labels, const LoweringOptions& options);
 
 // The design in hls/rtl/generated: emax_distance.sv, emax_distance_unit.sv and

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hls/lowering/identifiers.h"
+#include "hls/lowering/source_text.h"
 
 namespace emax {
 namespace {
@@ -12,22 +13,6 @@ namespace {
 // The kernel's aggregates whose fields name the elements of a braced initialiser.
 const std::map<std::string_view, std::vector<std::string>> kFields = {{"Vector3", {"x", "y", "z"}},
                                                                       {"Vector2", {"y", "z"}}};
-
-// The text with comments replaced by blanks, so that offsets stay.
-std::string without_comments(std::string_view text) {
-  std::string code(text);
-  for (std::size_t i = 0; i + 1 < code.size(); ++i) {
-    if (code[i] != '/' || (code[i + 1] != '/' && code[i + 1] != '*')) continue;
-    const bool line = code[i + 1] == '/';
-    std::size_t end = line ? code.find('\n', i) : code.find("*/", i + 2);
-    end = end == std::string::npos ? code.size() : end + (line ? 0 : 2);
-    std::replace_if(
-        code.begin() + static_cast<std::ptrdiff_t>(i),
-        code.begin() + static_cast<std::ptrdiff_t>(end), [](char c) { return c != '\n'; }, ' ');
-    i = end - 1;
-  }
-  return code;
-}
 
 char neighbour(std::string_view code, std::size_t at, int step) {
   for (auto i = static_cast<std::ptrdiff_t>(at) + step;
@@ -50,26 +35,6 @@ bool is_boundary(std::string_view code, std::size_t at) {
 std::size_t end_of_statement(std::string_view code, std::size_t from) {
   const std::size_t end = code.find(';', from);
   return end == std::string_view::npos ? code.size() : end;
-}
-
-// The commas in [begin, end) outside of brackets; angle brackets are not counted.
-std::vector<std::size_t> commas(std::string_view code, std::size_t begin, std::size_t end) {
-  std::vector<std::size_t> found;
-  int depth = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (std::string_view("({[").find(code[i]) != std::string_view::npos) ++depth;
-    if (std::string_view(")}]").find(code[i]) != std::string_view::npos) --depth;
-    if (code[i] == ',' && depth == 0) found.push_back(i);
-  }
-  return found;
-}
-
-std::string last_word(std::string_view code) {
-  std::size_t end = code.size();
-  while (end > 0 && !is_word(code[end - 1])) --end;
-  std::size_t begin = end;
-  while (begin > 0 && is_word(code[begin - 1])) --begin;
-  return std::string(code.substr(begin, end - begin));
 }
 
 // "Vector3" of "const emax::Vector3<Scalar> q".

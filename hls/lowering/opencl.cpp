@@ -38,7 +38,7 @@ class OpenclWriter {
 
   std::string write() const {
     return generated_line(design_) +
-           listed("// " + std::string(info(design_.form).function) + ": ", "// ",
+           listed("// " + std::string(design_.about.function) + ": ", "// ",
                   operation_counts(design_), ".") +
            head() + fields() + body() + "}\n";
   }

@@ -28,9 +28,9 @@ class RecordUnit {
       : design_(design),
         module_(design.options.module),
         identifiers_(module_),
-        used_(static_cast<std::size_t>(32 * info(design.form).record_words), false) {
+        used_(static_cast<std::size_t>(32 * design.about.record_words), false) {
     if (used_.empty()) {
-      throw std::invalid_argument(std::string(info(design.form).name) +
+      throw std::invalid_argument(std::string(design.about.name) +
                                   " has no record, so there is no unit: leave --unit out");
     }
     for (const Input& input : design_.graph.inputs()) identifiers_.take(input.name);

@@ -43,7 +43,7 @@ std::string report_json(const LoweredDesign& design) {
   };
   return "{" +
          joined(
-             {"\"form\": \"" + std::string(info(design.form).name) + "\"",
+             {"\"form\": \"" + std::string(design.about.name) + "\"",
               "\"module\": \"" + design.options.module + "\"",
               number("nodes", design.probes.size()), "\"operations\": {" + joined(operations) + "}",
               number("multiplications",

@@ -35,7 +35,7 @@ class DatapathWriter {
 
  private:
   std::string comment() const {
-    const FormInfo& form = info(design_.form);
+    const FormInfo& form = design_.about;
     std::string text = "// " + std::string(form.function) + ": ";
     if (!clocked_) {
       return text + "combinational, on 32-bit words.\n";

@@ -18,7 +18,7 @@ lint() {
   "$verilator" --lint-only -Wall -I"$project/hls/rtl" -I"$project/hls/rtl/behavioural" \
     -I"$folder" --top-module "$(basename "$1" .sv)" "$@"
 }
-expect pass "usage: emax_lower FORM" "help" "$lower" --help
+expect pass "usage: emax_lower NAME" "help" "$lower" --help
 expect pass "module emax_minimum (" "a form to standard output" "$lower" minimum
 expect pass '"multiplications": 24' "the report of a form" "$lower" three_edge --report
 expect pass 'digraph "emax_distance" {' "the graph" "$lower" visible_edge --dot

@@ -109,7 +109,7 @@ LoweredDesign adversarial_design(Random& random, std::size_t operations) {
   LoweringOptions options;
   options.module = "adversarial";
   return lower_graph(
-      Form::kVisibleEdge, std::move(graph),
+      info(Form::kVisibleEdge), std::move(graph),
       [&](std::string_view) { return std::string_view(source); }, {}, options);
 }
 
@@ -138,7 +138,7 @@ LoweredDesign several_outputs_design() {
   LoweringOptions options;
   options.module = "several_outputs";
   return lower_graph(
-      Form::kVisibleEdge, std::move(graph),
+      info(Form::kVisibleEdge), std::move(graph),
       [&](std::string_view) { return std::string_view(source); }, {}, options);
 }
 

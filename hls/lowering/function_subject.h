@@ -1,0 +1,68 @@
+// A function of one's own as a subject of lowering. The function is a template on its scalar:
+//
+//   template <class Scalar>
+//   Scalar squared_norm(const Vector3<Scalar>& p) { return p.x * p.x + p.y * p.y + p.z * p.z; }
+//
+// It takes and returns scalars, conditions (ConditionOf<Scalar>) and aggregates of these, and does
+// not branch on them: `select` chooses (hls/kernel/scalar.h).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "hls/lowering/fields.h"
+#include "hls/lowering/lowering_program.h"
+#include "hls/lowering/recorded_value.h"
+
+namespace emax {
+
+// The recording of one call; the templates below give it arguments and take the result.
+class FunctionRecorder {
+ public:
+  // `header` is the path of the text that defines the function. Both must outlive the design.
+  FunctionRecorder(std::string_view function, std::string_view header)
+      : function_(function), header_(header), recording_(graph_) {}
+
+  void give(RecordedValue& value) { value = RecordedValue(input(ValueKind::kReal)); }
+  void give(RecordedCondition& value) { value = RecordedCondition(input(ValueKind::kCondition)); }
+  template <class Recorded>
+  void take(const RecordedNode<Recorded>& value) {
+    graph_.add_output("", value.node());
+  }
+
+  // Names the ports from the text, and lowers. Throws std::invalid_argument if the text does not
+  // give as many names as the function has ports.
+  LoweredDesign lower(const LoweringOptions& options);
+
+ private:
+  NodeId input(ValueKind kind) { return graph_.add_input("", kind, Arrival::kSample); }
+
+  std::string_view function_, header_;
+  DataflowGraph graph_;
+  Recording recording_;
+};
+
+template <class Result, class... Arguments>
+LoweringSubject function_subject(Result (*function)(Arguments...), std::string_view name,
+                                 std::string_view header) {
+  return {std::string(name), [=](const LoweringOptions& options) {
+            FunctionRecorder recorder(name, header);
+            std::tuple<std::decay_t<Arguments>...> arguments;
+            std::apply(
+                [&](auto&... each) {
+                  for_each_leaf([&](auto& scalar) { recorder.give(scalar); }, each...);
+                },
+                arguments);
+            const auto result = std::apply(function, arguments);
+            for_each_leaf([&](const auto& scalar) { recorder.take(scalar); }, result);
+            return recorder.lower(options);
+          }};
+}
+
+#define EMAX_FUNCTION(function, header) \
+  ::emax::function_subject(&function<::emax::RecordedValue>, #function, header)
+
+}  // namespace emax
