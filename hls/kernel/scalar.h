@@ -21,6 +21,10 @@ inline bool both(bool a, bool b) { return (a & b) != 0; }
 inline bool either(bool a, bool b) { return (a | b) != 0; }
 inline bool negated(bool a) { return !a; }
 
+// What a comparison of scalars gives.
+template <class Scalar>
+using ConditionOf = decltype(Scalar() < Scalar());
+
 template <class Scalar>
 struct Vector3 {
   Scalar x, y, z;

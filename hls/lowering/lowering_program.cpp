@@ -15,6 +15,7 @@
 #include "hls/lowering/opencl.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/systemverilog.h"
+#include "hls/lowering/testbench_text.h"
 
 namespace emax {
 namespace {
@@ -28,6 +29,7 @@ what to write (the datapath unless one of these is given)
   --unit              the record memory beside the datapath, module NAME_unit
   --schedule          macros with the schedule's figures, for the modules that use the unit
   --opencl            the same arithmetic as a function in OpenCL C
+  --testbench         a main for Verilator: the pipeline beside the function itself
   --dot               the graph, for Graphviz
   --report            operations, latency and delay bits, as JSON
   --graph             the graph with its schedule, as JSON
@@ -141,8 +143,10 @@ int run(const std::string& program, const std::vector<std::string>& arguments,
   std::optional<std::string> delay;
   std::string (*writer)(const LoweredDesign&) = datapath_module;
   const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
-      {"--unit", unit_module}, {"--schedule", schedule_header}, {"--opencl", opencl_function},
-      {"--dot", dot_graph},    {"--report", report_json},       {"--graph", graph_json}};
+      {"--unit", unit_module},       {"--schedule", schedule_header},
+      {"--opencl", opencl_function}, {"--testbench", testbench_source},
+      {"--dot", dot_graph},          {"--report", report_json},
+      {"--graph", graph_json}};
   bool has_writer = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];

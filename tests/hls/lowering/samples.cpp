@@ -8,10 +8,6 @@
 namespace emax::test {
 namespace {
 
-constexpr Word kSpecial[] = {0x00000000, 0x80000000, 0x00000001, 0x807fffff, 0x00800000, 0x80800000,
-                             0x3f800000, 0xbf800000, 0x3f7fffff, 0x7f7fffff, 0xff7fffff, 0x7f800000,
-                             0xff800000, 0x7fc00000, 0xffc00000, 0x7f800001, 0xffffffff};
-
 template <class Record>
 std::vector<Word> words_of(const Record& record) {
   std::vector<Word> words(sizeof record / sizeof(Word));
@@ -55,17 +51,6 @@ std::vector<Sample> samples(std::uint64_t seed, std::size_t count, const MakeRec
 }
 
 }  // namespace
-
-Word any_word(Random& random) {
-  switch (random.below(4)) {
-    case 0:
-      return kSpecial[random.below(std::size(kSpecial))];
-    case 1:
-      return random.word();
-    default:
-      return to_word(static_cast<float>(random.uniform(-1, 1)));
-  }
-}
 
 std::vector<Sample> record_samples(std::uint64_t seed, std::size_t count) {
   return samples(seed, count, make_record);

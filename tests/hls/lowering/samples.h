@@ -8,7 +8,7 @@
 #include "hls/kernel/word.h"
 #include "hls/lowering/dataflow_graph.h"
 #include "sw_model/model/flushed_float.h"
-#include "testbench/stimuli/random.h"
+#include "testbench/stimuli/words.h"
 
 namespace emax::test {
 
@@ -18,9 +18,7 @@ struct Sample {
   std::array<Word, 3> point;
 };
 
-// A word of any kind: an ordinary number, a special value (zeros, subnormals, boundaries,
-// infinities, NaNs) or random bits.
-Word any_word(Random& random);
+using emax::any_word;
 
 // At least `count` samples for a record of type Record<float>: triangles of all stimuli, slivers
 // and degenerate ones among them, and words of any kind in every field.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "hls/lowering/designs.h"
+
+namespace emax {
+
+// The main of a testbench for Verilator: the module V<name> beside the function of the header that
+// it was lowered from (testbench/lowered/function_bench.h). Throws std::invalid_argument for a
+// design with inputs from a memory, and for one of the kernel's forms, which have testbenches.
+std::string testbench_source(const LoweredDesign& design);
+
+}  // namespace emax
