@@ -34,6 +34,16 @@ package emax_mutation;
   localparam int ECP5_UPPER_ROWS_LOST = 72;  // ecp5/small_multiply: the last two rows are not added
   localparam int ECP5_CROSS_ONCE = 73;  // ecp5/mantissa_square: the cross product counts once
 
+  localparam int DIVIDE_SUBNORMAL_OPERAND = 81;  // division/fp_divide: a subnormal operand counts as normal
+  localparam int DIVIDE_ZERO_BY_ZERO = 82;  // division/fp_divide: zero by zero is infinite
+  localparam int DIVIDE_TRUNCATES = 83;  // division/fp_divide: rounds towards zero
+  localparam int DIVIDE_NO_FLUSH = 84;  // division/fp_divide: half of the smallest normal number is kept
+  localparam int DIVIDE_NO_OVERFLOW = 85;  // division/fp_divide: an exponent past infinity's is kept
+  localparam int ROOT_NOT_DOUBLED = 91;  // division/fp_square_root: the mantissa of an odd exponent is not doubled
+  localparam int ROOT_SUBNORMAL_OPERAND = 92;  // division/fp_square_root: a subnormal operand counts as normal
+  localparam int ROOT_OF_NEGATIVE = 93;  // division/fp_square_root: a negative number counts as positive
+  localparam int ROOT_TRUNCATES = 94;  // division/fp_square_root: rounds towards zero
+
   localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
   localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back
   localparam int FIFO_IGNORES_STALL = 103;  // ring_memory: the output moves on before its word is taken

@@ -28,7 +28,20 @@ class FlushedFloat {
   friend FlushedFloat operator*(FlushedFloat a, FlushedFloat b) {
     return rounded(a.operand() * b.operand());
   }
+  friend FlushedFloat operator/(FlushedFloat a, FlushedFloat b) {
+    return rounded(a.operand() / b.operand());
+  }
+  friend FlushedFloat square_root(FlushedFloat a) { return rounded(std::sqrt(a.operand())); }
+  // The sign alone, as of IEEE 754: no operand is flushed, and a NaN gets the other sign too.
+  friend FlushedFloat operator-(FlushedFloat a) {
+    return FlushedFloat(bits_float(float_bits(a.value_) ^ kSignBit));
+  }
   friend bool operator<(FlushedFloat a, FlushedFloat b) { return a.operand() < b.operand(); }
+  friend bool operator>(FlushedFloat a, FlushedFloat b) { return a.operand() > b.operand(); }
+  friend bool operator<=(FlushedFloat a, FlushedFloat b) { return a.operand() <= b.operand(); }
+  friend bool operator>=(FlushedFloat a, FlushedFloat b) { return a.operand() >= b.operand(); }
+  friend bool operator==(FlushedFloat a, FlushedFloat b) { return a.operand() == b.operand(); }
+  friend bool operator!=(FlushedFloat a, FlushedFloat b) { return a.operand() != b.operand(); }
 
  private:
   double operand() const {
