@@ -18,6 +18,7 @@ std::vector<bool> canonical_nodes(const DataflowGraph& graph) {
     bool is = node.kind == ValueKind::kReal;
     switch (node.operation) {
       case Operation::kInput:
+      case Operation::kNegate:  // a NaN gets the other sign
         is = false;
         break;
       case Operation::kConstant:

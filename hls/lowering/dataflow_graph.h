@@ -35,18 +35,22 @@ enum class Operation : std::uint8_t {
   kSubtract,
   kMultiply,
   kSquare,
+  kDivide,
+  kSquareRoot,
   kMagnitude,
+  kNegate,  // the sign alone
   kLess,
   kLessZero,
   kGreaterZero,
-  kSelect,  // operands: condition, if true, if false
+  kIsNumber,  // not NaN
+  kSelect,    // operands: condition, if true, if false
   kBoth,
   kEither,
   kNegated,
   kWordLess,
   kWordSelect,
 };
-constexpr std::size_t kOperations = 16;
+constexpr std::size_t kOperations = 20;
 
 struct OperationInfo {
   std::string_view name;    // in schedules and reports

@@ -20,6 +20,10 @@ std::string_view instance_suffix(Operation operation) {
       return "_squarer";
     case Operation::kLess:
       return "_comparator";
+    case Operation::kDivide:
+      return "_divider";
+    case Operation::kSquareRoot:
+      return "_root_taker";
     default:
       return {};
   }

@@ -12,7 +12,7 @@ namespace emax {
 
 // The word of each node (a condition as 0 or 1) for the words of the inputs, in the order of
 // graph.inputs(). With the model's flushing scalar these are the words of the hardware. Scalar must
-// be constructible from float and have to_word, magnitude and the operators. O(nodes).
+// be constructible from float and have to_word, magnitude, square_root and the operators. O(nodes).
 template <class Scalar>
 std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inputs) {
   std::vector<Word> words;
@@ -41,8 +41,17 @@ std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inp
       case Operation::kSquare:
         result = to_word(real(0) * real(0));
         break;
+      case Operation::kDivide:
+        result = to_word(real(0) / real(1));
+        break;
+      case Operation::kSquareRoot:
+        result = to_word(square_root(real(0)));
+        break;
       case Operation::kMagnitude:
         result = to_word(magnitude(real(0)));
+        break;
+      case Operation::kNegate:
+        result = to_word(-real(0));
         break;
       case Operation::kLess:
         result = real(0) < real(1) ? 1 : 0;
@@ -52,6 +61,9 @@ std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inp
         break;
       case Operation::kGreaterZero:
         result = zero < real(0) ? 1 : 0;
+        break;
+      case Operation::kIsNumber:
+        result = real(0) == real(0) ? 1 : 0;
         break;
       case Operation::kSelect:
       case Operation::kWordSelect:

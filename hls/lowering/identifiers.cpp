@@ -60,14 +60,14 @@ static_assert(std::ranges::is_sorted(kOtherWords));
 // clang-format on
 
 constexpr auto kUsedModules = std::to_array<std::string_view>(
-    {"block_memory", "delay_line", "field_memory", "fp_add", "fp_less", "fp_multiply", "fp_product",
-     "fp_square", "mantissa_multiply", "mantissa_square"});
+    {"block_memory", "delay_line", "field_memory", "fp_add", "fp_divide", "fp_less", "fp_multiply",
+     "fp_product", "fp_square", "fp_square_root", "mantissa_multiply", "mantissa_square"});
 
 // The names that systemverilog.cpp and record_unit.cpp write into every module, whatever the graph.
 constexpr auto kFixedNames = std::to_array<std::string_view>(
     {"clk", "probes", "ADD_LATENCY", "MULTIPLY_LATENCY", "SQUARE_LATENCY", "LESS_LATENCY",
-     "SLOT_BITS", "LATENCY", "LAST_READ", "write_enable", "write_slot", "write_record", "slot",
-     "datapath", "unused_parts", "unused_probes"});
+     "DIVIDE_LATENCY", "SQUARE_ROOT_LATENCY", "SLOT_BITS", "LATENCY", "LAST_READ", "write_enable",
+     "write_slot", "write_record", "slot", "datapath", "unused_parts", "unused_probes"});
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 

@@ -18,7 +18,9 @@ mkdir -p "$folder"
 folder=$(realpath "$folder")
 
 includes=()
-for room in "$build"/include/*/; do includes+=("-I$room"); done
+for room in hls.kernel hls.lowering sw_model.base sw_model.model testbench.lowered; do
+  includes+=("-I$build/include/$room")
+done
 flags=(-std=c++20 -ffp-contract=off "${includes[@]}")
 
 # A function that the scalar cannot record does not compile; the compiler's first error says why.
@@ -39,7 +41,7 @@ END
 
 libraries=(testbench/lowered/libemax_function_bench.a testbench/stimuli/libemax_stimuli.a
   sw_model/base/libemax_base.a)
-operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
+operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/division/*.sv "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
 "${VERILATOR:-verilator}" --cc --exe --build -Wall -O3 -x-assign fast -x-initial fast \
   "-I$root/hls/rtl" --top-module "$function" --prefix "V$function" --Mdir "$folder/verilated" \
   -o ../bench -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]/#/$build/}" \

@@ -15,11 +15,12 @@ namespace {
 // What a value may not be called: words of OpenCL C that SystemVerilog does not reserve, and the
 // names of binary32.cl.
 constexpr auto kOpenclWords = std::to_array<std::string_view>(
-    {"NAN",          "INFINITY",   "bit_of",  "condition",    "constant",    "fp_add",
-     "fp_canonical", "fp_flushed", "fp_less", "fp_magnitude", "fp_multiply", "fp_square",
-     "fp_subtract",  "half",       "kernel",  "pipe",         "read_only",   "read_write",
-     "record",       "size_t",     "splat",   "splat_word",   "uchar",       "uint",
-     "ulong",        "uniform",    "ushort",  "word",         "write_only"});
+    {"INFINITY",     "NAN",        "bit_of",     "condition",      "constant",    "fp_add",
+     "fp_canonical", "fp_divide",  "fp_flushed", "fp_is_number",   "fp_less",     "fp_magnitude",
+     "fp_multiply",  "fp_negate",  "fp_square",  "fp_square_root", "fp_subtract", "half",
+     "kernel",       "pipe",       "read_only",  "read_write",     "record",      "size_t",
+     "splat",        "splat_word", "uchar",      "uint",           "ulong",       "uniform",
+     "ushort",       "word",       "write_only"});
 
 class OpenclWriter {
  public:
@@ -51,7 +52,8 @@ class OpenclWriter {
     for (NodeId id = static_cast<NodeId>(graph_.nodes().size()); id-- > 0;) {
       const Node& node = graph_.node(id);
       if (!shown_[id]) continue;
-      if (node.operation == Operation::kMagnitude) shown_[node.operands[0]] = true;
+      if (node.operation == Operation::kMagnitude || node.operation == Operation::kNegate)
+        shown_[node.operands[0]] = true;
       if (node.operation == Operation::kSelect) {
         shown_[node.operands[1]] = shown_[node.operands[2]] = true;
       }
@@ -116,7 +118,7 @@ class OpenclWriter {
   bool is_arithmetic(NodeId id) const {
     const Operation operation = graph_.node(id).operation;
     return graph_.node(id).kind == ValueKind::kReal && operation != Operation::kMagnitude &&
-           operation != Operation::kSelect;
+           operation != Operation::kNegate && operation != Operation::kSelect;
   }
 
   std::string line(NodeId id, const std::string& value) const {
@@ -160,6 +162,14 @@ class OpenclWriter {
         return call("fp_multiply");
       case Operation::kSquare:
         return call("fp_square");
+      case Operation::kDivide:
+        return call("fp_divide");
+      case Operation::kSquareRoot:
+        return call("fp_square_root");
+      case Operation::kNegate:
+        return "fp_negate(" + in(0) + ")";
+      case Operation::kIsNumber:
+        return "fp_is_number(" + in(0) + ")";
       case Operation::kMagnitude:
         return "fp_magnitude(" + in(0) + ")";
       case Operation::kLess:

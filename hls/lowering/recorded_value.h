@@ -118,8 +118,34 @@ class RecordedValue : public RecordedNode<RecordedValue> {
   friend RecordedValue operator*(const Here& a, const RecordedValue& b) {
     return recorded<RecordedValue>(Operation::kMultiply, a, b.node());
   }
+  friend RecordedValue operator/(const Here& a, const RecordedValue& b) {
+    return recorded<RecordedValue>(Operation::kDivide, a, b.node());
+  }
+  friend RecordedValue square_root(const Here& a) {
+    return recorded<RecordedValue>(Operation::kSquareRoot, a);
+  }
+  friend RecordedValue operator-(const Here& a) {
+    return recorded<RecordedValue>(Operation::kNegate, a);
+  }
   friend RecordedCondition operator<(const Here& a, const RecordedValue& b) {
     return recorded<RecordedCondition>(Operation::kLess, a, b.node());
+  }
+  // The other comparisons are made of this one. Nothing is less than, equal to or greater than a
+  // NaN, so `a <= b` is not the opposite of `b < a` alone.
+  friend RecordedCondition operator>(const Here& a, const RecordedValue& b) {
+    return at(a, Operation::kLess, b, RecordedValue(a.node));
+  }
+  friend RecordedCondition operator<=(const Here& a, const RecordedValue& b) {
+    return not_less(a, b, RecordedValue(a.node));
+  }
+  friend RecordedCondition operator>=(const Here& a, const RecordedValue& b) {
+    return not_less(a, RecordedValue(a.node), b);
+  }
+  friend RecordedCondition operator==(const Here& a, const RecordedValue& b) {
+    return logic(a, Operation::kBoth, a <= b, a >= b);
+  }
+  friend RecordedCondition operator!=(const Here& a, const RecordedValue& b) {
+    return logic(a, Operation::kNegated, a == b);
   }
   friend RecordedValue magnitude(const Here& a) {
     return recorded<RecordedValue>(Operation::kMagnitude, a);
@@ -127,6 +153,28 @@ class RecordedValue : public RecordedNode<RecordedValue> {
   friend RecordedValue select(const Located<RecordedCondition>& condition,
                               const RecordedValue& if_true, const RecordedValue& if_false) {
     return recorded<RecordedValue>(Operation::kSelect, condition, if_true.node(), if_false.node());
+  }
+
+ private:
+  // Operations at the place of a comparison that they are made for.
+  static RecordedCondition at(const Here& place, Operation operation, const RecordedValue& a,
+                              const RecordedValue& b = RecordedValue()) {
+    return RecordedCondition(
+        Recording::graph().add_operation(operation, {a.node(), b.node(), kNoNode}, place.place));
+  }
+  static RecordedCondition logic(const Here& place, Operation operation, const RecordedCondition& a,
+                                 const RecordedCondition& b = RecordedCondition()) {
+    return RecordedCondition(
+        Recording::graph().add_operation(operation, {a.node(), b.node(), kNoNode}, place.place));
+  }
+  // Whether a and b are numbers and a is not less than b.
+  static RecordedCondition not_less(const Here& place, const RecordedValue& a,
+                                    const RecordedValue& b) {
+    const RecordedCondition numbers =
+        logic(place, Operation::kBoth, at(place, Operation::kIsNumber, a),
+              at(place, Operation::kIsNumber, b));
+    return logic(place, Operation::kBoth, numbers,
+                 logic(place, Operation::kNegated, at(place, Operation::kLess, a, b)));
   }
 };
 

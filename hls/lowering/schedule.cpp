@@ -19,10 +19,15 @@ int Latencies::of(Operation operation) const {
       return square;
     case Operation::kLess:
       return less;
+    case Operation::kDivide:
+      return divide;
+    case Operation::kSquareRoot:
+      return square_root;
     case Operation::kSelect:
       return select;
     case Operation::kLessZero:
     case Operation::kGreaterZero:
+    case Operation::kIsNumber:
       return zero_compare;
     case Operation::kBoth:
     case Operation::kEither:
@@ -36,6 +41,7 @@ int Latencies::levels_of(Operation operation) const {
   switch (operation) {
     case Operation::kLessZero:
     case Operation::kGreaterZero:
+    case Operation::kIsNumber:
       return 2;  // sign and exponent, with four-input tables
     case Operation::kSelect:
     case Operation::kBoth:
@@ -45,6 +51,8 @@ int Latencies::levels_of(Operation operation) const {
     case Operation::kSubtract:
     case Operation::kMultiply:
     case Operation::kSquare:
+    case Operation::kDivide:
+    case Operation::kSquareRoot:
     case Operation::kLess:
       return levels;  // they fill their first stage, as their operands come from registers
     default:

@@ -27,6 +27,8 @@ struct Latencies {
   int zero_compare = 0;  // 0 or 1
   int logic = 0;         // 0 or 1
   int levels = 2;        // of lookup tables
+  int divide = 27;
+  int square_root = 26;
 
   int of(Operation operation) const;
   // Levels of lookup tables between an operand and the operator's first register, or its result if
@@ -47,6 +49,8 @@ constexpr LatencyLimits kLatencyLimits[] = {
     {"multiply", &Latencies::multiply, 2, 13, "fp_multiply"},
     {"square", &Latencies::square, 2, 13, "fp_square"},
     {"less", &Latencies::less, 1, 64, "fp_less"},
+    {"divide", &Latencies::divide, 1, 27, "fp_divide"},
+    {"square_root", &Latencies::square_root, 1, 26, "fp_square_root"},
     {"select", &Latencies::select, 0, 1, ""},
     {"zero_compare", &Latencies::zero_compare, 0, 1, ""},
     {"logic", &Latencies::logic, 0, 1, ""},

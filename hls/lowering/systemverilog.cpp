@@ -100,6 +100,8 @@ class DatapathWriter {
     latency("MULTIPLY", latencies.multiply, used.contains(Operation::kMultiply));
     latency("SQUARE", latencies.square, used.contains(Operation::kSquare));
     latency("LESS", latencies.less, used.contains(Operation::kLess));
+    latency("DIVIDE", latencies.divide, used.contains(Operation::kDivide));
+    latency("SQUARE_ROOT", latencies.square_root, used.contains(Operation::kSquareRoot));
     for (const auto& [word, name] : names_.constants()) {
       char value[16];
       std::snprintf(value, sizeof value, "32'h%08x", static_cast<unsigned>(word));
@@ -169,6 +171,15 @@ class DatapathWriter {
                         ".clk, .a(" + in(0) + "), .square(" + node.name + ")");
       case Operation::kLess:
         return binary("fp_less #(.LATENCY(LESS_LATENCY))", "less");
+      case Operation::kDivide:
+        return binary("fp_divide #(.LATENCY(DIVIDE_LATENCY))", "quotient");
+      case Operation::kSquareRoot:
+        return instance("fp_square_root #(.LATENCY(SQUARE_ROOT_LATENCY))", names_.instance(id),
+                        ".clk, .a(" + in(0) + "), .root(" + node.name + ")");
+      case Operation::kNegate:
+        return logic(id, "{~" + in(0) + "[31], " + in(0) + "[30:0]}");
+      case Operation::kIsNumber:
+        return logic(id, "~(&" + in(0) + "[30:23] & |" + in(0) + "[22:0])");
       case Operation::kMagnitude:
         return logic(id, "{1'b0, " + in(0) + "[30:0]}");
       case Operation::kLessZero:

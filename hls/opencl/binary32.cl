@@ -41,6 +41,8 @@ real fp_canonical(const real value) {
   return select(value, splat(ONE_NAN), magnitude_word(value) > INFINITY_WORD);
 }
 real fp_magnitude(const real value) { return as_real(magnitude_word(value)); }
+real fp_negate(const real value) { return as_real(as_word(value) ^ SIGN); }
+condition fp_is_number(const real value) { return magnitude_word(value) <= INFINITY_WORD; }
 condition fp_less(const real a, const real b) { return a < b; }
 
 // A sum of normal operands that is less than the smallest normal number is exact.
@@ -60,3 +62,9 @@ real fp_multiply(const real a, const real b) {
   return select(product, signed_zero(product), tiny);
 }
 real fp_square(const real a) { return fp_multiply(a, a); }
+
+// Of the bits of docs/numerics.md only where the device rounds them correctly
+// (-cl-fp32-correctly-rounded-divide-sqrt). A quotient
+// of mantissas below 1 is less than 1 - 2^-24, so none rounds up to the smallest normal number.
+real fp_divide(const real a, const real b) { return fp_flushed(a / b); }
+real fp_square_root(const real a) { return sqrt(a); }

@@ -15,6 +15,7 @@ struct Ycbcr {
 
 template <class Scalar>
 Ycbcr<Scalar> colour_transform(const Rgb<Scalar>& in) {
+  using emax::select;
   const Scalar zero(0.0f), one(1.0f);
   const Scalar luma =
       Scalar(0.2126f) * in.red + Scalar(0.7152f) * in.green + Scalar(0.0722f) * in.blue;

@@ -23,7 +23,7 @@ module fp_divide #(
   localparam int STEPS = DIGITS + 1;     // and rounding
 
   if (LATENCY < 1 || LATENCY > STEPS) begin : bad_latency
-    $error("fp_divide: LATENCY must be 1 to MANTISSA + 4");
+    $error("fp_divide: LATENCY must be 1 to %0d", STEPS);
   end
 
   // The exponent of a quotient of equal mantissas, two bits wider than it is stored and signed; the

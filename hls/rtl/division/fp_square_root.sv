@@ -21,7 +21,7 @@ module fp_square_root #(
   localparam int STEPS = DIGITS + 1;     // and rounding
 
   if (LATENCY < 1 || LATENCY > STEPS) begin : bad_latency
-    $error("fp_square_root: LATENCY must be 1 to MANTISSA + 3");
+    $error("fp_square_root: LATENCY must be 1 to %0d", STEPS);
   end
 
   // Half of the exponent, rounded down, as it is stored. The bias is odd, so an even stored exponent

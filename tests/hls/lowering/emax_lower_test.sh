@@ -34,8 +34,8 @@ expect fail "no form is given" "nothing" "$lower"
 expect fail "unknown form 'square': take one of visible_edge" "an unknown form" "$lower" square
 expect fail "'--fast' is not understood" "an unknown option" "$lower" minimum --fast
 expect fail "--module needs a value" "a missing value" "$lower" minimum --module
-expect fail "with one of add, less" "an unknown latency" "$lower" minimum --latency div=3
-for limits in "add 1 14" "multiply 2 13" "square 2 13" "less 1 64" "select 0 1" \
+expect fail "with one of add, divide" "an unknown latency" "$lower" minimum --latency div=3
+for limits in "add 1 14" "multiply 2 13" "square 2 13" "less 1 64" "divide 1 27" "square_root 1 26" "select 0 1" \
   "zero_compare 0 1" "logic 0 1" "levels 2 1000"; do
   read -r name least most <<<"$limits"
   expect pass "$name $(printf '%*s' $((13 - ${#name})) '')$least to $most (" "limits in the help" \

@@ -10,7 +10,8 @@ namespace emax::test {
 namespace {
 
 // Ports through which the modules of hls/rtl give their results.
-const std::set<std::string> kResults = {"q", "sum", "product", "square", "less", "read_data"};
+const std::set<std::string> kResults = {"quotient", "root",   "q",    "sum",
+                                        "product",  "square", "less", "read_data"};
 
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern, int group) {
   std::vector<std::string> found;

@@ -55,10 +55,11 @@ std::string source_with(const std::vector<std::string>& variables) {
 }  // namespace
 
 DataflowGraph random_graph(Random& random, std::size_t operations, DataflowGraph::Sharing sharing) {
-  constexpr Operation kDrawn[] = {Operation::kAdd,      Operation::kAdd,      Operation::kSubtract,
-                                  Operation::kMultiply, Operation::kMultiply, Operation::kMagnitude,
-                                  Operation::kLess,     Operation::kLess,     Operation::kSelect,
-                                  Operation::kBoth,     Operation::kEither,   Operation::kNegated};
+  constexpr Operation kDrawn[] = {
+      Operation::kAdd,      Operation::kAdd,        Operation::kSubtract, Operation::kMultiply,
+      Operation::kMultiply, Operation::kMagnitude,  Operation::kLess,     Operation::kLess,
+      Operation::kSelect,   Operation::kBoth,       Operation::kEither,   Operation::kNegated,
+      Operation::kDivide,   Operation::kSquareRoot, Operation::kNegate,   Operation::kIsNumber};
   DataflowGraph graph(sharing);
   std::vector<NodeId> reals, conditions;
   for (int i = 0; i < 4; ++i) {
