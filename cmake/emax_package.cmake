@@ -46,7 +46,7 @@ install(FILES sw_model/model/arithmetic_probe.h sw_model/model/emax_model.h
 install(DIRECTORY hls/rtl DESTINATION ${CMAKE_INSTALL_DATADIR}/emax
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f")
 file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
-set(of_no_command docs/user/large-scans.md docs/user/mpi.md docs/user/python.md docs/user/report.md)
+set(of_no_command docs/user/large-scans.md docs/user/lowering.md docs/user/mpi.md docs/user/python.md docs/user/report.md)
 install(FILES LICENSE ${documents} ${of_no_command} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A manual page for emax and one for each command, of the program's own --help and of docs/user/.

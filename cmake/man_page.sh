@@ -45,7 +45,7 @@ body() {
     !fenced && sub(/^## /, "# ") { $0 = toupper($0); headed = 1 }
     headed + 0 == part' "$document" | sed -E '
       s/\[[^]]*\]\(files\.md[^)]*\)/**emax**(1)/g
-      s/\[[^]]*\]\(((large-scans|mpi|python|report)\.md)[^)]*\)/\1/g
+      s/\[[^]]*\]\(((large-scans|lowering|mpi|python|report)\.md)[^)]*\)/\1/g
       s/\[[^]]*\]\(([a-z]+)\.md[^)]*\)/**emax-\1**(1)/g
       s/\[([^]]*\.md)\]\([^)]*\)/\1/g
       s/\[([^]]*)\]\([^):]*\/([^)]*\.md)[^)]*\)/\1 (\2)/g'

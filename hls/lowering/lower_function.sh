@@ -13,6 +13,11 @@ set -euo pipefail
 build=$(realpath "$1") header=$(realpath "$2") function=$3 folder=$4
 shift 4
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
+case " $* " in *" --module "* | *" -o "*)
+  echo "lower: the module has the name of the function, and the files are in $folder; leave out --module and -o" >&2
+  exit 2
+  ;;
+esac
 [ -f "$header" ] || { echo "lower: $header: no such file; check the path" >&2 && exit 1; }
 mkdir -p "$folder"
 folder=$(realpath "$folder")
