@@ -14,7 +14,7 @@ from mkdocs.utils import get_relative_url
 
 ROOT = Path(__file__).resolve().parents[2]
 API = ROOT / "build/api/html"  # Doxygen's pages of the public headers
-LANGUAGES = {".cpp": "cpp", ".sv": "systemverilog"}
+LANGUAGES = {".cpp": "cpp", ".h": "cpp", ".sv": "systemverilog"}
 log = get_plugin_logger("emax")
 
 
@@ -62,7 +62,7 @@ def on_page_markdown(markdown, page, config, files):
     # Every second piece is fenced, and stays.
     pieces = re.split(r"(^```.*?^```$)", markdown, flags=re.MULTILINE | re.DOTALL)
     for i in range(0, len(pieces), 2):
-        pieces[i] = re.sub(r"\]\(([^):]+\.(?:cpp|sv))\)", r"](\1.md)", pieces[i])
+        pieces[i] = re.sub(r"\]\(([^):]+\.(?:cpp|h|sv))\)", r"](\1.md)", pieces[i])
         # A list may follow its sentence without a blank line, as on other sites of Markdown.
         pieces[i] = re.sub(r"^(?![-|\s]|\d+\. )(.+)\n(?=- |\d+\. )", r"\1\n\n", pieces[i], flags=re.MULTILINE)
         pieces[i] = re.sub(r"<!-- rows of (\S+): (\S+) -->", lambda found: rows(*found.groups()), pieces[i])
