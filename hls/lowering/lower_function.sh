@@ -19,6 +19,10 @@ case " $* " in *" --module "* | *" -o "*)
   ;;
 esac
 [ -f "$header" ] || { echo "lower: $header: no such file; check the path" >&2 && exit 1; }
+grep -qw -- "$function" "$header" || {
+  echo "lower: $header: no function '$function'; check the name" >&2
+  exit 1
+}
 mkdir -p "$folder"
 folder=$(realpath "$folder")
 
@@ -29,14 +33,11 @@ done
 flags=(-std=c++20 -ffp-contract=off "${includes[@]}")
 
 # A function that the scalar cannot record does not compile; the compiler's first error says why.
-cat >"$folder/lower.cpp" <<END
-#include "hls/lowering/function_subject.h"
-#include "$header"
-
-int main(int argc, char** argv) {
-  return emax::lowering_program(argc, argv, {EMAX_FUNCTION($function, "$header")});
-}
-END
+{
+  printf '#include "%s"\n' hls/lowering/function_subject.h "$header"
+  printf 'int main(int argc, char** argv) {\n'
+  printf '  return emax::lowering_program(argc, argv, {EMAX_FUNCTION(%s, "%s")});\n}\n' "$function" "$header"
+} >"$folder/lower.cpp"
 "${CXX:-c++}" "${flags[@]}" "$folder/lower.cpp" "$build/hls/lowering/libemax_lowering.a" \
   -o "$folder/lower"
 "$folder/lower" "$@" -o "$folder/$function.sv"

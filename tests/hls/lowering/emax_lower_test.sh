@@ -26,6 +26,15 @@ expect pass "return squared_distance;" "the function in OpenCL C" \
   "$lower" visible_edge --opencl
 expect pass "*result_index_out = result_index;" "several outputs in OpenCL C" \
   "$lower" maximum --opencl
+expect fail "--testbench is for functions of one's own" "a testbench of a form" \
+  "$lower" visible_edge --testbench
+script=$project/hls/lowering/lower_function.sh example=$project/docs/examples/lowering/kalman_update.h
+expect fail "none.h: no such file; check the path" "a header that is not there" \
+  "$script" . none.h f none
+expect fail "no function 'kalman'; check the name" "a function that is not there" \
+  "$script" . "$example" kalman none
+expect fail "leave out --module and -o" "another name of the module" \
+  "$script" . "$example" kalman_update none --module other
 expect pass "ADD_LATENCY = 9;" "latencies" "$lower" visible_edge --latency add=9,square=7
 expect pass '.STYLE("shift_register")' "the family" "$lower" visible_edge --family xilinx
 expect pass '.DEPTH(12), .STYLE("registers")' "delay styles" \
