@@ -33,7 +33,7 @@ def line(row):
 def body(result, machine):
     return ("## Pairs a second\n\n"
             f"Every pair of {result['points']} points and {result['triangles']} triangles in blocks of 1,024 points; all devices gave the same bits. "
-            f"Measured on {machine}: the median of five rounds. Estimated: the cycles of the model at the board's assumed clock and number of elements "
+            f"Measured on {machine}: the fastest of nine rounds. Estimated: the cycles of the model at the board's assumed clock and number of elements "
             "([boards](boards.md)), alone and with the link where that takes longer. `./dev bench --devices` writes this section.\n\n"
             "| device | hardware | computing, 10⁹ pairs/s | with the link | |\n|---|---|---|---|---|\n"
             + "".join(line(row) for row in result["rows"]))
