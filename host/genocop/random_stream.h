@@ -23,7 +23,8 @@ class RandomStream {
     kDomain = 3,
     kTest = 4,
     kSobol = 5,
-    kKnown = 6
+    kKnown = 6,
+    kConsensus = 7
   };
 
   RandomStream(std::uint64_t seed, std::uint64_t index, Purpose purpose);

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "host/geometry/point_tree.h"
-
 namespace emax {
 namespace {
 
@@ -47,8 +45,11 @@ double residual(std::span<const Point> points) {
 }  // namespace
 
 ScanEstimate estimate_scan(std::span<const Point> cloud) {
+  return cloud.size() < 3 ? ScanEstimate{} : estimate_scan(cloud, PointTree(cloud));
+}
+
+ScanEstimate estimate_scan(std::span<const Point> cloud, const PointTree& tree) {
   if (cloud.size() < 3) return {};
-  const PointTree tree(cloud);
   const std::size_t step = (cloud.size() + kSampled - 1) / kSampled;
   std::vector<double> spacings, residuals, residuals_of_few;
   std::vector<PointTree::Neighbour> near;

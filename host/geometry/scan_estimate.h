@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "host/geometry/point_tree.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
@@ -24,6 +25,8 @@ struct ScanEstimate {
 // Estimates from at most 20,000 points, evenly spread over the indices, and their neighbours. Zeros
 // for fewer than three points. O(n log n).
 ScanEstimate estimate_scan(std::span<const Point> cloud);
+// The same with the tree of the cloud's points.
+ScanEstimate estimate_scan(std::span<const Point> cloud, const PointTree& tree);
 
 // The tolerance that suits a scan, to two digits and rounded up: half the distance of its points,
 // or 6 times its noise where that is more. Nothing without a distance.

@@ -19,6 +19,9 @@ enum class Fault {
   kSkipsIntersections,  // triangles may meet
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change
+  // In the search for planes, cylinders and spheres.
+  kCurvedIsPlane,    // a strip of a curved surface counts as a plane
+  kFitsEveryNormal,  // a plane takes points whose neighbourhoods do not fit it
   // In the readers of files, messages and frames.
   kTrustsCounts,    // a count or length is not compared with the bytes that are there
   kTrustsIndices,   // an index is not compared with the number of vertices
