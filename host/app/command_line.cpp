@@ -487,6 +487,53 @@ void add_config(CLI::App& app, CommandLine& line) {
   });
 }
 
+void add_features(CLI::App& app, CommandLine& line) {
+  auto& features = line.features;
+  CLI::App& command =
+      *app.add_subcommand("features", "find the planes, cylinders and spheres of a scan");
+  command
+      .add_option("CLOUD", features.cloud,
+                  input_help("point cloud", fmt::format("{}", fmt::join(cloud_endings(), " "))) +
+                      "; or a folder of them")
+      ->required();
+  command
+      .add_option("-o,--output", features.outputs,
+                  "the points by region: .ply with colours, .obj or .glb with groups; or .dxf with "
+                  "the outlines of the planes; may be repeated")
+      ->expected(1)
+      ->take_all();
+  command.add_option(
+      "--max-error", features.max_error,
+      "how far the points of a region may lie from its shape, N or N% (default: what "
+      "suits the scan, as emax info says it)");
+  add_level(command, features.level);
+  command
+      .add_option("--method", features.method,
+                  "how planes are searched: growing from flat places, or a Hough transform")
+      ->check(CLI::IsMember({"growing", "hough"}))
+      ->capture_default_str();
+  command.add_option("--least-points", features.least_support, "of a region")
+      ->check(CLI::Range(std::size_t{8}, std::size_t{1} << 32))
+      ->capture_default_str();
+  command.add_option("--seed", features.seed, "of the search for cylinders and spheres")
+      ->check(whole())
+      ->capture_default_str();
+  command.add_flag("--all", features.all, "print every region, not only the 20 greatest");
+  command
+      .add_option("--jobs", features.jobs,
+                  "threads, which change no byte of the result (default: one per processor)")
+      ->check(CLI::Range(1u, 256u));
+  add_reading(command, features.reading);
+  add_unit(command, features.unit);
+  add_json(command, features.json);
+  add_progress(command, line);
+  add_examples(command,
+               "  emax features hall.las  the planes, cylinders and spheres, the greatest first\n"
+               "  emax features hall.las --max-error 15mm --unit m -o hall.ply -o walls.dxf  in "
+               "colours, and the outlines of the planes");
+  command.callback([&] { line.chosen = [&features] { return run_features(features); }; });
+}
+
 void add_info(CLI::App& app, CommandLine& line) {
   auto& info = line.info;
   CLI::App& command = *app.add_subcommand(
@@ -518,8 +565,9 @@ void add_completion(CLI::App& app, CommandLine& line) {
   });
 }
 
-constexpr std::array kCommands = {add_optimize, add_reconstruct, add_decimate, add_error,
-                                  add_verify,   add_info,        add_config,   add_completion};
+constexpr std::array kCommands = {add_optimize, add_reconstruct, add_decimate,
+                                  add_error,    add_verify,      add_features,
+                                  add_info,     add_config,      add_completion};
 
 }  // namespace
 
@@ -532,9 +580,10 @@ void add_commands(CLI::App& app, CommandLine& line) {
   }
 }
 
-std::array<std::string*, 6> json_options(CommandLine& line) {
+std::array<std::string*, 7> json_options(CommandLine& line) {
   return {&line.optimize.common.json, &line.reconstruct.json, &line.decimate.json,
-          &line.error.common.json,    &line.verify.json,      &line.info.json};
+          &line.error.common.json,    &line.verify.json,      &line.info.json,
+          &line.features.json};
 }
 
 }  // namespace emax

@@ -18,6 +18,7 @@ struct CommandLine {
   ErrorOptions error;
   VerifyOptions verify;
   InfoOptions info;
+  FeaturesOptions features;
   std::string shell;
   std::string config_method = kFitMethod, config_decimator{Bounded::kName};
   bool quiet = false;
@@ -29,6 +30,6 @@ struct CommandLine {
 void add_commands(CLI::App& app, CommandLine& line);
 
 // The --json options of the subcommands.
-std::array<std::string*, 6> json_options(CommandLine& line);
+std::array<std::string*, 7> json_options(CommandLine& line);
 
 }  // namespace emax

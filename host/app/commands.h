@@ -111,6 +111,22 @@ struct InfoOptions {
 };
 int run_info(const InfoOptions& options);
 
+struct FeaturesOptions {
+  std::string cloud;
+  std::vector<std::string> outputs;  // PLY, OBJ, GLB or DXF
+  std::string unit;                  // of the cloud's numbers; empty: what the file says
+  std::string max_error;             // empty: what suits the scan
+  int level = 0;                     // of accuracy, in place of max_error
+  std::string method = "growing";    // or hough
+  std::size_t least_support = 100;   // points
+  std::uint64_t seed = 1;
+  unsigned jobs = 0;  // 0: one per processor
+  bool all = false;   // print every region
+  std::string json;
+  CloudReadOptions reading;
+};
+int run_features(const FeaturesOptions& options);
+
 struct VerifyOptions {
   std::string certificate;
   std::string cloud, mesh, reference;  // empty: found by the names in the certificate

@@ -44,14 +44,12 @@ class Arrays {
   OrderedJson views = OrderedJson::array(), accessors = OrderedJson::array();
 };
 
-OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point& origin,
-                         Arrays& arrays) {
+std::size_t add_positions(std::span<const Point> points, const Point& origin, Arrays& arrays) {
   Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  const std::size_t vertices = mesh.vertices.size();
-  const std::size_t position = arrays.add(kGltfFloat, "VEC3", vertices, kTargetVertices, [&] {
-    for (const Point& vertex : mesh.vertices) {
+  const std::size_t position = arrays.add(kGltfFloat, "VEC3", points.size(), kTargetVertices, [&] {
+    for (const Point& point : points) {
       for (int k = 0; k < 3; ++k) {
-        const volatile float rounded = static_cast<float>(vertex[k] - origin[k]);
+        const volatile float rounded = static_cast<float>(point[k] - origin[k]);
         const float relative = rounded;
         append_value(arrays.bytes, relative);
         lower[k] = std::min(lower[k], static_cast<double>(relative));
@@ -61,10 +59,16 @@ OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const
   });
   arrays.accessors[position]["min"] = xyz(lower);
   arrays.accessors[position]["max"] = xyz(upper);
+  return position;
+}
+
+OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point& origin,
+                         Arrays& arrays) {
+  const std::size_t position = add_positions(mesh.vertices, origin, arrays);
   OrderedJson primitive = {{"attributes", {{"POSITION", position}}}, {"material", 0}};
   if (!notes.deviation.empty()) {
     primitive["attributes"]["_DEVIATION"] =
-        arrays.add(kGltfFloat, "SCALAR", vertices, kTargetVertices, [&] {
+        arrays.add(kGltfFloat, "SCALAR", mesh.vertices.size(), kTargetVertices, [&] {
           for (const float value : notes.deviation) append_value(arrays.bytes, value);
         });
   }
@@ -89,40 +93,41 @@ void append_chunk(std::string& bytes, std::uint32_t type, std::string_view conte
   bytes.append(padding, filler);
 }
 
-}  // namespace
-
-std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
-  const Point origin = storage_origin(mesh.vertices);
-  OrderedJson frame = {{"name", "frame"}, {"matrix", glb_frame(notes.unit)}};
-  frame["children"] = OrderedJson::array({1});
-  frame["extras"][kGlbUnitKey] = notes.unit ? OrderedJson(notes.unit->name) : OrderedJson(nullptr);
-  OrderedJson node = {{"name", "mesh"}, {"translation", xyz(origin)}};
-  if (!mesh.vertices.empty()) node["mesh"] = 0;
+// The frame with `nodes` below it, which have the numbers from 1 on.
+OrderedJson scene_of(const std::optional<Unit>& unit, OrderedJson nodes) {
+  OrderedJson frame = {{"name", "frame"}, {"matrix", glb_frame(unit)}};
+  frame["children"] = OrderedJson::array();
+  for (std::size_t i = 1; i <= nodes.size(); ++i) frame["children"].push_back(i);
+  frame["extras"][kGlbUnitKey] = unit ? OrderedJson(unit->name) : OrderedJson(nullptr);
   OrderedJson json = {{"asset", {{"version", "2.0"}, {"generator", kGlbGenerator}}}, {"scene", 0}};
   OrderedJson scene;
   scene["nodes"] = OrderedJson::array({0});
   json["scenes"] = OrderedJson::array({std::move(scene)});
-  json["nodes"] = OrderedJson::array({std::move(frame), std::move(node)});
-  Arrays arrays;
-  if (!mesh.vertices.empty()) {
-    OrderedJson whole;
-    whole["primitives"] = OrderedJson::array({primitive_of(mesh, notes, origin, arrays)});
-    json["meshes"] = OrderedJson::array({std::move(whole)});
-    // Without a material, a mesh is metal that is seen from outside only.
-    json["materials"] = OrderedJson::array(
-        {{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
-          {"doubleSided", true}}});
-    json["accessors"] = std::move(arrays.accessors);
-    json["bufferViews"] = std::move(arrays.views);
-    OrderedJson buffer;
-    buffer["byteLength"] = arrays.bytes.size();
-    json["buffers"] = OrderedJson::array({std::move(buffer)});
-  }
+  json["nodes"] = OrderedJson::array({std::move(frame)});
+  for (OrderedJson& node : nodes) json["nodes"].push_back(std::move(node));
+  return json;
+}
+
+void set_arrays(OrderedJson& json, Arrays& arrays) {
+  json["accessors"] = std::move(arrays.accessors);
+  json["bufferViews"] = std::move(arrays.views);
+  OrderedJson buffer;
+  buffer["byteLength"] = arrays.bytes.size();
+  json["buffers"] = OrderedJson::array({std::move(buffer)});
+}
+
+// Without a material, a mesh is metal that is seen from outside only.
+OrderedJson material() {
+  return {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
+          {"doubleSided", true}};
+}
+
+std::string container(const OrderedJson& json, const std::string& binary) {
   std::string bytes(kGlbMagic);
   append_value(bytes, kGlbVersion);
   append_value(bytes, std::uint32_t{0});  // the length, once it is known
   append_chunk(bytes, kGlbJson, json.dump(), ' ');
-  if (!arrays.bytes.empty()) append_chunk(bytes, kGlbBinary, arrays.bytes, '\0');
+  if (!binary.empty()) append_chunk(bytes, kGlbBinary, binary, '\0');
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(fmt::format("a GLB file of {} bytes cannot be: it holds 4 GiB at most; write .ply",
                             bytes.size()));
@@ -130,6 +135,60 @@ std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
   const auto length = static_cast<std::uint32_t>(bytes.size());
   std::copy_n(reinterpret_cast<const char*>(&length), sizeof length, bytes.begin() + 8);
   return bytes;
+}
+
+}  // namespace
+
+std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
+  const Point origin = storage_origin(mesh.vertices);
+  OrderedJson node = {{"name", "mesh"}, {"translation", xyz(origin)}};
+  if (!mesh.vertices.empty()) node["mesh"] = 0;
+  OrderedJson json = scene_of(notes.unit, OrderedJson::array({std::move(node)}));
+  Arrays arrays;
+  if (!mesh.vertices.empty()) {
+    OrderedJson whole;
+    whole["primitives"] = OrderedJson::array({primitive_of(mesh, notes, origin, arrays)});
+    json["meshes"] = OrderedJson::array({std::move(whole)});
+    json["materials"] = OrderedJson::array({material()});
+    set_arrays(json, arrays);
+  }
+  return container(json, arrays.bytes);
+}
+
+std::string glb_of_groups(const PointGroups& groups) {
+  const Point origin = storage_origin(groups.points);
+  const auto members = members_of(groups);
+  OrderedJson nodes = OrderedJson::array(), meshes = OrderedJson::array(),
+              materials = OrderedJson::array();
+  Arrays arrays;
+  for (std::size_t g = 0; g < members.size(); ++g) {
+    if (members[g].empty()) continue;
+    const bool none = g == groups.groups.size();
+    const std::string name = none ? "none" : groups.groups[g].name;
+    const auto colour = none ? kColourOfNone : groups.groups[g].colour;
+    std::vector<Point> points;
+    for (const std::uint32_t i : members[g]) points.push_back(groups.points[i]);
+    OrderedJson look = material();
+    OrderedJson factor = OrderedJson::array();
+    for (const std::uint8_t c : colour) factor.push_back(c / 255.0);
+    factor.push_back(1);
+    look["pbrMetallicRoughness"]["baseColorFactor"] = std::move(factor);
+    nodes.push_back({{"name", name}, {"translation", xyz(origin)}, {"mesh", meshes.size()}});
+    OrderedJson primitive = {{"attributes", {{"POSITION", add_positions(points, origin, arrays)}}},
+                             {"material", materials.size()},
+                             {"mode", kPointsMode}};
+    OrderedJson mesh = {{"name", name}};
+    mesh["primitives"] = OrderedJson::array({std::move(primitive)});
+    meshes.push_back(std::move(mesh));
+    materials.push_back(std::move(look));
+  }
+  OrderedJson json = scene_of(groups.unit, std::move(nodes));
+  if (!groups.points.empty()) {
+    json["meshes"] = std::move(meshes);
+    json["materials"] = std::move(materials);
+    set_arrays(json, arrays);
+  }
+  return container(json, arrays.bytes);
 }
 
 }  // namespace emax

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/files/mesh_file.h"
+#include "host/files/point_groups.h"
 
 namespace emax {
 
@@ -15,5 +16,8 @@ std::string off_bytes(const TriangleMesh& mesh);
 std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
 std::string threemf_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
 std::string dxf_bytes(const TriangleMesh& mesh, const MeshNotes& notes);
+
+std::string glb_of_groups(const PointGroups& groups);
+std::string dxf_of_groups(const PointGroups& groups);
 
 }  // namespace emax

@@ -58,4 +58,19 @@ Colour deviation_colour(double deviation, double reach, bool is_signed) {
   return between(scale.stops, is_signed ? (share + 1) / 2 : share);
 }
 
+Colour distinct_colour(std::size_t n) {
+  constexpr double kGolden = 0.6180339887498949;  // of a turn
+  constexpr std::array<double, 3> kBrightness = {0.95, 0.75, 0.55};
+  const double turns = kGolden * static_cast<double>(n), hue = 6 * (turns - std::floor(turns));
+  constexpr double kSaturation = 0.65;
+  Colour colour;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double apart = std::abs(std::fmod(hue + 6 - 2 * static_cast<double>(c), 6) - 3);
+    const double share = std::clamp(apart - 1, 0.0, 1.0);
+    const double value = kBrightness[n % 3] * (1 - kSaturation * (1 - share));
+    colour[c] = static_cast<std::uint8_t>(std::lround(255 * value));
+  }
+  return colour;
+}
+
 }  // namespace emax

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace emax {
@@ -22,5 +23,9 @@ struct DeviationScale {
 const DeviationScale& deviation_scale(bool is_signed);
 
 Colour deviation_colour(double deviation, double reach, bool is_signed);
+
+// The colour of the n-th of many things that are told apart: hues by the golden angle, in three
+// brightnesses.
+Colour distinct_colour(std::size_t n);
 
 }  // namespace emax

@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ["decimate", "error", "verify", "report", "info", "config"]  # in this order: each reads what those before it wrote
+PAGES = ["decimate", "error", "verify", "report", "features", "info", "config"]  # in this order: each reads what those before it wrote
 VARYING = r"\d+(\.\d+)? s$|\w+ instructions in .*"  # times, and what this processor has
 
 
