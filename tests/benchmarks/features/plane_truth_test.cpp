@@ -1,0 +1,87 @@
+#include "tests/benchmarks/features/plane_truth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/stimuli.h"
+
+namespace emax::benchmarks {
+namespace {
+
+void add_quad(TriangleMesh& mesh, const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Point& p : {a, b, c, d}) mesh.vertices.push_back(p);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+// A floor in two parts that do not touch, a wall, and a column of eighteen facets.
+TriangleMesh scene() {
+  TriangleMesh mesh;
+  add_quad(mesh, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  add_quad(mesh, {2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0});
+  add_quad(mesh, {0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1});
+  const auto on_column = [](int i, double z) {
+    const double angle = 2 * std::numbers::pi * i / 36;
+    return Point(5 + std::cos(angle), std::sin(angle), z);
+  };
+  for (int i = 0; i < 36; ++i) {
+    add_quad(mesh, on_column(i, 0.5), on_column(i + 1, 0.5), on_column(i + 1, 1.5),
+             on_column(i, 1.5));
+  }
+  return mesh;
+}
+
+class PlaneTruthTest : public testing::Test {
+ protected:
+  PlaneTruthTest() {
+    Random random(named_seed("plane truth", 1));
+    const auto at = [&](double x, double y, double z) { cloud_.emplace_back(x, y, z); };
+    for (int i = 0; i < 100; ++i) at(random.uniform(0, 1), random.uniform(0.01, 1), 0.001);
+    for (int i = 0; i < 100; ++i) at(random.uniform(2, 3), random.uniform(0, 1), 0);
+    for (int i = 0; i < 100; ++i) at(random.uniform(0, 1), 0, random.uniform(0.01, 1));
+    for (int i = 0; i < 100; ++i) at(5 + std::cos(i), std::sin(i), 1);
+    for (int i = 0; i < 100; ++i) at(0.5, 0.5, 0.5);
+    truth_ = truth_of(scene(), cloud_, 0.01);
+  }
+
+  static FoundPlane plane(const Point& normal, double offset, std::uint32_t first,
+                          std::uint32_t end) {
+    FoundPlane found{{normal, offset}, {}};
+    for (std::uint32_t i = first; i < end; ++i) found.points.push_back(i);
+    return found;
+  }
+
+  std::vector<Point> cloud_;
+  PlaneTruth truth_;
+};
+
+TEST_F(PlaneTruthTest, MergesWhatIsCoplanarAndLeavesTheCurvedOut) {
+  std::size_t with_points = 0;
+  for (const auto& known : truth_.planes) with_points += !known.points.empty();
+  EXPECT_EQ(with_points, 2u);
+  EXPECT_EQ(truth_.planes[truth_.plane_of[0]].points.size(), 200u);
+  EXPECT_EQ(truth_.planes[truth_.plane_of[250]].points.size(), 100u);
+  EXPECT_EQ(truth_.plane_of[350], PlaneTruth::kNone);
+  EXPECT_EQ(truth_.plane_of[450], PlaneTruth::kNone);
+}
+
+TEST_F(PlaneTruthTest, CountsWhatIsFoundAndWhatIsWrong) {
+  const double tilt = std::numbers::pi / 180;
+  const std::vector<FoundPlane> reported = {
+      plane({0, std::sin(tilt), std::cos(tilt)}, 0, 0, 190),  // the floor, by a degree
+      plane({0, 1, 0}, 0, 200, 240),                          // less than half of the wall
+      plane({1, 0, 0}, 5, 300, 400)};                         // a plane in the column
+  const PlaneScore score = score_of(truth_, cloud_, reported, 50);
+  EXPECT_EQ(score.known, 2u);
+  EXPECT_EQ(score.found, 1u);
+  EXPECT_EQ(score.reported, 3u);
+  EXPECT_EQ(score.wrong, 1u);
+  EXPECT_NEAR(score.greatest_angle, 1, 1e-9);
+  EXPECT_EQ(score_of(truth_, cloud_, reported, 150).known, 1u);
+}
+
+}  // namespace
+}  // namespace emax::benchmarks
