@@ -87,6 +87,9 @@ class FeaturesCommand {
     search.least_support = options_.least_support;
     search.seed = options_.seed;
     search.threads = options_.jobs > 0 ? options_.jobs : processor_threads();
+    search.check = [] {
+      if (was_interrupted()) throw Interrupted{};
+    };
     constexpr double kSecondsOfPoint = 5e-6;
     progress_.begin("searching", kSecondsOfPoint * static_cast<double>(scan_.cloud.points.size()));
     features_ = find_features(scan_.cloud.points, search);

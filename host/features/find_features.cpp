@@ -133,6 +133,7 @@ Features find_features(std::span<const Point> cloud, const FeatureSearch& search
   options.least_support = std::max(search.least_support, kFewestPoints);
   options.seed = search.seed;
   options.threads = search.threads;
+  options.check = search.check;
   if (cloud.size() < options.least_support) return found;
   const Point origin = bounds_of(cloud).midpoint();
   const DistinctPoints distinct_points = distinct(cloud, origin);
@@ -146,7 +147,7 @@ Features find_features(std::span<const Point> cloud, const FeatureSearch& search
   options.noise = std::min(scan.noise, *band);
   options.spacing = scan.spacing;
   const Neighbourhoods near = neighbourhoods_of(points, tree, options.neighbours, options.angle,
-                                                options.noise, options.threads);
+                                                options.noise, options.threads, options.check);
   found.regions = search.planes == PlaneMethod::kHough ? hough_planes(points, near, options)
                                                        : grow_planes(points, near, options);
   if (search.curved) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ struct FeatureSearch {
   std::size_t least_support = FeatureOptions{}.least_support;
   std::uint64_t seed = FeatureOptions{}.seed;
   std::size_t threads = 1;
+  std::function<void()> check = [] {};  // as that of FeatureOptions
 };
 
 // Planes, cylinders and spheres of a scan, with their outlines. Points that coincide count as one,

@@ -13,7 +13,9 @@ std::vector<Region> grow_planes(std::span<const Point> points, const Neighbourho
   std::iota(order.begin(), order.end(), 0u);
   std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(near.points[i].tilt, i); });
   for (const std::uint32_t seed : order) {
-    if (grower.may_begin(seed)) grower.grow_from(seed);
+    if (!grower.may_begin(seed)) continue;
+    options.check();
+    grower.grow_from(seed);
   }
   return std::move(grower).finished();
 }

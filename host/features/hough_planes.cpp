@@ -148,6 +148,7 @@ class HoughTransform {
       candidates_.clear();
       for (std::size_t b = peak.begin; b < peak.end; ++b) candidates_.push_back(binned[b].second);
       find_regions();
+      options_.check();
     }
   }
 

@@ -86,7 +86,8 @@ class Orienter {
 }  // namespace
 
 Neighbourhoods neighbourhoods_of(std::span<const Point> points, const PointTree& tree,
-                                 std::size_t k, double angle, double noise, std::size_t threads) {
+                                 std::size_t k, double angle, double noise, std::size_t threads,
+                                 const std::function<void()>& check) {
   Neighbourhoods found;
   if (points.empty()) return found;
   found.k = std::min(k, points.size() - 1);
@@ -94,6 +95,7 @@ Neighbourhoods neighbourhoods_of(std::span<const Point> points, const PointTree&
   found.points.resize(points.size());
   in_pieces(threads, points.size(), kOrientedAtATime,
             [&](std::size_t, std::size_t first, std::size_t last) {
+              check();
               Orienter orienter(points, tree, found.k, angle, noise);
               for (std::size_t i = first; i < last; ++i) {
                 found.points[i] =

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -47,10 +48,10 @@ struct Neighbourhoods {
 // but for noise, as scanners leave them that sweep faster than they turn, every fourth of 4 k or
 // every sixteenth of 16 k points are taken, if those do not. A surface whose normal
 // differs by less than `angle` (radians) from a point's fits it, and one that passes within about
-// two deviations of `noise` of its neighbours. The same for any number of threads. O(n k log k + n
-// log n).
-Neighbourhoods neighbourhoods_of(std::span<const Point> points, const PointTree& tree,
-                                 std::size_t k, double angle, double noise,
-                                 std::size_t threads = 1);
+// two deviations of `noise` of its neighbours. The same for any number of threads, which call
+// `check` now and then. O(n k log k + n log n).
+Neighbourhoods neighbourhoods_of(
+    std::span<const Point> points, const PointTree& tree, std::size_t k, double angle, double noise,
+    std::size_t threads = 1, const std::function<void()>& check = [] {});
 
 }  // namespace emax

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,8 @@ struct FeatureOptions {
   std::size_t least_support = 100;  // points of a region
   std::uint64_t seed = 1;           // of the sample consensus
   std::size_t threads = 1;          // they change no byte of the result
+  // Called now and then, from any of the threads; an exception from it ends the search.
+  std::function<void()> check = [] {};
 };
 
 }  // namespace emax

@@ -84,6 +84,7 @@ class CurvedSearch {
 
   // True: a region was added, and part_ has lost its points.
   bool find_one(RandomStream& random) {
+    options_.check();
     std::vector<std::uint32_t> voters;
     for (std::size_t v = 0; v < kVoters; ++v) voters.push_back(part_[random.below(part_.size())]);
     Best<Cylinder> cylinder;

@@ -98,6 +98,16 @@ TEST_F(FeaturesCommand, FindsNothingWhereNothingIs) {
   EXPECT_TRUE(exists(folder_ / "r.dxf"));
 }
 
+TEST_F(FeaturesCommand, EndsWhenItIsInterrupted) {
+  test::write_scan(folder_ / "large.xyz", 400'000, 3);
+  const ProgramRun run = test::run_emax(
+      {"features", "large.xyz", "--max-error", "0.001", "-o", "r.ply", "--jobs", "1"},
+      folder_.path(), 0.7);
+  EXPECT_EQ(run.exit_code, 130) << run.output;
+  EXPECT_NE(run.errors.find("interrupted; nothing was written"), std::string::npos) << run.errors;
+  EXPECT_FALSE(exists(folder_ / "r.ply"));
+}
+
 TEST_F(FeaturesCommand, RefusesWhatCannotBe) {
   const std::vector<std::vector<std::string>> refused = {{"-o", "room.xyz"},
                                                          {"-o", "r.stl"},
