@@ -6,7 +6,8 @@
 #include <CGAL/pca_estimate_normals.h>
 #include <CGAL/property_map.h>
 
-#include <numeric>
+#include <cmath>
+#include <tuple>
 
 #include "host/features/plane_fit.h"
 #include "tests/benchmarks/features/plane_tools.h"
@@ -15,10 +16,11 @@ namespace emax::benchmarks {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Oriented = std::pair<Kernel::Point_3, Kernel::Vector_3>;
+// The RANSAC changes the order of its input, so a point keeps its number.
+using Oriented = std::tuple<Kernel::Point_3, Kernel::Vector_3, std::uint32_t>;
 using OrientedPoints = std::vector<Oriented>;
-using PointMap = CGAL::First_of_pair_property_map<Oriented>;
-using NormalMap = CGAL::Second_of_pair_property_map<Oriented>;
+using PointMap = CGAL::Nth_of_tuple_property_map<0, Oriented>;
+using NormalMap = CGAL::Nth_of_tuple_property_map<1, Oriented>;
 namespace shapes = CGAL::Shape_detection;
 
 constexpr unsigned kNeighbours = 16;  // as emax takes
@@ -27,7 +29,8 @@ constexpr double kDegrees = 20;       // of its normals, likewise
 OrientedPoints oriented_points(std::span<const Point> cloud) {
   OrientedPoints points;
   for (const Point& p : cloud) {
-    points.emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()), CGAL::NULL_VECTOR);
+    points.emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()), CGAL::NULL_VECTOR,
+                        static_cast<std::uint32_t>(points.size()));
   }
   CGAL::pca_estimate_normals<CGAL::Sequential_tag>(
       points, kNeighbours, CGAL::parameters::point_map(PointMap()).normal_map(NormalMap()));
@@ -59,7 +62,7 @@ std::vector<FoundPlane> planes_of_cgal_ransac(const PlaneTask& task) {
     if (!dynamic_cast<shapes::Plane<Traits>*>(shape.get())) continue;
     std::vector<std::uint32_t> members;
     for (const std::size_t i : shape->indices_of_assigned_points()) {
-      members.push_back(static_cast<std::uint32_t>(i));
+      members.push_back(std::get<2>(points[i]));
     }
     found.push_back(fitted(task.cloud, std::move(members)));
   }
