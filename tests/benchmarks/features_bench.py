@@ -18,7 +18,7 @@ FOLDER = Path("build/bench/features")
 TOOLS = {"emax": "emax, region growing", "emax-hough": "emax, Hough", "cgal-growing": "CGAL region growing",
          "cgal-ransac": "CGAL efficient RANSAC", "pcl-ransac": "PCL RANSAC, one by one"}
 HALL_POINTS, HALL_NOISE, OUTLIERS = 10**6, 0.003, 0.05
-LIMIT = 300  # seconds that a tool may take, with reading and the comparison with the truth
+LIMIT = 120  # seconds that a tool may take, with reading and the comparison with the truth
 
 
 def run(*words, limit=None):

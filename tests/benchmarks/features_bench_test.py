@@ -19,7 +19,7 @@ class FeaturesBenchTest(unittest.TestCase):
     def test_tells_where_no_truth_is_known_and_who_took_too_long(self):
         self.assertEqual(bench.line("building", "emax", TOLD),
                          "| building | emax, region growing | 4, truth not known | – | – | – | 90.0 | 0.200 | 1.2 |")
-        self.assertTrue(bench.line("building", "pcl-ransac", None).endswith("| more than 300 |"))
+        self.assertTrue(bench.line("building", "pcl-ransac", None).endswith("| more than 120 |"))
 
 
 if __name__ == "__main__":
