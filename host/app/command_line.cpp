@@ -529,8 +529,7 @@ void add_features(CLI::App& app, CommandLine& line) {
   add_progress(command, line);
   add_examples(command,
                "  emax features hall.las  the planes, cylinders and spheres, the greatest first\n"
-               "  emax features hall.las --max-error 15mm --unit m -o hall.ply -o walls.dxf  in "
-               "colours, and the outlines of the planes");
+               "  emax features hall.las --max-error 15mm --unit m -o walls.dxf  the outlines");
   command.callback([&] { line.chosen = [&features] { return run_features(features); }; });
 }
 
