@@ -62,7 +62,10 @@ LoweringSubject function_subject(Result (*function)(Arguments...), std::string_v
           }};
 }
 
+// The name of a template cannot stand in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define EMAX_FUNCTION(function, header) \
   ::emax::function_subject(&function<::emax::RecordedValue>, #function, header)
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace emax

@@ -44,13 +44,13 @@ std::size_t middle(std::span<const SpaceCount::Entry> entries, int axis, std::ui
 
 SpaceCell space_cell(const Eigen::Vector3f& normalised) {
   const auto at = [](float coordinate) {
-    const double cell = (static_cast<double>(coordinate) + 1) * (kSpaceCells / 2);
+    const double cell = (static_cast<double>(coordinate) + 1) * (0.5 * kSpaceCells);
     return static_cast<int>(std::clamp(cell, 0.0, kSpaceCells - 1.0));
   };
   return {at(normalised.x()), at(normalised.y()), at(normalised.z())};
 }
 
-double space_plane(int cell) { return static_cast<double>(cell) / (kSpaceCells / 2) - 1; }
+double space_plane(int cell) { return static_cast<double>(cell) / (0.5 * kSpaceCells) - 1; }
 
 void SpaceCount::add(std::span<const SpaceCell> cells) {
   int level = 0;

@@ -123,8 +123,8 @@ TEST(OpenclText, GivesTheWordsOfTheGraph) {
 
 TEST(OpenclTextFault, SeesAnotherNan) {
   std::string text = operators();
-  const std::string_view kNan = "ONE_NAN 0x7fc00000u";
-  text.replace(text.find(kNan), kNan.size(), "ONE_NAN 0xffc00000u");
+  const std::string_view nan = "ONE_NAN 0x7fc00000u";
+  text.replace(text.find(nan), nan.size(), "ONE_NAN 0xffc00000u");
   EXPECT_GT(differing_words(1, text), 0);
 }
 
