@@ -242,8 +242,8 @@ void SlotTree::insert(std::uint32_t slot, const Box& box) {
 
 bool SlotTree::outgrown(const EditableMesh& mesh) const {
   constexpr std::size_t kFewInserted = 128;
-  return 2 * mesh.triangles() < triangles_at_rebuild_ || inserted_ > triangles_at_rebuild_ + kFewInserted ||
-         deepest_ >= kDeepest;
+  return 2 * mesh.triangles() < triangles_at_rebuild_ ||
+         inserted_ > triangles_at_rebuild_ + kFewInserted || deepest_ >= kDeepest;
 }
 
 // The gap between the box and each place along an axis; not positive where they overlap.
