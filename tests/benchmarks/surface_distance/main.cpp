@@ -34,9 +34,12 @@ nlohmann::ordered_json measure(const Options& options) {
   const ExactMesh exact(reference.view());
   const double prepared = time.seconds();
   const SurfaceDistance found = surface_distance(mesh.view(), exact, settings);
-  return {{"lower", found.lower},     {"upper", found.upper},
-          {"seconds", time.seconds()}, {"prepared", prepared},
-          {"cuts", found.cuts},       {"triangles", mesh.triangles.size()},
+  return {{"lower", found.lower},
+          {"upper", found.upper},
+          {"seconds", time.seconds()},
+          {"prepared", prepared},
+          {"cuts", found.cuts},
+          {"triangles", mesh.triangles.size()},
           {"reference_triangles", reference.triangles.size()}};
 }
 
