@@ -40,7 +40,7 @@ install(DIRECTORY hls/kernel DESTINATION ${headers}/hls
 install(FILES hls/kernel/emax_top.cpp DESTINATION ${headers}/hls/kernel)
 install(FILES sw_model/base/float_bits.h sw_model/base/flush_mode.h
   DESTINATION ${headers}/sw_model/base)
-install(FILES sw_model/model/arithmetic_probe.h sw_model/model/emax_model.h
+install(FILES sw_model/model/arithmetic_probe.h sw_model/model/emax_model.h sw_model/model/probe_pairs.h
   DESTINATION ${headers}/sw_model/model)
 # The element's SystemVerilog for a design of one's own.
 install(DIRECTORY hls/rtl DESTINATION ${CMAKE_INSTALL_DATADIR}/emax
