@@ -269,8 +269,8 @@ class Contour {
 
 }  // namespace
 
-Lattice::Lattice(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float reach, float cell_)
-    : origin((low.array() - (reach + 2 * cell_)).cast<double>()), cell(cell_) {
+Lattice::Lattice(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float reach, float side)
+    : origin((low.array() - (reach + 2 * side)).cast<double>()), cell(side) {
   const float margin = reach + 2 * cell;
   const double nodes = (static_cast<double>((high - low).maxCoeff()) + 2 * margin) / cell + 2;
   if (nodes > kNodes) {

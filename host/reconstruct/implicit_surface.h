@@ -27,7 +27,7 @@ struct Lattice {
 
   // With room for every node where one of the points has a say. `low`: the least of their
   // coordinates. Throws Error where an axis would need more than kNodes.
-  Lattice(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float reach, float cell);
+  Lattice(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float reach, float side);
 };
 
 // The cubes whose lowest corner is a node from `first` to before `last`.

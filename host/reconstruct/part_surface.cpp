@@ -116,7 +116,7 @@ class PartWork {
   static void extend(Extremes& extremes, const Eigen::Vector3f& position,
                      const Eigen::Vector3f& normal, std::uint64_t number) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto side = static_cast<std::size_t>(2 * axis);
+      const auto side = 2 * static_cast<std::size_t>(axis);
       extremes[side].take({position[axis], normal[axis], number});
       extremes[side + 1].take({-position[axis], -normal[axis], number});
     }
