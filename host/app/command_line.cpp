@@ -374,6 +374,13 @@ void add_reconstruct(CLI::App& app, CommandLine& line) {
                      "NAME=VALUE: a parameter of the method (`emax config` lists them) in place of "
                      "what suits the scan");
   add_thin(command, reconstruct.thin, "all points");
+  command.add_option_function<std::string>(
+      "--simplify",
+      [&reconstruct](const std::string& text) {
+        reconstruct.simplify = parse_tolerance(text, "--simplify");
+      },
+      "collapse edges while the surface deviates by no more than this, N or N% or 0.5mm, as a root "
+      "mean square: flat regions get large triangles (default: none)");
   command
       .add_option("--memory", reconstruct.memory,
                   "a cloud that needs more memory than this is reconstructed in tiles, which "

@@ -51,6 +51,7 @@ struct ReconstructOptions {
   std::string method = kFitMethod;
   std::vector<std::string> parameters;  // NAME=VALUE, in place of what suits the scan
   std::optional<Tolerance> thin;        // nothing: all points are taken
+  std::optional<Tolerance> simplify;    // nothing: the surface as it was contoured
   std::optional<Tolerance> tolerance;   // of a decimation to follow
   std::uint64_t tile_points = 0;        // 0: as the memory needs it
   std::string tile_folder;              // empty: <output>.tiles

@@ -76,12 +76,13 @@ class DecimateCommand {
     // runs.
     mesh_sha256_ = sha256_of_input(options.mesh);
     cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_input(scan_.path);
-    if (back) back_ = below_width(*back, "--back-error", scan_);
+    if (back) back_ = tolerance_below_width(*back, "--back-error", scan_);
     for (ToleratedMesh& bound : bounds_) bound.tolerance = bound.tolerance.in_unit_of(scan_.unit);
     // All tolerances have the same reference, which is made for the smallest.
     std::ranges::sort(bounds_, {},
                       [&](const ToleratedMesh& b) { return b.tolerance.in_units(scan_.width); });
-    for (const ToleratedMesh& bound : bounds_) below_width(bound.tolerance, "--max-error", scan_);
+    for (const ToleratedMesh& bound : bounds_)
+      tolerance_below_width(bound.tolerance, "--max-error", scan_);
     set_bound(bounds_.front());
     settings_.decimation.two_sided = options.two_sided;
     settings_.decimation.effort = effort_named(options.effort);

@@ -81,7 +81,7 @@ class FeaturesCommand {
     scan_ = read_scan(options_.cloud, options_.reading, options_.unit);
     FeatureSearch search;
     if (const auto tolerance = given_tolerance(options_.max_error, options_.level)) {
-      search.max_error = below_width(*tolerance, "--max-error", scan_);
+      search.max_error = tolerance_below_width(*tolerance, "--max-error", scan_);
     }
     search.planes = options_.method == "hough" ? PlaneMethod::kHough : PlaneMethod::kGrowing;
     search.least_support = options_.least_support;

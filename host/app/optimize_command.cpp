@@ -78,7 +78,7 @@ class OptimizeCommand {
     phase_.end();
     reading_ended_ = Clock::now();
     require_unit(scan_.unit, mesh_format(options.output), options.output);
-    epsilon_ = below_width(*given, "--max-error", scan_);
+    epsilon_ = tolerance_below_width(*given, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
     suit_to_cloud(settings_, options, scan_.cloud.points.size());

@@ -14,6 +14,7 @@
 #include "host/app/run_identity.h"
 #include "host/app/scan_pieces.h"
 #include "host/app/tile_folder.h"
+#include "host/decimate/quadric_collapse.h"
 #include "host/files/atomic_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/number_text.h"
@@ -52,10 +53,8 @@ class ReconstructCommand {
     pieces_.emplace(options.cloud, options.reading, options.unit, memory_, was_interrupted);
     progress_.end();
     require_unit(pieces_->scan().unit, format_, options.output);
-    if (options.thin) {
-      const Scan& scan = pieces_->scan();
-      thin_ = below_width(options.thin->in_unit_of(scan.unit, "--thin"), "--thin", scan);
-    }
+    thin_ = in_cloud_unit(options.thin, "--thin");
+    simplify_ = in_cloud_unit(options.simplify, "--simplify");
     in_tiles_ = options.tile_points > 0 || !pieces_->is_in_memory() ||
                 pieces_->points() * kBytesOfPoint > memory_;
     if (in_tiles_ && options.method != kFitMethod && options.method != Imls::kName) {
@@ -163,7 +162,17 @@ class ReconstructCommand {
       throw Error(fmt::format("{}: {}", options_.cloud, failure->message));
     }
     mesh_ = std::move(std::get<ChainResult>(completed->outcome).mesh);
+    if (simplify_ > 0) {
+      progress_.begin("simplifying");
+      mesh_ = collapse_by_quadrics(mesh_, simplify_).mesh;
+    }
     taken_ = points.size();
+  }
+
+  double in_cloud_unit(const std::optional<Tolerance>& length, const char* option) const {
+    if (!length) return 0;
+    const Scan& scan = pieces_->scan();
+    return below_width(length->in_unit_of(scan.unit, option), option, scan);
   }
 
   double normalised_thin() const { return pieces_->normalization().length(thin_); }
@@ -206,7 +215,8 @@ class ReconstructCommand {
     workers.jobs = tiles_at_a_time(most);
     workers.interrupted = was_interrupted;
     TiledReconstruction made =
-        reconstruct_in_tiles(cloud, chain_.parameters, estimate_, normalised_thin(),
+        reconstruct_in_tiles(cloud, chain_.parameters, estimate_,
+                             {normalised_thin(), pieces_->normalization().length(simplify_)},
                              options_.machines.make_parts(folder_->path(), workers),
                              [&](double share) { progress_.advance(share); });
     tiles_ = cloud.parts().size();
@@ -243,8 +253,9 @@ class ReconstructCommand {
   // What the files of the tiles depend on.
   std::string identity(std::uint64_t most) const {
     std::string text = fmt::format(
-        "cloud {}\nthinned {}\nclasses left out {}{}\npoints of a tile {}\nset {}\n",
-        sha256_of_input(options_.cloud), thin_, fmt::join(options_.reading.left_out_classes, ","),
+        "cloud {}\nthinned {}\nsimplified {}\nclasses left out {}{}\npoints of a tile {}\nset {}\n",
+        sha256_of_input(options_.cloud), thin_, simplify_,
+        fmt::join(options_.reading.left_out_classes, ","),
         options_.reading.skip_invalid ? ", and invalid points" : "", most,
         fmt::join(options_.parameters, " "));
     for (const auto& [name, value] : program_identity()) text += name + " " + value + "\n";
@@ -282,7 +293,7 @@ class ReconstructCommand {
   TriangleMesh mesh_;
   std::size_t tiles_ = 0;
   std::uint64_t taken_ = 0;  // points that the surface is made of
-  double thin_ = 0;
+  double thin_ = 0, simplify_ = 0;
   MeshValidity validity_;
   MeshTopology topology_;
 };

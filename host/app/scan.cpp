@@ -107,12 +107,16 @@ std::string level_text(int level) {
   return level > 0 ? fmt::format(" (represented accuracy, LOA {}, as a maximum)", level) : "";
 }
 
-double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan) {
-  const double length = tolerance.in_unit_of(scan.unit, option).in_units(scan.width);
-  if (length < scan.width) {
-    require_resolution(scan, length);
-    return length;
-  }
+double tolerance_below_width(const Tolerance& tolerance, std::string_view option,
+                             const Scan& scan) {
+  const double length = below_width(tolerance, option, scan);
+  require_resolution(scan, length);
+  return length;
+}
+
+double below_width(const Tolerance& given, std::string_view option, const Scan& scan) {
+  const double length = given.in_unit_of(scan.unit, option).in_units(scan.width);
+  if (length < scan.width) return length;
   throw Error(
       fmt::format("{} {:.6g} is no less than the width of {}, {:.6g}: give it in the unit of the "
                   "file, or as N%",

@@ -84,7 +84,9 @@ std::string level_text(int level);
 
 // The tolerance in the scan's unit. Throws Error naming the option if the tolerance is not less
 // than the scan's width, as when it is given in another unit, and as require_resolution().
-double below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan);
+double below_width(const Tolerance& length, std::string_view option, const Scan& scan);
+// Also not below what the resolution of the scan's coordinates allows.
+double tolerance_below_width(const Tolerance& tolerance, std::string_view option, const Scan& scan);
 
 // Calls check_output for the mesh, the certificate and, if there may be one, the reference.
 void check_mesh_outputs(const std::filesystem::path& mesh, bool with_reference);

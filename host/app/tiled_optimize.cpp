@@ -16,6 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of the tolerance, what the surface gives up for a fraction of its triangles
+// (docs/decisions/0038-tiles-are-simplified.md).
+constexpr double kSimplified = 0.125;
+
 std::string surface_file(const OptimizeOptions& options) { return options.output + ".surface.ply"; }
 std::string tile_folder(const OptimizeOptions& options) { return options.output + ".tiles"; }
 
@@ -46,6 +50,8 @@ ReconstructOptions reconstruction(const OptimizeOptions& options) {
     made.thin = made.tolerance;
     made.thin->value /= 2;
   }
+  made.simplify = made.tolerance;
+  made.simplify->value *= kSimplified;
   made.tile_points = kTilePoints;
   made.tile_folder = tile_folder(options);
   made.keep_tiles = true;  // until the mesh is there

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "host/decimate/quadric_collapse.h"
 #include "host/reconstruct/imls.h"
 #include "host/reconstruct/local_cloud.h"
 #include "host/tiles/cloud_partition.h"
@@ -76,19 +78,23 @@ class PartWork {
     const PointShape shape(plan_.values, plan_.spacing);
     const Lattice lattice(plan_.extent.low, plan_.extent.high, plan_.extent.reach, shape.cell());
     const CubeRange cubes = cubes_of(lattice);
-    const ImplicitMesh mesh = implicit_surface(points_around(shape), lattice, cubes);
+    const ImplicitMesh contoured = implicit_surface(points_around(shape), lattice, cubes);
+    std::vector<char> at_seams(contoured.vertices.size());
+    for (std::size_t v = 0; v < at_seams.size(); ++v) {
+      const Eigen::Array3i node = lowest_node(contoured.names[v][0]).array();
+      at_seams[v] = (node == cubes.first.array()).any() || (node == cubes.last.array()).any();
+    }
+    const CollapsedMesh mesh = simplified(contoured, at_seams);
     std::vector<Point> vertices;
     std::vector<SeamVertex> seams;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      vertices.push_back(cloud_.normalization().invert(mesh.vertices[v]));
-      const Eigen::Array3i node = lowest_node(mesh.names[v][0]).array();
-      if ((node == cubes.first.array()).any() || (node == cubes.last.array()).any()) {
-        seams.push_back({mesh.names[v], v});
-      }
+      const std::uint32_t before = mesh.vertices[v];
+      vertices.push_back(cloud_.normalization().invert(mesh.mesh.vertices[v]));
+      if (at_seams[before] != 0) seams.push_back({contoured.names[before], v});
     }
     write<Point>(kVertices, vertices);
     write<SeamVertex>(kSeams, seams);
-    write<Triangle>(kTriangles, mesh.triangles);
+    write<Triangle>(kTriangles, mesh.mesh.triangles);
   }
 
  private:
@@ -106,6 +112,17 @@ class PartWork {
     } catch (const Error&) {
       return std::nullopt;
     }
+  }
+
+  // Vertices at seams stay.
+  CollapsedMesh simplified(const ImplicitMesh& contoured, std::span<const char> at_seams) const {
+    TriangleMesh mesh{contoured.vertices, contoured.triangles};
+    if (plan_.simplify > 0 && !mesh.triangles.empty()) {
+      return collapse_by_quadrics(mesh, plan_.simplify, at_seams);
+    }
+    std::vector<std::uint32_t> all(mesh.vertices.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return {std::move(mesh), std::move(all)};
   }
 
   static Extremes& component(PartNormals& normals, std::size_t number) {

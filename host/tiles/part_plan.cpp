@@ -50,15 +50,11 @@ std::filesystem::path done_file(const std::filesystem::path& folder, PartStep st
 }
 
 void write_plan(const std::filesystem::path& folder, const PartPlan& plan) {
-  const json all = {{"values", plan.values.by_name()},
-                    {"thin", plan.thin},
-                    {"halo", plan.halo},
-                    {"compared", plan.compared},
-                    {"spacing", plan.spacing},
-                    {"low", numbers(plan.extent.low)},
-                    {"high", numbers(plan.extent.high)},
-                    {"reach", plan.extent.reach},
-                    {"signs", plan.signs}};
+  const json all = {{"values", plan.values.by_name()}, {"thin", plan.thin},
+                    {"simplify", plan.simplify},       {"halo", plan.halo},
+                    {"compared", plan.compared},       {"spacing", plan.spacing},
+                    {"low", numbers(plan.extent.low)}, {"high", numbers(plan.extent.high)},
+                    {"reach", plan.extent.reach},      {"signs", plan.signs}};
   write_atomically(plan_file(folder), all.dump());
 }
 
@@ -68,6 +64,7 @@ PartPlan read_plan(const std::filesystem::path& folder) {
     const json all = json::parse(file);
     return {.values = ParameterValues(all.at("values").get<ParameterValues::ByName>()),
             .thin = all.at("thin"),
+            .simplify = all.at("simplify"),
             .halo = all.at("halo"),
             .compared = all.at("compared"),
             .spacing = all.at("spacing"),

@@ -58,6 +58,7 @@ struct SeamVertex {
 struct PartPlan {
   ParameterValues values;  // of the method
   double thin = 0;         // thinned()
+  double simplify = 0;     // deviation of collapse_by_quadrics()
   double halo = 0;         // points around a part that it is looked at with
   double compared = 0;     // distance from its border within which normals are compared
   double spacing = 0;      // known from kMeasure on

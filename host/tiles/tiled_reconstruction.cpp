@@ -37,11 +37,12 @@ class TiledReconstructor {
       : cloud_(cloud), run_(run), advanced_(advanced) {}
 
   TiledReconstruction run(const ParameterValues& values, const ScanEstimate& estimate,
-                          double thin) {
+                          const Coarseness& coarseness) {
     const double spacing = cloud_.normalization().length(estimate.spacing);
     PartPlan plan;
     plan.values = values;
-    plan.thin = thin;
+    plan.thin = coarseness.thin;
+    plan.simplify = coarseness.simplify;
     plan.halo = kHalo * spacing;
     plan.compared = kCompared * spacing;
     run_step(PartStep::kLook, plan);
@@ -194,10 +195,10 @@ ScanEstimate estimate_scan(const CloudPartition& cloud, double thin) {
 }
 
 TiledReconstruction reconstruct_in_tiles(const CloudPartition& cloud, const ParameterValues& values,
-                                         const ScanEstimate& estimate, double thin,
+                                         const ScanEstimate& estimate, const Coarseness& coarseness,
                                          const RunParts& run,
                                          const std::function<void(double)>& advanced) {
-  return TiledReconstructor(cloud, run, advanced).run(values, estimate, thin);
+  return TiledReconstructor(cloud, run, advanced).run(values, estimate, coarseness);
 }
 
 }  // namespace emax

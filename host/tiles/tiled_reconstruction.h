@@ -17,6 +17,12 @@ namespace emax {
 // thinned() with this side. Zeros where they are smaller than three points.
 ScanEstimate estimate_scan(const CloudPartition& cloud, double thin = 0);
 
+// Normalised lengths; 0: none.
+struct Coarseness {
+  double thin = 0;      // the side of thinned()
+  double simplify = 0;  // the deviation of collapse_by_quadrics(), in each part
+};
+
 struct TiledReconstruction {
   TriangleMesh mesh;
   double spacing = 0;        // the median of the points' own, in the cloud's unit
@@ -36,10 +42,10 @@ struct TiledReconstruction {
 // So the surface is that of the whole cloud, triangle by triangle, where the neighbourhoods of
 // points are narrower than the halo and no two points compete for a place in them by equal
 // distances. The bytes depend on the cloud, the parts and the values. About 300 bytes a point in
-// files, O(n log n) time. `thin`: the side of thinned(), 0 for none. `advanced`: called with the
-// share of the work that is done.
+// files, O(n log n) time. Simplified, it is so within each part but for the vertices at seams,
+// which stay. `advanced`: called with the share of the work that is done.
 TiledReconstruction reconstruct_in_tiles(const CloudPartition& cloud, const ParameterValues& values,
-                                         const ScanEstimate& estimate, double thin,
+                                         const ScanEstimate& estimate, const Coarseness& coarseness,
                                          const RunParts& run,
                                          const std::function<void(double)>& advanced = nullptr);
 

@@ -10,6 +10,7 @@
 #include "host/reconstruct/part_surface.h"
 #include "host/reconstruct/reconstruction.h"
 #include "sw_model/base/error.h"
+#include "sw_model/certify/surface_distance.h"
 #include "tests/host/support/corner_positions.h"
 #include "tests/host/support/scanned_shapes.h"
 #include "tests/support/messages.h"
@@ -50,7 +51,8 @@ TiledReconstruction in_tiles(const std::vector<Point>& points, std::uint64_t mos
                              const ParameterValues& values = standard(), double thin = 0) {
   const TemporaryFolder folder;
   const CloudPartition cloud(source_of(points), most_points, folder.path());
-  return reconstruct_in_tiles(cloud, values, estimate_scan(cloud, thin), thin, here(cloud));
+  return reconstruct_in_tiles(cloud, values, estimate_scan(cloud, thin), {.thin = thin},
+                              here(cloud));
 }
 
 // Smooth noise spares the ties between distances that a grid would have.
@@ -88,6 +90,23 @@ TEST(TiledReconstruction, ThinsDenseRegionsAlike) {
     EXPECT_EQ(tiled.points, expected.size());
     EXPECT_EQ(corner_positions(tiled.mesh), corner_positions(one.mesh));
   }
+}
+
+TEST(TiledReconstruction, SimplifiesEachPartWithoutASeam) {
+  const ScanOfShape scan = scan_of_shape({.shape = "torus", .noise = 0.1, .holes = true});
+  const TemporaryFolder folder;
+  const CloudPartition cloud(source_of(scan.points), 2000, folder.path());
+  const TriangleMesh fine = in_tiles(scan.points, 2000, standard(1)).mesh;
+  const double deviation = cloud.normalization().length(0.2);
+  const TriangleMesh coarse = reconstruct_in_tiles(cloud, standard(1), estimate_scan(cloud),
+                                                   {.simplify = deviation}, here(cloud))
+                                  .mesh;
+  EXPECT_LT(coarse.triangles.size(), fine.triangles.size() / 3);
+  EXPECT_TRUE(check_mesh(coarse.view()).valid());
+  EXPECT_EQ(topology_of(coarse.view()), topology_of(fine.view()));
+  const ExactMesh exact(fine.view());
+  EXPECT_LT(surface_distance(coarse.view(), exact).upper, 1.0);
+  EXPECT_LT(surface_distance(fine.view(), ExactMesh(coarse.view())).upper, 1.0);
 }
 
 TEST(TiledReconstruction, HasNoSeamWhereDistancesAreEqual) {
@@ -131,14 +150,14 @@ TEST(TiledReconstruction, GoesOnWithTheStepsThatAreDone) {
     }
   };
   const ScanEstimate estimate = estimate_scan(cloud);
-  EXPECT_THROW(reconstruct_in_tiles(cloud, standard(), estimate, 0, broken), Interrupted);
+  EXPECT_THROW(reconstruct_in_tiles(cloud, standard(), estimate, {}, broken), Interrupted);
   const RunParts rest = [&](PartStep step, std::span<const std::size_t> parts,
                             const std::function<void()>& done) {
     steps += parts.size();
     here(cloud)(step, parts, done);
   };
   const CloudPartition again(folder.path());
-  const TiledReconstruction tiled = reconstruct_in_tiles(again, standard(), estimate, 0, rest);
+  const TiledReconstruction tiled = reconstruct_in_tiles(again, standard(), estimate, {}, rest);
   EXPECT_EQ(steps, 3 * cloud.parts().size() - 9);
   EXPECT_EQ(corner_positions(tiled.mesh), corner_positions(in_tiles(points, 1500).mesh));
 }

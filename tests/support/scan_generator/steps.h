@@ -9,7 +9,7 @@
 namespace emax::test {
 
 // Metres of a step of the coordinates in LAS and E57.
-inline constexpr double kStep = 1e-4;
+inline constexpr double kStep = 1e-5;
 using Steps = std::array<std::int32_t, 3>;
 
 inline Steps in_steps(const Point& p) {
