@@ -101,7 +101,7 @@ class DecimateCommand {
     progress_.finish();
     print_task(facts_);
     progress_.begin("making the reference surface", joining_seconds(scan_.cloud.points.size()));
-    kept_ = choose_kept(scan_, given_.view(), epsilon_, excludable());
+    kept_ = choose_kept(scan_, given_.view(), epsilon_, excludable(), settings_.decimation.threads);
     make_reference();
     settings_.decimation.interrupted = [&] { return progress_.out_of_time() || was_interrupted(); };
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
@@ -123,7 +123,9 @@ class DecimateCommand {
   // Makes the reference and the file that holds it.
   void make_reference() {
     reference_ = emax::make_reference(given_, kept_.points, epsilon_ / 2,
-                                      {.repair = options_.repair, .closed = options_.closed},
+                                      {.repair = options_.repair,
+                                       .closed = options_.closed,
+                                       .threads = settings_.decimation.threads},
                                       was_interrupted);
     if (was_interrupted()) throw Interrupted{};
     if (!options_.two_sided) return;

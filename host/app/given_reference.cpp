@@ -16,11 +16,13 @@ constexpr double kAnyHole = 1;  // as wide as the mesh
 
 // Makes the surface by cutting the mesh apart where it is not manifold, then closes it.
 void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, double far,
-                      const std::function<bool()>& interrupted, GivenReference& made) {
+                      std::size_t threads, const std::function<bool()>& interrupted,
+                      GivenReference& made) {
   CutSurface cut = cut_to_manifold(given);
   made.closed = close_surface(std::move(cut.mesh));
   ReferenceSurface& surface = made.surface;
-  surface = reference_surface(made.closed->mesh, kept, far, interrupted, MadeManifold::kByCutting);
+  surface = reference_surface(made.closed->mesh, kept, far, interrupted, MadeManifold::kByCutting,
+                              threads);
   surface.merged += cut.merged;
   surface.turned += cut.turned;
   surface.dropped += cut.dropped;
@@ -29,8 +31,9 @@ void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, do
   surface.cut_vertices += cut.cut_vertices;
 }
 
-void repair(const TriangleMesh& given, std::span<const Point> kept, double far, bool close,
-            const std::function<bool()>& interrupted, GivenReference& made) {
+void repair(const TriangleMesh& given, std::span<const Point> kept, double far,
+            const ReferenceWishes& wishes, const std::function<bool()>& interrupted,
+            GivenReference& made) {
   made.before_repair = topology_of(cut_to_manifold(given).mesh.view());
   ManifoldPart part = manifold_part(given);
   if (made.before_repair->border_loops == 0 && !part.mesh.triangles.empty()) {
@@ -38,11 +41,12 @@ void repair(const TriangleMesh& given, std::span<const Point> kept, double far, 
     part.mesh = std::move(closed.mesh);
     part.dropped += closed.dropped;
   }
-  if (close) {
+  if (wishes.closed) {
     made.closed = close_surface(std::move(part.mesh));
     part.mesh = made.closed->mesh;
   }
-  made.surface = reference_surface(part.mesh, kept, far, interrupted);
+  made.surface = reference_surface(part.mesh, kept, far, interrupted, MadeManifold::kByDropping,
+                                   wishes.threads);
   made.surface.dropped += part.dropped;
 }
 
@@ -59,11 +63,12 @@ GivenReference make_reference(const TriangleMesh& given, std::span<const Point> 
                               const std::function<bool()>& interrupted) {
   GivenReference made;
   if (wishes.repair) {
-    repair(given, kept, far, wishes.closed, interrupted, made);
+    repair(given, kept, far, wishes, interrupted, made);
   } else if (wishes.closed) {
-    close_by_cutting(given, kept, far, interrupted, made);
+    close_by_cutting(given, kept, far, wishes.threads, interrupted, made);
   } else {
-    made.surface = reference_surface(given, kept, far, interrupted, MadeManifold::kByCutting);
+    made.surface =
+        reference_surface(given, kept, far, interrupted, MadeManifold::kByCutting, wishes.threads);
   }
   return made;
 }

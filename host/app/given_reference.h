@@ -26,6 +26,7 @@ struct GivenReference {
 struct ReferenceWishes {
   bool repair = false;  // remove parts that intersect or are not manifold instead of cutting
   bool closed = false;  // close every hole
+  std::size_t threads = 1;
 };
 
 // `kept`: points that become vertices of the reference if they are farther than `far` from it.

@@ -6,19 +6,28 @@
 
 #include "host/parameters/registry.h"
 #include "host/tiles/tiled_decimation.h"
+#include "sw_model/base/parallel.h"
 
 namespace emax {
 namespace {
 
 std::vector<std::uint32_t> farthest_beyond(const Scan& scan, MeshView mesh, double epsilon,
-                                           std::size_t excludable) {
+                                           std::size_t excludable, std::size_t threads) {
   if (excludable == 0) return {};
+  constexpr std::size_t kPiece = 4096;
   const ExactMesh exact(mesh);
-  std::vector<std::pair<double, std::uint32_t>> beyond;
-  for (std::uint32_t i = 0; i < scan.cloud.points.size(); ++i) {
-    const double distance = exact.distance(scan.cloud.points[i]).upper;
-    if (distance > epsilon) beyond.emplace_back(-distance, i);
-  }
+  using Beyond = std::vector<std::pair<double, std::uint32_t>>;
+  std::vector<Beyond> of_thread(std::max<std::size_t>(threads, 1));
+  in_pieces(threads, scan.cloud.points.size(), kPiece,
+            [&](std::size_t thread, std::size_t first, std::size_t last) {
+              for (std::size_t i = first; i < last; ++i) {
+                const double distance = exact.distance(scan.cloud.points[i]).upper;
+                if (distance <= epsilon) continue;
+                of_thread[thread].emplace_back(-distance, static_cast<std::uint32_t>(i));
+              }
+            });
+  Beyond beyond;
+  for (const Beyond& some : of_thread) beyond.insert(beyond.end(), some.begin(), some.end());
   std::ranges::sort(beyond);
   beyond.resize(std::min(beyond.size(), excludable));
   std::vector<std::uint32_t> points;
@@ -29,9 +38,10 @@ std::vector<std::uint32_t> farthest_beyond(const Scan& scan, MeshView mesh, doub
 
 }  // namespace
 
-KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable) {
+KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable,
+                       std::size_t threads) {
   KeptPoints kept;
-  kept.outliers = farthest_beyond(scan, mesh, epsilon, excludable);
+  kept.outliers = farthest_beyond(scan, mesh, epsilon, excludable, threads);
   for (std::uint32_t i = 0; i < scan.cloud.points.size(); ++i) {
     if (std::ranges::binary_search(kept.outliers, i)) continue;
     kept.points.push_back(scan.cloud.points[i]);

@@ -19,7 +19,8 @@ struct KeptPoints {
 };
 
 // Leaves out the points farthest beyond `epsilon` from the mesh, at most `excludable` of them.
-KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable);
+KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable,
+                       std::size_t threads = 1);
 
 // Decimates the reference under the bounds of `settings`, and certifies every point of the scan.
 // `tile`: in tiles of so many triangles by `runner`; 0: as a whole.

@@ -85,6 +85,8 @@ class ReconstructCommand {
     facts_.add("result", "{}: {} triangles; {}", options_.output, grouped(mesh_.triangles.size()),
                describe(validity_));
     facts_.add("topology", "{}", describe(topology_));
+    if (simplify_ > 0)
+      facts_.add("simplified", "by at most {:.6g} as a root mean square", simplify_);
     if (!options_.keep_tiles) {
       facts_.add("next", "emax decimate {} --cloud {} --max-error N -o ...", options_.output,
                  options_.cloud);
@@ -270,6 +272,7 @@ class ReconstructCommand {
                  {"noise", estimate_.noise},
                  {"method", chain_.method},
                  {"parameters", chain_.parameters.by_name()},
+                 {"simplify", simplify_},
                  {"tiles", tiles_},
                  {"taken", taken_},
                  {"mesh", options_.output},

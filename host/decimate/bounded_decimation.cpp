@@ -70,9 +70,15 @@ void require_belonging(const DecimationState& state) {
 
 }  // namespace
 
+DataExtent extent_of(const TriangleMesh& reference, const TriangleMesh& start,
+                     std::span<const Point> cloud) {
+  return {bounds_of(reference.vertices).width(),
+          greatest_coordinate({start.vertices, reference.vertices, cloud})};
+}
+
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
                                    double far, const std::function<bool()>& interrupted,
-                                   MadeManifold how) {
+                                   MadeManifold how, std::size_t threads) {
   if (cloud.empty()) throw Error("there is no point to keep a mesh close to; give a cloud");
   ReferenceSurface surface;
   if (how == MadeManifold::kByDropping) {
@@ -88,7 +94,9 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
     throw Error("the mesh has no triangle of any area that could be decimated; reconstruct first");
   }
   const double reach = std::max(far, kBelongs * bounds_of(surface.mesh.vertices).width());
-  DecimationState state(surface.mesh, cloud, nullptr, reach * reach, {}, interrupted);
+  DecimationState::Guards guards;
+  guards.threads = threads;
+  DecimationState state(surface.mesh, cloud, nullptr, reach * reach, guards, interrupted);
   if (!state.complete()) return surface;
   require_belonging(state);
   FarPoints inserted = insert_far_points(state, far, interrupted);
@@ -228,9 +236,10 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start,
 DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationSettings& settings,
                                     double reach) const {
   if (start.triangles.empty()) throw Error("the mesh has no triangles to decimate");
-  const double roundings =
-      kRelativeRoundings * greatest_coordinate({start.vertices, reference_.vertices, cloud_});
-  const double undecided = kUndecided * bounds_of(reference_.vertices).width();
+  const DataExtent extent =
+      settings.extent.width > 0 ? settings.extent : extent_of(reference_, start, cloud_);
+  const double roundings = kRelativeRoundings * extent.greatest;
+  const double undecided = kUndecided * extent.width;
   const double limit = limit_of(settings.epsilon, roundings, undecided);
   double back_limit = 0;
   if (settings.two_sided) {

@@ -32,7 +32,8 @@ struct ReferenceSurface {
 // time; true ends the work with the mesh reached so far.
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
                                    double far, const std::function<bool()>& interrupted = nullptr,
-                                   MadeManifold how = MadeManifold::kByDropping);
+                                   MadeManifold how = MadeManifold::kByDropping,
+                                   std::size_t threads = 1);
 
 struct DecimatedMesh {
   TriangleMesh mesh;
@@ -42,6 +43,14 @@ struct DecimatedMesh {
   // estimated. Otherwise 0.
   std::size_t expected = 0;
 };
+
+// What roundings of distances depend on.
+struct DataExtent {
+  double width = 0;     // of the reference
+  double greatest = 0;  // the greatest coordinate
+};
+DataExtent extent_of(const TriangleMesh& reference, const TriangleMesh& start,
+                     std::span<const Point> cloud);
 
 struct DecimationSettings {
   double epsilon = 0;  // greatest distance of a point of the cloud from the mesh
@@ -60,6 +69,9 @@ struct DecimationSettings {
     // several local minima of the energy.
     kDeep,
   } effort = Effort::kRelax;
+
+  // Of the whole that a tile belongs to, so that all tiles have the same limits; zeros: its own.
+  DataExtent extent;
 
   double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
   double flatness = 1e-3;      // least height of a new triangle over its longest side

@@ -79,6 +79,7 @@ class ReferenceCover {
 
   bool prove_after(std::uint32_t triangle, const AssignedPoints& assigned, Around& around);
   bool prove_piece(const Piece& whole, Around& around);
+  bool prove_parts(const Piece& whole, Around& around);
   bool follow(const TrianglePlane& plane, std::uint32_t from, Around& around);
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
                    std::uint32_t id, Around& around);

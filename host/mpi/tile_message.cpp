@@ -27,6 +27,8 @@ Bytes encode(const TileTask& task) {
                         {"points", packed(tile.points)},
                         {"point_numbers", packed(tile.point_numbers)},
                         {"epsilon", s.epsilon},
+                        {"width", s.extent.width},
+                        {"greatest", s.extent.greatest},
                         {"two_sided", s.two_sided},
                         {"epsilon_back", s.epsilon_back},
                         {"effort", static_cast<int>(s.effort)},
@@ -47,6 +49,8 @@ TileTask decode_tile_task(std::span<const std::uint8_t> bytes) {
   task.tile.point_numbers = unpacked<std::uint32_t>(j.at("point_numbers"));
   DecimationSettings& s = task.settings;
   j.at("epsilon").get_to(s.epsilon);
+  j.at("width").get_to(s.extent.width);
+  j.at("greatest").get_to(s.extent.greatest);
   j.at("two_sided").get_to(s.two_sided);
   j.at("epsilon_back").get_to(s.epsilon_back);
   s.effort = static_cast<DecimationSettings::Effort>(j.at("effort").get<int>());

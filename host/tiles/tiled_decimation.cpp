@@ -153,6 +153,7 @@ class TiledDecimator::Run {
                       double part) {
     DecimationSettings own = settings_;
     own.rival = 0;
+    own.extent = whole_.extent_;
     own.progress = nullptr;
     own.advanced = nullptr;
     own.early = nullptr;
@@ -319,6 +320,7 @@ TiledDecimator::TiledDecimator(const TriangleMesh& reference, std::span<const Po
                                std::size_t triangles_of_a_tile, TileRunner& runner)
     : reference_(reference),
       cloud_(cloud),
+      extent_(extent_of(reference, reference, cloud)),
       runner_(runner),
       tile_(std::max<std::size_t>(triangles_of_a_tile, 1)),
       reference_tree_(

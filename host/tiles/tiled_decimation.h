@@ -32,6 +32,7 @@ class TiledDecimator {
   class Run;
   const TriangleMesh& reference_;
   std::span<const Point> cloud_;
+  DataExtent extent_;
   TileRunner& runner_;
   std::size_t tile_;
   BoxTree reference_tree_, cloud_tree_;

@@ -87,6 +87,29 @@ TEST_F(ReconstructCommand, ThinsAlikeAsAWholeAndInTiles) {
   EXPECT_NE(reconstruct("out.ply", {"--thin", "3mm"}).errors.find("--thin"), std::string::npos);
 }
 
+TEST_F(ReconstructCommand, SimplifiesAsAWholeAndInTiles) {
+  const auto made = [&](const std::string& output, std::vector<std::string> more) {
+    more.insert(more.end(), {"--method", "imls", "--json", "r.json"});
+    const ProgramRun run = reconstruct(output, more);
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    return json::parse(bytes("r.json"));
+  };
+  const json fine = made("fine.ply", {});
+  const json whole = made("whole.ply", {"--simplify", "0.2%"});
+  const json tiled = made("tiled.ply", {"--simplify", "0.2%", "--tile-points", "1500"});
+  const json again =
+      made("again.ply", {"--simplify", "0.2%", "--tile-points", "1500", "--jobs", "2"});
+  EXPECT_LT(whole["triangles"].get<int>(), fine["triangles"].get<int>() / 4);
+  EXPECT_LT(tiled["triangles"].get<int>(), fine["triangles"].get<int>() / 2);
+  for (const json* simplified : {&whole, &tiled}) {
+    EXPECT_EQ((*simplified)["topology"], fine["topology"]);
+    EXPECT_EQ((*simplified)["validity"]["self_intersections"], 0);
+  }
+  EXPECT_EQ(bytes("again.ply"), bytes("tiled.ply"));
+  EXPECT_NE(reconstruct("out.ply", {"--simplify", "9e9"}).errors.find("--simplify"),
+            std::string::npos);
+}
+
 TEST_F(ReconstructCommand, GoesOnAfterAnInterruption) {
   const std::vector<std::string> tiles = {"--tile-points", "1000"};
   ASSERT_EQ(reconstruct("undisturbed.ply", tiles).exit_code, 0);

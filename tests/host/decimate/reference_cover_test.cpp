@@ -154,6 +154,23 @@ TEST(ReferenceCover, SaysWhatIsNotProvenAtFirst) {
 }
 
 // The twin begins with the mesh that edits without proofs left.
+// Two triangles over thousands of the mesh, which has a hole narrower than twice the limit: no
+// sheet lies over either, and the cuts that an edit may take are too few.
+TEST(ReferenceCover, ProvesLargeTrianglesInPartsAtFirst) {
+  constexpr std::uint32_t kSide = 61;
+  const TriangleMesh whole = sheet(kSide, 0);
+  const TriangleMesh torn = without_vertex(whole, kSide * (kSide / 3) + kSide / 4);
+  const TriangleMesh large = sheet(2, 0);
+  const SurfaceDistance distance = surface_distance(large.view(), ExactMesh(torn.view()));
+  for (const double factor : {1.1, 0.9}) {
+    const double limit = factor > 1 ? factor * distance.upper : factor * distance.lower;
+    const EditableMesh mesh(torn);
+    ReferenceCover cover(large.triangles, large.vertices, limit * limit);
+    cover.begin(mesh, SlotTree(mesh));
+    EXPECT_EQ(cover.unproven() == 0, factor > 1) << factor;
+  }
+}
+
 TEST(ReferenceCover, FindsInTheEndWhatDeferredProofsLetThrough) {
   std::size_t proven = 0, not_proven = 0;
   for (const TriangleMesh& reference : references()) {

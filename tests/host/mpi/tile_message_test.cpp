@@ -12,6 +12,7 @@ TEST(TileMessage, CarriesATileAndItsBounds) {
   sent.tile = {sheet(5, 0.3), 7, {}, bumpy(4, 6), 9, {{0.1, -0.0, 1e-300}}, {~0u}};
   sent.settings.epsilon = 0.1;
   sent.settings.epsilon_back = 1e-17;
+  sent.settings.extent = {1e3, -2.5};
   sent.settings.two_sided = false;
   sent.settings.effort = DecimationSettings::Effort::kDeep;
   sent.settings.normal_cosine = 0.3;
@@ -26,6 +27,8 @@ TEST(TileMessage, CarriesATileAndItsBounds) {
   EXPECT_EQ(got.tile.point_numbers, sent.tile.point_numbers);
   EXPECT_EQ(got.settings.epsilon, sent.settings.epsilon);
   EXPECT_EQ(got.settings.epsilon_back, sent.settings.epsilon_back);
+  EXPECT_EQ(got.settings.extent.width, sent.settings.extent.width);
+  EXPECT_EQ(got.settings.extent.greatest, sent.settings.extent.greatest);
   EXPECT_EQ(got.settings.two_sided, sent.settings.two_sided);
   EXPECT_EQ(got.settings.effort, sent.settings.effort);
   EXPECT_EQ(got.settings.normal_cosine, sent.settings.normal_cosine);
