@@ -32,6 +32,12 @@ PARAMETERS = {
     "fp_less": [{"LATENCY": 3}, {"LATENCY": 1}],
     "fp_multiply": [{"LATENCY": 10}],
     "fp_square": [{"LATENCY": 10}],
+    "fixed_add": [{"LATENCY": 3}, {"LATENCY": 1, "SUBTRACT": 1, "SATURATE": 0}],
+    "fixed_fit": [{"LATENCY": 3}, {"SHIFT": 0, "WIDTH": 40}, {"HALF_UP": 0, "SATURATE": 0}],
+    "fixed_less": [{"LATENCY": 2}],
+    "fixed_multiply": [{"WIDTH_A": 8, "WIDTH_B": 9}],
+    "fixed_negate": [{"LATENCY": 3}, {"LATENCY": 1, "MAGNITUDE": 1}],
+    "signed_multiply": [{"WIDTH_A": 8, "WIDTH_B": 9}],
     "delay_line": [{"WIDTH": 5, "DEPTH": 1}, {"WIDTH": 5, "DEPTH": 6}],
     "axis_fifo": [{"WIDTH": 5, "DEPTH_BITS": 3}],
     "ring_memory": [{"WIDTH": 5, "ADDRESS_BITS": 3}],
@@ -50,7 +56,7 @@ PARAMETERS = {
 PARTS_PROVEN = ["emax_element", "emax_distance", "emax_distance_unit", "emax_core", "emax_link", "emax_board", "link_answers",
                 "link_sender", "emax_ulx3s"]
 PACKAGES = ["mutation"]  # no module
-SOURCES = ["", "core", "link", "generated", "behavioural"]
+SOURCES = ["", "core", "link", "fixed", "generated", "behavioural"]
 
 
 def script(top, parameters, files):
@@ -96,8 +102,8 @@ def proofs():
 
 def prove(runner, top, parameters, family, replaced={}):
     design = designs.Design("", top, 0, replaced=replaced)
-    files = " ".join(map(str, [*design.sources(family), *sorted((RTL / "core").glob("*.sv")),
-                               *sorted((RTL / "link").glob("*.sv"))]))
+    more = [path for folder in ("core", "link", "fixed") for path in sorted((RTL / folder).glob("*.sv"))]
+    files = " ".join(map(str, [*design.sources(family), *more]))
     name = "_".join([top, family, *(["misread"] if replaced else []), *map(str, parameters.values())]).replace('"', "")
     runner.step("yosys", f"{top} {parameters or ''}, {family}", f"front_ends/{name}",
                 ["-p", script(top, parameters, files)], design.inputs(family), ["yosys.log"])

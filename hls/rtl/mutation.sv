@@ -44,6 +44,15 @@ package emax_mutation;
   localparam int ROOT_OF_NEGATIVE = 93;  // division/fp_square_root: a negative number counts as positive
   localparam int ROOT_TRUNCATES = 94;  // division/fp_square_root: rounds towards zero
 
+  localparam int FIXED_ROUNDS_DOWN = 131;  // fixed/fixed_fit: halves and what lies above are cut off
+  localparam int FIXED_WRAPS = 132;  // fixed/fixed_fit: numbers beyond the ends wrap around
+  localparam int FIXED_ENDS_SWAPPED = 133;  // fixed/fixed_fit: beyond an end come -1 and 0
+  localparam int FIXED_ADD_UNSIGNED = 134;  // fixed/fixed_add: b counts as positive
+  localparam int FIXED_MAGNITUDE_KEPT = 135;  // fixed/fixed_negate: a negative number's magnitude is itself
+  localparam int FIXED_ONES_COMPLEMENT = 136;  // fixed/fixed_negate: complements without adding one
+  localparam int FIXED_LESS_OR_EQUAL = 137;  // fixed/fixed_less: compares with <= instead of <
+  localparam int FIXED_LESS_UNSIGNED = 138;  // fixed/fixed_less: a counts as positive
+
   localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
   localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back
   localparam int FIFO_IGNORES_STALL = 103;  // ring_memory: the output moves on before its word is taken

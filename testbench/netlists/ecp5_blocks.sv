@@ -2,7 +2,7 @@
 // the attributes' description in Lattice's TN1267 (sysDSP), TN1265 (slices) and TN1264 (memories).
 /* verilator lint_off DECLFILENAME */  // several cells
 
-// 18 x 18 unsigned multiplier; each register is there when its attribute names a clock. All of them
+// 18 x 18 multiplier, signed or unsigned; each register is there when its attribute names a clock. All of them
 // have CE0 and RST0, which is what the attributes mean where they are not given.
 /* verilator lint_off UNUSEDSIGNAL */  // what hls/rtl/ecp5 ties off
 /* verilator lint_off UNUSEDPARAM */
@@ -44,7 +44,7 @@ module MULT18X18D #(
   logic [17:0] a_used, b_used;
   assign a_used = REG_INPUTA_CLK == "CLK0" ? a_held : a;
   assign b_used = REG_INPUTB_CLK == "CLK0" ? b_held : b;
-  assign middle = 36'(a_used) * 36'(b_used);
+  assign middle = {{18{SIGNEDA & a_used[17]}}, a_used} * {{18{SIGNEDB & b_used[17]}}, b_used};
   assign product = REG_PIPELINE_CLK == "CLK0" ? middle_held : middle;
   assign {
     P35, P34, P33, P32, P31, P30, P29, P28, P27, P26, P25, P24, P23, P22, P21, P20, P19, P18,

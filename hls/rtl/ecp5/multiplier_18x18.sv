@@ -1,7 +1,8 @@
-// One MULT18X18D, unsigned, with its input and output registers and with INSIDE its pipeline
+// One MULT18X18D, unsigned or SIGNED, with its input and output registers and with INSIDE its pipeline
 // registers: `product` is a times b 2 + INSIDE clock edges later.
 module multiplier_18x18 #(
-    parameter int INSIDE = 1
+    parameter int INSIDE = 1,
+    parameter bit SIGNED = 0
 ) (
     input  logic        clk,
     input  logic [17:0] a,
@@ -18,7 +19,7 @@ module multiplier_18x18 #(
       .CLK0(clk), .CLK1(1'b0), .CLK2(1'b0), .CLK3(1'b0),
       .CE0(1'b1), .CE1(1'b1), .CE2(1'b1), .CE3(1'b1),
       .RST0(1'b0), .RST1(1'b0), .RST2(1'b0), .RST3(1'b0),
-      .SIGNEDA(1'b0), .SIGNEDB(1'b0), .SOURCEA(1'b0), .SOURCEB(1'b0),
+      .SIGNEDA(SIGNED), .SIGNEDB(SIGNED), .SOURCEA(1'b0), .SOURCEB(1'b0),
       .A0(a[0]), .A1(a[1]), .A2(a[2]), .A3(a[3]), .A4(a[4]), .A5(a[5]),
       .A6(a[6]), .A7(a[7]), .A8(a[8]), .A9(a[9]), .A10(a[10]), .A11(a[11]),
       .A12(a[12]), .A13(a[13]), .A14(a[14]), .A15(a[15]), .A16(a[16]), .A17(a[17]),
