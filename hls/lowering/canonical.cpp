@@ -3,8 +3,8 @@
 namespace emax {
 namespace {
 
-bool is_canonical_word(std::uint32_t word) {
-  const std::uint32_t magnitude = word & 0x7fffffffu;
+bool is_canonical_word(std::uint64_t word) {
+  const std::uint64_t magnitude = word & 0x7fffffffu;
   const bool subnormal = magnitude != 0 && magnitude < 0x00800000u;
   const bool other_nan = magnitude > 0x7f800000u && word != 0x7fc00000u;
   return !subnormal && !other_nan;
@@ -15,7 +15,7 @@ bool is_canonical_word(std::uint32_t word) {
 std::vector<bool> canonical_nodes(const DataflowGraph& graph) {
   std::vector<bool> canonical;
   for (const Node& node : graph.nodes()) {
-    bool is = node.kind == ValueKind::kReal;
+    bool is = node.type.kind == ValueKind::kReal;
     switch (node.operation) {
       case Operation::kInput:
       case Operation::kNegate:  // a NaN gets the other sign

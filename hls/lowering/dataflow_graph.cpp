@@ -28,28 +28,53 @@ constexpr std::array<OperationInfo, kOperations> kInfo = {{
     {"negated", "negated", 1, ValueKind::kCondition},
     {"word_less", "less", 2, ValueKind::kCondition},
     {"word_select", "choice", 3, ValueKind::kWord},
+    {"fixed_add", "sum", 2, ValueKind::kFixed},
+    {"fixed_subtract", "difference", 2, ValueKind::kFixed},
+    {"fixed_multiply", "product", 2, ValueKind::kFixed},
+    {"fixed_negate", "opposite", 1, ValueKind::kFixed},
+    {"fixed_magnitude", "magnitude", 1, ValueKind::kFixed},
+    {"fixed_fit", "fitted", 1, ValueKind::kFixed},
+    {"fixed_wires", "fitted", 1, ValueKind::kFixed},
+    {"fixed_less", "less", 2, ValueKind::kCondition},
+    {"fixed_negative", "negative", 1, ValueKind::kCondition},
 }};
 
-ValueKind operand_kind(Operation operation, std::size_t operand) {
+bool is_operand_kind(Operation operation, std::size_t operand, ValueKind kind) {
   switch (operation) {
     case Operation::kBoth:
     case Operation::kEither:
     case Operation::kNegated:
-      return ValueKind::kCondition;
+      return kind == ValueKind::kCondition;
     case Operation::kSelect:
-      return operand == 0 ? ValueKind::kCondition : ValueKind::kReal;
+      return operand == 0 ? kind == ValueKind::kCondition
+                          : kind == ValueKind::kReal || kind == ValueKind::kFixed;
     case Operation::kWordSelect:
-      return operand == 0 ? ValueKind::kCondition : ValueKind::kWord;
+      return kind == (operand == 0 ? ValueKind::kCondition : ValueKind::kWord);
     case Operation::kWordLess:
-      return ValueKind::kWord;
+      return kind == ValueKind::kWord;
     default:
-      return ValueKind::kReal;
+      return kind == (operation >= Operation::kFixedAdd ? ValueKind::kFixed : ValueKind::kReal);
   }
 }
 
 bool is_symmetric(Operation operation) {
   return operation == Operation::kAdd || operation == Operation::kMultiply ||
-         operation == Operation::kBoth || operation == Operation::kEither;
+         operation == Operation::kBoth || operation == Operation::kEither ||
+         operation == Operation::kFixedAdd || operation == Operation::kFixedMultiply;
+}
+
+// Operations whose result has a type of its own.
+bool takes_result(Operation operation) {
+  return operation == Operation::kFixedMultiply || operation == Operation::kFixedFit ||
+         operation == Operation::kFixedWires;
+}
+
+// Whether a fit leaves bits out or adds them, but computes nothing.
+bool is_wires(const ValueType& from, const ValueType& to) {
+  const bool cuts = to.fraction < from.fraction;
+  const bool narrows = to.width - to.fraction < from.width - from.fraction;
+  return !(cuts && to.rounding == Rounding::kHalfUp) &&
+         !(narrows && to.overflow == Overflow::kSaturate);
 }
 
 }  // namespace
@@ -63,64 +88,96 @@ NodeId DataflowGraph::append(Node node) {
   return static_cast<NodeId>(nodes_.size() - 1);
 }
 
-NodeId DataflowGraph::add_input(std::string name, ValueKind kind, Arrival arrival,
+NodeId DataflowGraph::add_input(std::string name, ValueType type, Arrival arrival,
                                 std::uint32_t record_bit) {
-  const NodeId id = append({Operation::kInput,
-                            kind,
-                            {kNoNode, kNoNode, kNoNode},
-                            static_cast<std::uint32_t>(inputs_.size()),
-                            {},
-                            name});
+  const NodeId id =
+      append({Operation::kInput, type, {kNoNode, kNoNode, kNoNode}, inputs_.size(), {}, name});
   inputs_.push_back({std::move(name), arrival, record_bit, id});
   return id;
 }
 
-NodeId DataflowGraph::add_constant(ValueKind kind, std::uint32_t word) {
-  Node node{Operation::kConstant, kind};
+NodeId DataflowGraph::add_constant(ValueType type, std::uint64_t word) {
+  Node node{Operation::kConstant, type};
   node.word = word;
   if (sharing_ == Sharing::kOff) return append(std::move(node));
   const auto [known, is_new] =
-      known_.try_emplace({node.operation, node.operands, word, kind}, kNoNode);
+      known_.try_emplace({node.operation, node.operands, word, type}, kNoNode);
   if (is_new) known->second = append(std::move(node));
   return known->second;
 }
 
 bool DataflowGraph::is_zero(NodeId id) const {
-  return nodes_[id].operation == Operation::kConstant && (nodes_[id].word & 0x7fffffffu) == 0;
+  const Node& node = nodes_[id];
+  const std::uint64_t value =
+      node.type.kind == ValueKind::kFixed ? node.word : node.word & 0x7fffffffu;
+  return node.operation == Operation::kConstant && value == 0;
+}
+
+void DataflowGraph::check_operands(Operation operation,
+                                   const std::array<NodeId, 3>& operands) const {
+  const OperationInfo& of = info(operation);
+  const auto is_sound = [&](std::size_t i) {
+    if (i >= of.operands) return operands[i] == kNoNode;
+    if (operands[i] >= nodes_.size()) return false;
+    const ValueType& type = nodes_[operands[i]].type;
+    // Numbers that meet have one format, except for those of a product.
+    const std::size_t first = operation == Operation::kSelect ? 1 : 0;
+    return is_operand_kind(operation, i, type.kind) &&
+           (i <= first || operation == Operation::kFixedMultiply ||
+            operation == Operation::kWordSelect || type.reads_like(nodes_[operands[first]].type));
+  };
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    if (is_sound(i)) continue;
+    throw std::invalid_argument("operand " + std::to_string(i) + " of " + std::string(of.name) +
+                                " is missing or of another kind");
+  }
+}
+
+ValueType DataflowGraph::type_of(Operation operation, const std::array<NodeId, 3>& operands,
+                                 const std::optional<ValueType>& result) const {
+  const OperationInfo& of = info(operation);
+  if (takes_result(operation) != result.has_value() ||
+      (result && result->kind != ValueKind::kFixed)) {
+    throw std::invalid_argument("the type of the result of " + std::string(of.name) +
+                                " is missing, or it is not needed");
+  }
+  if (result) return *result;
+  if (operation == Operation::kSelect) return nodes_[operands[1]].type;
+  return of.kind == ValueKind::kFixed ? nodes_[operands[0]].type : ValueType(of.kind);
+}
+
+void DataflowGraph::rewrite(Node& node) const {
+  const auto only = [&](Operation operation, NodeId operand) {
+    node.operation = operation;
+    node.operands = {operand, kNoNode, kNoNode};
+  };
+  const NodeId a = node.operands[0], b = node.operands[1];
+  if (node.operation == Operation::kMultiply && a == b) {
+    only(Operation::kSquare, a);
+  } else if (node.operation == Operation::kLess && is_zero(b)) {
+    only(Operation::kLessZero, a);
+  } else if (node.operation == Operation::kLess && is_zero(a)) {
+    only(Operation::kGreaterZero, b);
+  } else if (node.operation == Operation::kFixedLess && is_zero(b)) {
+    only(Operation::kFixedNegative, a);
+  } else if (node.operation == Operation::kFixedFit && is_wires(nodes_[a].type, node.type)) {
+    node.operation = Operation::kFixedWires;
+  }
 }
 
 NodeId DataflowGraph::add_operation(Operation operation, std::array<NodeId, 3> operands,
-                                    SourcePlace place) {
-  const OperationInfo& of = info(operation);
-  for (std::size_t i = 0; i < operands.size(); ++i) {
-    const bool expected = i < of.operands;
-    if (expected != (operands[i] != kNoNode) ||
-        (expected && (operands[i] >= nodes_.size() ||
-                      nodes_[operands[i]].kind != operand_kind(operation, i)))) {
-      throw std::invalid_argument("operand " + std::to_string(i) + " of " + std::string(of.name) +
-                                  " is missing or of another kind");
-    }
-  }
-  Node node{operation, of.kind, operands, 0, place};
+                                    SourcePlace place, std::optional<ValueType> result) {
+  check_operands(operation, operands);
+  Node node{operation, type_of(operation, operands, result), operands, 0, place};
   if (sharing_ == Sharing::kOff) return append(std::move(node));
-
-  if (operation == Operation::kMultiply && operands[0] == operands[1]) {
-    node.operation = Operation::kSquare;
-    node.operands[1] = kNoNode;
-  } else if (operation == Operation::kLess && is_zero(operands[1])) {
-    node.operation = Operation::kLessZero;
-    node.operands[1] = kNoNode;
-  } else if (operation == Operation::kLess && is_zero(operands[0])) {
-    node.operation = Operation::kGreaterZero;
-    node.operands = {operands[1], kNoNode, kNoNode};
-  } else if (operation == Operation::kNegated &&
-             nodes_[operands[0]].operation == Operation::kNegated) {
+  if (operation == Operation::kNegated && nodes_[operands[0]].operation == Operation::kNegated) {
     return nodes_[operands[0]].operands[0];
   }
+  rewrite(node);
   // The key's operands are sorted; the node keeps its operands in the source's order.
   std::array<NodeId, 3> key = node.operands;
   if (is_symmetric(node.operation)) std::sort(key.begin(), key.begin() + 2);
-  const auto [known, is_new] = known_.try_emplace({node.operation, key, 0, of.kind}, kNoNode);
+  const auto [known, is_new] = known_.try_emplace({node.operation, key, 0, node.type}, kNoNode);
   if (is_new) {
     known->second = append(std::move(node));
   } else if (Node& shared = nodes_[known->second]; place < shared.place) {

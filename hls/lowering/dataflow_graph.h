@@ -8,6 +8,9 @@
 //   a * a -> square(a)               the same product
 //   a < 0 -> less_zero(a), 0 < a -> greater_zero(a)   a comparison with either zero is one of sign
 //   negated(negated(a)) -> a
+// and of fixed-point numbers (hls/kernel/fixed.h), whose sums and products are symmetric as well:
+//   a < 0 -> fixed_negative(a)       the sign bit
+//   fixed_fit(a) -> fixed_wires(a)   where no rounding adds and nothing saturates
 // There are no others: no reassociation, no x - 0 or x * 1 (they flush and canonicalise), no
 // folding.
 #pragma once
@@ -16,17 +19,46 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
+
+#include "hls/kernel/fixed.h"
 
 namespace emax {
 
 using NodeId = std::uint32_t;
 constexpr NodeId kNoNode = ~NodeId{0};
 
-enum class ValueKind : std::uint8_t { kReal, kCondition, kWord };
+enum class ValueKind : std::uint8_t { kReal, kCondition, kWord, kFixed };
+
+// A kind of value with its format: binary32, a bit, a word of 32 bits, a fixed-point number.
+struct ValueType {
+  // Implicit: the kinds with one format.
+  constexpr ValueType(ValueKind of)  // NOLINT(google-explicit-constructor)
+      : kind(of), width(of == ValueKind::kCondition ? 1 : 32) {}
+  explicit constexpr ValueType(const FixedFormat& format)
+      : kind(ValueKind::kFixed),
+        width(format.width),
+        fraction(format.fraction),
+        rounding(format.rounding),
+        overflow(format.overflow) {}
+
+  FixedFormat fixed() const { return {width, fraction, rounding, overflow}; }
+  // Whether words of the two types stand for the same values.
+  bool reads_like(const ValueType& other) const {
+    return kind == other.kind && width == other.width && fraction == other.fraction;
+  }
+  auto operator<=>(const ValueType&) const = default;
+
+  ValueKind kind;
+  int width;  // bits
+  int fraction = 0;
+  Rounding rounding = Rounding::kHalfUp;
+  Overflow overflow = Overflow::kSaturate;
+};
 
 enum class Operation : std::uint8_t {
   kInput,
@@ -49,8 +81,17 @@ enum class Operation : std::uint8_t {
   kNegated,
   kWordLess,
   kWordSelect,
+  kFixedAdd,
+  kFixedSubtract,
+  kFixedMultiply,  // the exact product, fitted to the result's format
+  kFixedNegate,
+  kFixedMagnitude,
+  kFixedFit,    // to the result's format
+  kFixedWires,  // the same where only bits are left out and zeros or copies of the sign added
+  kFixedLess,
+  kFixedNegative,  // the sign
 };
-constexpr std::size_t kOperations = 20;
+constexpr std::size_t kOperations = 29;
 
 struct OperationInfo {
   std::string_view name;    // in schedules and reports
@@ -59,9 +100,6 @@ struct OperationInfo {
   ValueKind kind;
 };
 const OperationInfo& info(Operation operation);
-
-// Bits of a value of the kind.
-constexpr int width(ValueKind kind) { return kind == ValueKind::kCondition ? 1 : 32; }
 
 // The place of an operation in the source. `file` and `function` must outlive the graph (literals).
 struct SourcePlace {
@@ -74,9 +112,9 @@ struct SourcePlace {
 
 struct Node {
   Operation operation;
-  ValueKind kind;
+  ValueType type;
   std::array<NodeId, 3> operands = {kNoNode, kNoNode, kNoNode};
-  std::uint32_t word = 0;  // kConstant: its bits; kInput: its place in inputs()
+  std::uint64_t word = 0;  // kConstant: its bits; kInput: its place in inputs()
   SourcePlace place = {};
   std::string name = {};
 };
@@ -103,10 +141,12 @@ class DataflowGraph {
   enum class Sharing : std::uint8_t { kOn, kOff };  // kOff: the brute-force twin, no rewrites
   explicit DataflowGraph(Sharing sharing = Sharing::kOn) : sharing_(sharing) {}
 
-  NodeId add_input(std::string name, ValueKind kind, Arrival arrival, std::uint32_t record_bit = 0);
-  NodeId add_constant(ValueKind kind, std::uint32_t word);
-  // Throws std::invalid_argument if an operand is missing or of the wrong kind.
-  NodeId add_operation(Operation operation, std::array<NodeId, 3> operands, SourcePlace place);
+  NodeId add_input(std::string name, ValueType type, Arrival arrival, std::uint32_t record_bit = 0);
+  NodeId add_constant(ValueType type, std::uint64_t word);
+  // `result` is the type of a fixed-point product or fit; the operands give that of other results.
+  // Throws std::invalid_argument if an operand is missing or of the wrong type, or if `result` is.
+  NodeId add_operation(Operation operation, std::array<NodeId, 3> operands, SourcePlace place,
+                       std::optional<ValueType> result = {});
   void add_output(std::string name, NodeId node);
 
   // Keeps only the nodes that the outputs need. Their order is that of a walk from the outputs with
@@ -142,12 +182,17 @@ class DataflowGraph {
  private:
   bool is_zero(NodeId id) const;
   NodeId append(Node node);
+  void check_operands(Operation operation, const std::array<NodeId, 3>& operands) const;
+  ValueType type_of(Operation operation, const std::array<NodeId, 3>& operands,
+                    const std::optional<ValueType>& result) const;
+  // Makes a node with operands the simplest one that gives the same bits.
+  void rewrite(Node& node) const;
 
   Sharing sharing_;
   std::vector<Node> nodes_;
   std::vector<Input> inputs_;
   std::vector<Output> outputs_;
-  std::map<std::tuple<Operation, std::array<NodeId, 3>, std::uint32_t, ValueKind>, NodeId> known_;
+  std::map<std::tuple<Operation, std::array<NodeId, 3>, std::uint64_t, ValueType>, NodeId> known_;
 };
 
 }  // namespace emax

@@ -1,7 +1,5 @@
 #include "hls/lowering/datapath_names.h"
 
-#include <cstdio>
-
 #include "hls/lowering/identifiers.h"
 #include "hls/lowering/verilog_text.h"
 
@@ -24,18 +22,31 @@ std::string_view instance_suffix(Operation operation) {
       return "_divider";
     case Operation::kSquareRoot:
       return "_root_taker";
+    case Operation::kFixedAdd:
+    case Operation::kFixedSubtract:
+      return "_adder";
+    case Operation::kFixedMultiply:
+      return "_multiplier";
+    case Operation::kFixedNegate:
+    case Operation::kFixedMagnitude:
+      return "_negator";
+    case Operation::kFixedFit:
+      return "_fitter";
+    case Operation::kFixedLess:
+      return "_comparator";
     default:
       return {};
   }
 }
 
-std::string constant_name(Word word) {
-  if (word == 0) return "ZERO";
-  if (word == 0x3f800000u) return "ONE";
-  char name[24];
-  std::snprintf(name, sizeof name, "WORD_%08X", static_cast<unsigned>(word));
-  return name;
+std::string constant_name(const Node& node) {
+  const bool fixed = node.type.kind == ValueKind::kFixed;
+  if (node.word == 0) return "ZERO";
+  if (!fixed && node.word == 0x3f800000u) return "ONE";
+  return (fixed ? "FIXED_" : "WORD_") + hexadecimal(node.word, node.type.width, true);
 }
+
+DatapathNames::ConstantKey key_of(const Node& node) { return {node.type.width, node.word}; }
 
 }  // namespace
 
@@ -64,12 +75,12 @@ DatapathNames::DatapathNames(const LoweredDesign& design) {
     signals_[id] = node.name;
   }
   for (const Node& node : graph.nodes()) {
-    if (node.operation != Operation::kConstant || constants_.contains(node.word)) continue;
-    constants_[node.word] = identifiers.take(constant_name(node.word));
+    if (node.operation != Operation::kConstant || constants_.contains(key_of(node))) continue;
+    constants_[key_of(node)] = identifiers.take(constant_name(node));
   }
   for (NodeId id = 0; id < graph.nodes().size(); ++id) {
     const Node& node = graph.node(id);
-    if (node.operation == Operation::kConstant) signals_[id] = constants_.at(node.word);
+    if (node.operation == Operation::kConstant) signals_[id] = constants_.at(key_of(node));
     if (const auto suffix = instance_suffix(node.operation); !suffix.empty()) {
       instances_[id] = identifiers.take(node.name + std::string(suffix));
     }

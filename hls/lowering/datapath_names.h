@@ -25,8 +25,9 @@ class DatapathNames {
   // cycle. For a constant any cycle is permitted.
   const std::string& signal(NodeId node, int cycle) const;
 
-  // The constants by their words: one name for each word.
-  const std::map<Word, std::string>& constants() const { return constants_; }
+  // The constants by their width and their bits: one name for each.
+  using ConstantKey = std::pair<int, std::uint64_t>;
+  const std::map<ConstantKey, std::string>& constants() const { return constants_; }
 
   // The instance of a node's operator. The node must have one.
   const std::string& instance(NodeId node) const { return instances_.at(node); }
@@ -38,7 +39,7 @@ class DatapathNames {
   std::map<NodeId, std::set<int>> taps_;
   std::map<NodeId, std::string> signals_, instances_;
   std::map<std::pair<NodeId, int>, std::string> delayed_, delays_;
-  std::map<Word, std::string> constants_;
+  std::map<ConstantKey, std::string> constants_;
 };
 
 }  // namespace emax

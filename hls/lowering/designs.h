@@ -15,12 +15,15 @@ enum class Form { kVisibleEdge, kThreeEdge, kBarycentric, kMinimum, kMaximum };
 constexpr Form kForms[] = {Form::kVisibleEdge, Form::kThreeEdge, Form::kBarycentric, Form::kMinimum,
                            Form::kMaximum};
 
+constexpr std::string_view kModelScalar = "emax::FlushedFloat";
+
 struct FormInfo {
-  std::string_view name;      // on the command line
-  std::string_view function;  // in the source
-  std::string_view source;    // path in the repository
-  std::string_view module;    // of the datapath, if the options give no other
-  int record_words;           // of the record memory beside it; 0 for none
+  std::string_view name;                   // on the command line
+  std::string_view function;               // in the source
+  std::string_view source;                 // path in the repository
+  std::string_view module;                 // of the datapath, if the options give no other
+  int record_words;                        // of the record memory beside it; 0 for none
+  std::string_view scalar = kModelScalar;  // of the model's function, in C++
 };
 const FormInfo& info(Form form);
 

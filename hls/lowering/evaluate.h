@@ -1,33 +1,49 @@
 // The value of every node of a graph, on any scalar.
 #pragma once
 
+#include <array>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "hls/kernel/fixed.h"
 #include "hls/kernel/scalar.h"
 #include "hls/kernel/word.h"
 #include "hls/lowering/dataflow_graph.h"
 
 namespace emax {
 
-// The word of each node (a condition as 0 or 1) for the words of the inputs, in the order of
-// graph.inputs(). With the model's flushing scalar these are the words of the hardware. Scalar must
-// be constructible from float and have to_word, magnitude, square_root and the operators. O(nodes).
-template <class Scalar>
-std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inputs) {
-  std::vector<Word> words;
+// What a fixed-point operation gives: the low bits of its result, or a condition. `numbers` are its
+// operands.
+std::uint64_t evaluate_fixed(const DataflowGraph& graph, const Node& node,
+                             const std::array<std::int64_t, 2>& numbers);
+
+// The word of each node (a condition as 0 or 1, a fixed-point number as its bits) for the words of
+// the inputs, in the order of graph.inputs(). With the model's flushing scalar these are the words
+// of the hardware. Scalar must be constructible from float and have to_word, magnitude, square_root
+// and the operators. Bits is 64 bits wide where numbers of a graph have more than 32. O(nodes).
+template <class Scalar, class Bits = Word>
+std::vector<Bits> evaluate(const DataflowGraph& graph,
+                           std::span<const std::type_identity_t<Bits>> inputs) {
+  std::vector<Bits> words;
   words.reserve(graph.nodes().size());
   for (const Node& node : graph.nodes()) {
     const auto word = [&](std::size_t operand) { return words[node.operands[operand]]; };
-    const auto real = [&](std::size_t operand) { return Scalar(to_float(word(operand))); };
+    const auto real = [&](std::size_t operand) {
+      return Scalar(to_float(static_cast<Word>(word(operand))));
+    };
+    const auto number = [&](std::size_t operand) -> std::int64_t {
+      if (operand >= info(node.operation).operands) return 0;
+      return fixed_wrapped(word(operand), graph.node(node.operands[operand]).type.width);
+    };
     const Scalar zero(0.0f);
-    Word result = 0;
+    Bits result = 0;
     switch (node.operation) {
       case Operation::kInput:
-        result = inputs[node.word];
+        result = inputs[static_cast<std::size_t>(node.word)];
         break;
       case Operation::kConstant:
-        result = node.word;
+        result = static_cast<Bits>(node.word);
         break;
       case Operation::kAdd:
         result = to_word(real(0) + real(1));
@@ -80,6 +96,9 @@ std::vector<Word> evaluate(const DataflowGraph& graph, std::span<const Word> inp
         break;
       case Operation::kWordLess:
         result = word(0) < word(1) ? 1 : 0;
+        break;
+      default:
+        result = static_cast<Bits>(evaluate_fixed(graph, node, {number(0), number(1)}));
         break;
     }
     words.push_back(result);

@@ -22,7 +22,7 @@ LoweredDesign FunctionRecorder::lower(const LoweringOptions& options) {
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     graph_.set_output_name(i, names.outputs[i]);
   }
-  const FormInfo about = {function_, function_, header_, function_, 0};
+  const FormInfo about = {function_, function_, header_, function_, 0, scalar_};
   return lower_graph(about, std::move(graph_), source_text, {}, options);
 }
 

@@ -15,6 +15,7 @@
 
 #include "hls/lowering/fields.h"
 #include "hls/lowering/lowering_program.h"
+#include "hls/lowering/recorded_fixed.h"
 #include "hls/lowering/recorded_value.h"
 
 namespace emax {
@@ -22,12 +23,17 @@ namespace emax {
 // The recording of one call; the templates below give it arguments and take the result.
 class FunctionRecorder {
  public:
-  // `header` is the path of the text that defines the function. Both must outlive the design.
-  FunctionRecorder(std::string_view function, std::string_view header)
-      : function_(function), header_(header), recording_(graph_) {}
+  // `header` is the path of the text that defines the function, `scalar` the type that the model's
+  // function is a template of. All must outlive the design.
+  FunctionRecorder(std::string_view function, std::string_view header, std::string_view scalar)
+      : function_(function), header_(header), scalar_(scalar), recording_(graph_) {}
 
   void give(RecordedValue& value) { value = RecordedValue(input(ValueKind::kReal)); }
   void give(RecordedCondition& value) { value = RecordedCondition(input(ValueKind::kCondition)); }
+  template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
+  void give(RecordedFixed<kWidth, kFraction, kRounding, kOverflow>& value) {
+    value = value.of(input(value.type()));
+  }
   template <class Recorded>
   void take(const RecordedNode<Recorded>& value) {
     graph_.add_output("", value.node());
@@ -38,18 +44,18 @@ class FunctionRecorder {
   LoweredDesign lower(const LoweringOptions& options);
 
  private:
-  NodeId input(ValueKind kind) { return graph_.add_input("", kind, Arrival::kSample); }
+  NodeId input(ValueType type) { return graph_.add_input("", type, Arrival::kSample); }
 
-  std::string_view function_, header_;
+  std::string_view function_, header_, scalar_;
   DataflowGraph graph_;
   Recording recording_;
 };
 
 template <class Result, class... Arguments>
 LoweringSubject function_subject(Result (*function)(Arguments...), std::string_view name,
-                                 std::string_view header) {
+                                 std::string_view header, std::string_view model = kModelScalar) {
   return {std::string(name), [=](const LoweringOptions& options) {
-            FunctionRecorder recorder(name, header);
+            FunctionRecorder recorder(name, header, model);
             std::tuple<std::decay_t<Arguments>...> arguments;
             std::apply(
                 [&](auto&... each) {
@@ -66,6 +72,11 @@ LoweringSubject function_subject(Result (*function)(Arguments...), std::string_v
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #define EMAX_FUNCTION(function, header) \
   ::emax::function_subject(&function<::emax::RecordedValue>, #function, header)
+
+// The same on a scalar of fixed-point numbers: EMAX_FUNCTION_ON(f, "f.h", emax::Fixed<18, 16>).
+#define EMAX_FUNCTION_ON(function, header, ...)                                             \
+  ::emax::function_subject(&function<::emax::RecordedScalar<__VA_ARGS__>::type>, #function, \
+                           header, #__VA_ARGS__)
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace emax

@@ -15,9 +15,8 @@ std::string graph_json(const LoweredDesign& design) {
     }
     text += std::string(id > 0 ? "," : "") +
             "\n  {\"operation\": " + quoted(info(node.operation).name) +
-            ", \"name\": " + quoted(node.name) +
-            ", \"width\": " + std::to_string(width(node.kind)) + ", \"operands\": [" + operands +
-            "], \"word\": " + std::to_string(node.word) +
+            ", \"name\": " + quoted(node.name) + ", \"width\": " + std::to_string(node.type.width) +
+            ", \"operands\": [" + operands + "], \"word\": " + std::to_string(node.word) +
             ", \"start\": " + std::to_string(design.schedule.start[id]) +
             ", \"ready\": " + std::to_string(design.schedule.ready[id]) + "}";
   }

@@ -61,13 +61,34 @@ static_assert(std::ranges::is_sorted(kOtherWords));
 
 constexpr auto kUsedModules = std::to_array<std::string_view>(
     {"block_memory", "delay_line", "field_memory", "fp_add", "fp_divide", "fp_less", "fp_multiply",
-     "fp_product", "fp_square", "fp_square_root", "mantissa_multiply", "mantissa_square"});
+     "fp_product", "fp_square", "fp_square_root", "mantissa_multiply", "mantissa_square",
+     "fixed_add", "fixed_fit", "fixed_less", "fixed_multiply", "fixed_negate", "multiplier_18x18",
+     "signed_multiply"});
 
 // The names that systemverilog.cpp and record_unit.cpp write into every module, whatever the graph.
-constexpr auto kFixedNames = std::to_array<std::string_view>(
-    {"clk", "probes", "ADD_LATENCY", "MULTIPLY_LATENCY", "SQUARE_LATENCY", "LESS_LATENCY",
-     "DIVIDE_LATENCY", "SQUARE_ROOT_LATENCY", "SLOT_BITS", "LATENCY", "LAST_READ", "write_enable",
-     "write_slot", "write_record", "slot", "datapath", "unused_parts", "unused_probes"});
+constexpr auto kFixedNames = std::to_array<std::string_view>({"clk",
+                                                              "probes",
+                                                              "ADD_LATENCY",
+                                                              "MULTIPLY_LATENCY",
+                                                              "SQUARE_LATENCY",
+                                                              "LESS_LATENCY",
+                                                              "DIVIDE_LATENCY",
+                                                              "SQUARE_ROOT_LATENCY",
+                                                              "FIXED_ADD_LATENCY",
+                                                              "FIXED_MULTIPLY_LATENCY",
+                                                              "FIXED_NEGATE_LATENCY",
+                                                              "FIXED_FIT_LATENCY",
+                                                              "FIXED_LESS_LATENCY",
+                                                              "SLOT_BITS",
+                                                              "LATENCY",
+                                                              "LAST_READ",
+                                                              "write_enable",
+                                                              "write_slot",
+                                                              "write_record",
+                                                              "slot",
+                                                              "datapath",
+                                                              "unused_parts",
+                                                              "unused_probes"});
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 

@@ -1,28 +1,60 @@
 #!/usr/bin/env bash
-# lower_function.sh BUILD HEADER FUNCTION FOLDER [OPTION...]: lowers a function of a header, and
-# builds the testbench of its pipeline. BUILD is a build folder of emax; options are emax_lower's.
+# lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [OPTION...]: lowers a function of
+# a header, and builds the testbench of its pipeline. BUILD is a build folder of emax; options are
+# emax_lower's. SCALAR is binary32, which is the default, or fixed:WIDTH:FRACTION[:down][:wrap].
 # CXX, VERILATOR and OBJCACHE may name the tools. Into FOLDER:
 #   FUNCTION.sv             the pipeline
-#   FUNCTION.cl             the function in OpenCL C
+#   FUNCTION.cl             the function in OpenCL C, if the scalar is binary32
 #   FUNCTION.json           operations, latency and delay bits
 #   FUNCTION_testbench.cpp  the pipeline beside the function itself
 #   bench                   that testbench with the Verilated pipeline
 #   lower                   the program that wrote them; --help lists its options
 set -euo pipefail
-[ $# -ge 4 ] || { sed -n '2,3s/^# //p' "$0" >&2 && exit 2; }
+[ $# -ge 4 ] || { sed -n '2,4s/^# //p' "$0" >&2 && exit 2; }
 build=$(realpath "$1") header=$(realpath "$2") function=$3 folder=$4
 shift 4
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
-case " $* " in *" --module "* | *" -o "*)
-  echo "lower: the module has the name of the function, and the files are in $folder; leave out --module and -o" >&2
-  exit 2
-  ;;
-esac
-[ -f "$header" ] || { echo "lower: $header: no such file; check the path" >&2 && exit 1; }
-grep -qw -- "$function" "$header" || {
-  echo "lower: $header: no function '$function'; check the name" >&2
-  exit 1
+
+# fail STATUS MESSAGE: says why and ends.
+fail() {
+  echo "lower: $2" >&2
+  exit "$1"
 }
+
+# fixed_type TEXT: the type in C++ of fixed:WIDTH:FRACTION[:down][:wrap]; nothing if it is none.
+fixed_type() {
+  local width fraction rounding=kHalfUp overflow=kSaturate
+  [[ $1 =~ ^fixed:([0-9]{1,2}):([0-9]{1,2})(:down)?(:wrap)?$ ]] || return 0
+  width=$((10#${BASH_REMATCH[1]})) fraction=$((10#${BASH_REMATCH[2]}))
+  [ -z "${BASH_REMATCH[3]}" ] || rounding=kDown
+  [ -z "${BASH_REMATCH[4]}" ] || overflow=kWrap
+  [ $width -ge 2 ] && [ $width -le 62 ] && [ $fraction -lt $width ] || return 0
+  echo "emax::Fixed<$width, $fraction, emax::Rounding::$rounding, emax::Overflow::$overflow>"
+}
+
+scalar=binary32 options=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --module | -o)
+      fail 2 "the module has the name of the function, and the files are in $folder; leave out --module and -o"
+      ;;
+    --scalar)
+      [ $# -ge 2 ] || fail 2 "--scalar needs a value: binary32 or fixed:WIDTH:FRACTION[:down][:wrap]"
+      scalar=$2
+      shift
+      ;;
+    *) options+=("$1") ;;
+  esac
+  shift
+done
+recorded="EMAX_FUNCTION($function, \"$header\")"
+if [ "$scalar" != binary32 ]; then
+  type=$(fixed_type "$scalar")
+  [ -n "$type" ] || fail 2 "--scalar $scalar: take binary32, or fixed:WIDTH:FRACTION[:down][:wrap] with a WIDTH of 2 to 62 and a smaller FRACTION"
+  recorded="EMAX_FUNCTION_ON($function, \"$header\", $type)"
+fi
+[ -f "$header" ] || fail 1 "$header: no such file; check the path"
+grep -qw -- "$function" "$header" || fail 1 "$header: no function '$function'; check the name"
 mkdir -p "$folder"
 folder=$(realpath "$folder")
 
@@ -36,18 +68,20 @@ flags=(-std=c++20 -ffp-contract=off "${includes[@]}")
 {
   printf '#include "%s"\n' hls/lowering/function_subject.h "$header"
   printf 'int main(int argc, char** argv) {\n'
-  printf '  return emax::lowering_program(argc, argv, {EMAX_FUNCTION(%s, "%s")});\n}\n' "$function" "$header"
+  printf '  return emax::lowering_program(argc, argv, {%s});\n}\n' "$recorded"
 } >"$folder/lower.cpp"
 "${CXX:-c++}" "${flags[@]}" "$folder/lower.cpp" "$build/hls/lowering/libemax_lowering.a" \
   -o "$folder/lower"
-"$folder/lower" "$@" -o "$folder/$function.sv"
-"$folder/lower" "$@" --testbench -o "$folder/${function}_testbench.cpp"
-"$folder/lower" "$@" --opencl -o "$folder/$function.cl"
-"$folder/lower" "$@" --report -o "$folder/$function.json"
+"$folder/lower" "${options[@]}" -o "$folder/$function.sv"
+"$folder/lower" "${options[@]}" --testbench -o "$folder/${function}_testbench.cpp"
+"$folder/lower" "${options[@]}" --report -o "$folder/$function.json"
+rm -f "$folder/$function.cl"
+[ "$scalar" != binary32 ] || "$folder/lower" "${options[@]}" --opencl -o "$folder/$function.cl"
 
 libraries=(testbench/lowered/libemax_function_bench.a testbench/stimuli/libemax_stimuli.a
   sw_model/base/libemax_base.a)
-operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/division/*.sv "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
+operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/division/*.sv "$root"/hls/rtl/fixed/*.sv
+  "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
 "${VERILATOR:-verilator}" --cc --exe --build -Wall -O3 -x-assign fast -x-initial fast \
   "-I$root/hls/rtl" --top-module "$function" --prefix "V$function" --Mdir "$folder/verilated" \
   -o ../bench -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]/#/$build/}" \

@@ -58,7 +58,7 @@ std::string help(const std::string& program, const Subjects& subjects) {
   std::string latencies;
   for (const LatencyLimits& limits : kLatencyLimits) {
     char line[80];
-    std::snprintf(line, sizeof line, "%22s%-13s %d to %d (%d)\n", "",
+    std::snprintf(line, sizeof line, "%22s%-15s %d to %d (%d)\n", "",
                   std::string(limits.name).c_str(), limits.least, limits.most,
                   Latencies{}.*limits.cycles);
     latencies += line;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <set>
+#include <stdexcept>
 
 #include "hls/lowering/canonical.h"
 #include "hls/lowering/report.h"
@@ -26,6 +27,10 @@ class OpenclWriter {
  public:
   explicit OpenclWriter(const LoweredDesign& design)
       : design_(design), graph_(design.graph), canonical_(canonical_nodes(design.graph)) {
+    for (const Node& node : graph_.nodes()) {
+      if (node.type.kind != ValueKind::kFixed) continue;
+      throw std::invalid_argument("--opencl is for binary32; leave it out for fixed-point numbers");
+    }
     std::set<std::string, std::less<>> taken(kOpenclWords.begin(), kOpenclWords.end());
     taken.insert(design.options.module);
     for (const Output& output : graph_.outputs()) taken.insert(output.name + "_out");
@@ -71,18 +76,19 @@ class OpenclWriter {
     for (const Input& input : graph_.inputs()) {
       reads_memory = reads_memory || input.arrival == Arrival::kMemory;
       if (input.arrival == Arrival::kSample) {
-        parameters.push_back("const " + type(graph_.node(input.node).kind) + " " +
+        parameters.push_back("const " + type(graph_.node(input.node).type.kind) + " " +
                              names_[input.node]);
       }
     }
     if (reads_memory) parameters.emplace_back("const global uint* record");
     if (!returns()) {
       for (const Output& output : graph_.outputs()) {
-        parameters.push_back(type(graph_.node(output.node).kind) + "* " + output.name + "_out");
+        parameters.push_back(type(graph_.node(output.node).type.kind) + "* " + output.name +
+                             "_out");
       }
     }
     const std::string result =
-        returns() ? type(graph_.node(graph_.outputs()[0].node).kind) : "void";
+        returns() ? type(graph_.node(graph_.outputs()[0].node).type.kind) : "void";
     return listed(result + " " + design_.options.module + "(", "    ", parameters, ") {");
   }
 
@@ -90,7 +96,7 @@ class OpenclWriter {
     std::string text;
     for (const Input& input : graph_.inputs()) {
       if (input.arrival != Arrival::kMemory) continue;
-      const ValueKind kind = graph_.node(input.node).kind;
+      const ValueKind kind = graph_.node(input.node).type.kind;
       const std::string word = "record[" + std::to_string(input.record_bit / 32) + "]";
       text += line(input.node,
                    kind == ValueKind::kCondition
@@ -117,12 +123,12 @@ class OpenclWriter {
 
   bool is_arithmetic(NodeId id) const {
     const Operation operation = graph_.node(id).operation;
-    return graph_.node(id).kind == ValueKind::kReal && operation != Operation::kMagnitude &&
+    return graph_.node(id).type.kind == ValueKind::kReal && operation != Operation::kMagnitude &&
            operation != Operation::kNegate && operation != Operation::kSelect;
   }
 
   std::string line(NodeId id, const std::string& value) const {
-    return "  const " + type(graph_.node(id).kind) + " " + names_[id] + " = " + value + ";\n";
+    return "  const " + type(graph_.node(id).type.kind) + " " + names_[id] + " = " + value + ";\n";
   }
 
   std::string value_of(NodeId id) const {
@@ -130,7 +136,7 @@ class OpenclWriter {
     if (node.operation != Operation::kConstant) return names_[id];
     char text[32];
     std::snprintf(text, sizeof text, "%s(0x%08xu)",
-                  node.kind == ValueKind::kReal ? "splat" : "splat_word",
+                  node.type.kind == ValueKind::kReal ? "splat" : "splat_word",
                   static_cast<unsigned>(node.word));
     return text;
   }
@@ -189,6 +195,8 @@ class OpenclWriter {
         return "!" + in(0);
       case Operation::kWordLess:
         return in(0) + " < " + in(1);
+      default:
+        break;  // fixed-point numbers are refused
     }
     return "";
   }

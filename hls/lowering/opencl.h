@@ -10,7 +10,8 @@ namespace emax {
 // One statement an operation, in the graph's order, on `real`, `condition` and `word`: vectors of
 // as many lanes as the text that includes it says. Inputs of a sample are parameters in their
 // order; those of a memory are read from the words of the parameter `record`. A single output is
-// returned; several are written through pointers.
+// returned; several are written through pointers. Throws std::invalid_argument for a design with
+// fixed-point numbers.
 std::string opencl_function(const LoweredDesign& design);
 
 }  // namespace emax

@@ -82,7 +82,7 @@ class RecordUnit {
     const int cycle = slot_cycle(input);
     const auto late = static_cast<std::size_t>(
         std::distance(late_cycles_.begin(), late_cycles_.upper_bound(cycle)));
-    const int bits = width(design_.graph.node(input.node).kind);
+    const int bits = design_.graph.node(input.node).type.width;
     (bits == 1 ? conditions_ : reals_).push_back(input.name);
     for (int bit = 0; bit < bits; ++bit)
       used_[input.record_bit + static_cast<unsigned>(bit)] = true;
@@ -157,7 +157,7 @@ class RecordUnit {
     for (const Output& output : design_.graph.outputs()) {
       const bool is_last = &output == &design_.graph.outputs().back();
       output_ports += "    output logic " +
-                      vector_type(width(design_.graph.node(output.node).kind)) + output.name +
+                      vector_type(design_.graph.node(output.node).type.width) + output.name +
                       (is_last ? "" : ",") + "  // cycle " +
                       std::to_string(design_.schedule.latency) + "\n";
     }

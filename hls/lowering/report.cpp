@@ -46,9 +46,12 @@ std::string report_json(const LoweredDesign& design) {
              {"\"form\": \"" + std::string(design.about.name) + "\"",
               "\"module\": \"" + design.options.module + "\"",
               number("nodes", design.probes.size()), "\"operations\": {" + joined(operations) + "}",
-              number("multiplications",
-                     graph.count(Operation::kMultiply) + graph.count(Operation::kSquare)),
-              number("additions", graph.count(Operation::kAdd) + graph.count(Operation::kSubtract)),
+              number("multiplications", graph.count(Operation::kMultiply) +
+                                            graph.count(Operation::kSquare) +
+                                            graph.count(Operation::kFixedMultiply)),
+              number("additions", graph.count(Operation::kAdd) + graph.count(Operation::kSubtract) +
+                                      graph.count(Operation::kFixedAdd) +
+                                      graph.count(Operation::kFixedSubtract)),
               number("latency", design.schedule.latency), number("last_read", design.last_read()),
               number("delay_bits", design.schedule.delay_bits)}) +
          "}\n";

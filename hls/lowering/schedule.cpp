@@ -19,6 +19,18 @@ int Latencies::of(Operation operation) const {
       return square;
     case Operation::kLess:
       return less;
+    case Operation::kFixedAdd:
+    case Operation::kFixedSubtract:
+      return fixed_add;
+    case Operation::kFixedMultiply:
+      return fixed_multiply;
+    case Operation::kFixedNegate:
+    case Operation::kFixedMagnitude:
+      return fixed_negate;
+    case Operation::kFixedFit:
+      return fixed_fit;
+    case Operation::kFixedLess:
+      return fixed_less;
     case Operation::kDivide:
       return divide;
     case Operation::kSquareRoot:
@@ -54,6 +66,13 @@ int Latencies::levels_of(Operation operation) const {
     case Operation::kDivide:
     case Operation::kSquareRoot:
     case Operation::kLess:
+    case Operation::kFixedAdd:
+    case Operation::kFixedSubtract:
+    case Operation::kFixedMultiply:
+    case Operation::kFixedNegate:
+    case Operation::kFixedMagnitude:
+    case Operation::kFixedFit:
+    case Operation::kFixedLess:
       return levels;  // they fill their first stage, as their operands come from registers
     default:
       return 0;  // wires, an inverter that its user absorbs, or words, whose user is pipelined
@@ -129,7 +148,7 @@ class Scheduler {
       problem.profit.assign(2 * nodes, 0);
       constexpr long kForbidden = 1L << 30;
       for (NodeId id = 0; id < nodes; ++id) {
-        const long bits = width(graph_.node(id).kind);
+        const long bits = graph_.node(id).type.width;
         problem.profit[id] = movable(id) ? bits : -kForbidden;
         problem.profit[nodes + id] = -bits;
       }
@@ -163,7 +182,7 @@ class Scheduler {
     for (NodeId id = 0; id < start_.size(); ++id) {
       schedule.ready.push_back(ready(id));
       schedule.delay_bits +=
-          long{width(graph_.node(id).kind)} * (schedule.last_use[id] - schedule.ready[id]);
+          long{graph_.node(id).type.width} * (schedule.last_use[id] - schedule.ready[id]);
     }
     return schedule;
   }

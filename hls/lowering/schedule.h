@@ -29,6 +29,11 @@ struct Latencies {
   int levels = 2;        // of lookup tables
   int divide = 27;
   int square_root = 26;
+  int fixed_add = 1;  // and subtract
+  int fixed_multiply = 5;
+  int fixed_negate = 1;  // and magnitude
+  int fixed_fit = 1;
+  int fixed_less = 1;
 
   int of(Operation operation) const;
   // Levels of lookup tables between an operand and the operator's first register, or its result if
@@ -51,6 +56,11 @@ constexpr LatencyLimits kLatencyLimits[] = {
     {"less", &Latencies::less, 1, 64, "fp_less"},
     {"divide", &Latencies::divide, 1, 27, "fp_divide"},
     {"square_root", &Latencies::square_root, 1, 26, "fp_square_root"},
+    {"fixed_add", &Latencies::fixed_add, 1, 3, "fixed_add"},
+    {"fixed_multiply", &Latencies::fixed_multiply, 3, 8, "fixed_multiply"},
+    {"fixed_negate", &Latencies::fixed_negate, 1, 3, "fixed_negate"},
+    {"fixed_fit", &Latencies::fixed_fit, 1, 3, "fixed_fit"},
+    {"fixed_less", &Latencies::fixed_less, 1, 2, "fixed_less"},
     {"select", &Latencies::select, 0, 1, ""},
     {"zero_compare", &Latencies::zero_compare, 0, 1, ""},
     {"logic", &Latencies::logic, 0, 1, ""},

@@ -7,6 +7,7 @@
 
 #include "hls/lowering/canonical.h"
 #include "hls/lowering/datapath_names.h"
+#include "hls/lowering/fixed_text.h"
 #include "hls/lowering/kernel_sources.h"
 #include "hls/lowering/report.h"
 #include "hls/lowering/verilog_text.h"
@@ -30,7 +31,8 @@ class DatapathWriter {
   }
 
   std::string write() const {
-    return generated_line(design_) + "//\n" + comment() + ports() + body() + "endmodule\n";
+    return generated_line(design_) + "//\n" + comment() + ports() + body() + "endmodule\n" +
+           (cuts_numbers() ? "/* verilator lint_on UNUSEDSIGNAL */\n" : "");
   }
 
  private:
@@ -38,14 +40,19 @@ class DatapathWriter {
     const FormInfo& form = design_.about;
     std::string text = "// " + std::string(form.function) + ": ";
     if (!clocked_) {
-      return text + "combinational, on 32-bit words.\n";
+      return text + "combinational" + (has_words() ? ", on 32-bit words.\n" : ".\n");
+    }
+    std::size_t column = 14;
+    for (const Node& node : graph_.nodes()) {
+      column = std::max(column, info(node.operation).name.size() + 2);
     }
     text += "a result every cycle, " + std::to_string(schedule_.latency) +
             " cycles after its sample.\n" +
             listed("// Operations: ", "// ", operation_counts(design_), ".") +
             "// Delays: " + std::to_string(schedule_.delay_bits) +
             " bits. A name ending in _at_N is a value delayed to cycle N.\n"
-            "//\n// start ready  operation     result\n";
+            "//\n// start ready  " +
+            padded("operation", column) + "result\n";
     for (const NodeId id : by_start()) {
       if (!graph_.is_operation(id)) continue;
       const Node& node = graph_.node(id);
@@ -53,8 +60,8 @@ class DatapathWriter {
       std::snprintf(cycles, sizeof cycles, "// %5d %5d  ", schedule_.start[id],
                     schedule_.ready[id]);
       const std::string_view path = repository_path(node.place.file);
-      text += cycles + padded(std::string(info(node.operation).name), 14) + padded(node.name, 30) +
-              " " + std::string(path.substr(path.rfind('/') + 1)) + ":" +
+      text += cycles + padded(std::string(info(node.operation).name), column) +
+              padded(node.name, 30) + " " + std::string(path.substr(path.rfind('/') + 1)) + ":" +
               std::to_string(node.place.line) + "\n";
     }
     return text;
@@ -64,17 +71,19 @@ class DatapathWriter {
     std::vector<std::pair<std::string, std::string>> lines;  // declaration, comment
     if (clocked_) lines.emplace_back("input  logic        clk", "");
     for (const Input& input : graph_.inputs()) {
-      const int bits = width(graph_.node(input.node).kind);
+      const int bits = graph_.node(input.node).type.width;
       lines.emplace_back(
           "input  logic " + padded(vector_type(bits), 7) + input.name,
           clocked_ ? "  // cycle " + std::to_string(schedule_.start[input.node]) : "");
     }
     for (const Output& output : graph_.outputs()) {
-      const int bits = width(graph_.node(output.node).kind);
+      const int bits = graph_.node(output.node).type.width;
       lines.emplace_back("output logic " + padded(vector_type(bits), 7) + output.name,
                          clocked_ ? "  // cycle " + std::to_string(schedule_.latency) : "");
     }
-    std::string text = "module " + design_.options.module + " (\n";
+    std::string text =
+        std::string(cuts_numbers() ? "/* verilator lint_off UNUSEDSIGNAL */\n" : "") + "module " +
+        design_.options.module + " (\n";
     for (std::size_t i = 0; i < lines.size(); ++i) {
       text += "    " + lines[i].first + (i + 1 < lines.size() ? "," : "") + lines[i].second + "\n";
     }
@@ -102,21 +111,27 @@ class DatapathWriter {
     latency("LESS", latencies.less, used.contains(Operation::kLess));
     latency("DIVIDE", latencies.divide, used.contains(Operation::kDivide));
     latency("SQUARE_ROOT", latencies.square_root, used.contains(Operation::kSquareRoot));
-    for (const auto& [word, name] : names_.constants()) {
-      char value[16];
-      std::snprintf(value, sizeof value, "32'h%08x", static_cast<unsigned>(word));
-      text += "  localparam logic [31:0] " + name + " = " + value + ";\n";
+    latency("FIXED_ADD", latencies.fixed_add,
+            used.contains(Operation::kFixedAdd) || used.contains(Operation::kFixedSubtract));
+    latency("FIXED_MULTIPLY", latencies.fixed_multiply, used.contains(Operation::kFixedMultiply));
+    latency("FIXED_NEGATE", latencies.fixed_negate,
+            used.contains(Operation::kFixedNegate) || used.contains(Operation::kFixedMagnitude));
+    latency("FIXED_FIT", latencies.fixed_fit, used.contains(Operation::kFixedFit));
+    latency("FIXED_LESS", latencies.fixed_less, used.contains(Operation::kFixedLess));
+    for (const auto& [key, name] : names_.constants()) {
+      const auto& [bits, word] = key;
+      text += "  localparam logic " + vector_type(bits) + name + " = " + std::to_string(bits) +
+              "'h" + hexadecimal(word, bits, false) + ";\n";
     }
-    std::map<ValueKind, std::vector<std::string>> names;
+    std::map<std::pair<ValueKind, int>, std::vector<std::string>> names;
     for (const NodeId id : by_start()) {
       const Node& node = graph_.node(id);
-      if (graph_.is_operation(id) && !is_output(node.name)) names[node.kind].push_back(node.name);
-      for (const int cycle : names_.taps(id)) {
-        names[node.kind].push_back(names_.signal(id, cycle));
-      }
+      std::vector<std::string>& list = names[{node.type.kind, node.type.width}];
+      if (graph_.is_operation(id) && !is_output(node.name)) list.push_back(node.name);
+      for (const int cycle : names_.taps(id)) list.push_back(names_.signal(id, cycle));
     }
-    for (const auto& [kind, list] : names) {
-      text += declarations("logic " + vector_type(width(kind)), list);
+    for (const auto& [kind_and_width, list] : names) {
+      text += declarations("logic " + vector_type(kind_and_width.second), list);
     }
     int cycle = -1;
     for (const NodeId id : by_start()) {
@@ -140,7 +155,11 @@ class DatapathWriter {
     std::string text = "\n`ifdef EMAX_PROBES\n  assign probes = {\n";
     for (std::size_t i = design_.probes.size(); i-- > 0;) {
       const Node& node = graph_.node(design_.probes[i]);
-      text += "      " + (node.kind == ValueKind::kCondition ? "31'b0, " + node.name : node.name) +
+      const int above = 32 - node.type.width;
+      text += "      " +
+              (above > 0   ? std::to_string(above) + "'b0, " + node.name
+               : above < 0 ? node.name + "[31:0]"
+                           : node.name) +
               (i == 0 ? "};\n" : ",\n");
     }
     return text + "`endif\n";
@@ -197,8 +216,32 @@ class DatapathWriter {
         return logic(id, "~" + in(0));
       case Operation::kWordLess:
         return logic(id, in(0) + " < " + in(1));
+      case Operation::kFixedWires:
+        return logic(id, fixed_wires(design_, id, in(0)));
+      case Operation::kFixedNegative:
+        return logic(id, in(0) + "[" + std::to_string(operand_type(node).width - 1) + "]");
+      default:
+        break;
     }
-    return "";
+    std::string connections = ".clk, .a(" + in(0) + ")";
+    if (info(node.operation).operands == 2) connections += ", .b(" + in(1) + ")";
+    return instance(fixed_module(design_, id), names_.instance(id),
+                    connections + ", ." + std::string(fixed_result_port(node.operation)) + "(" +
+                        node.name + ")");
+  }
+
+  const ValueType& operand_type(const Node& node) const {
+    return graph_.node(node.operands[0]).type;
+  }
+
+  // Whether the design takes some bits of a number and leaves others, which is no mistake.
+  bool cuts_numbers() const {
+    return graph_.count(Operation::kFixedWires) + graph_.count(Operation::kFixedNegative) > 0;
+  }
+
+  bool has_words() const {
+    return std::ranges::any_of(graph_.nodes(),
+                               [](const Node& node) { return node.type.kind == ValueKind::kWord; });
   }
 
   // One line of logic, with a register if it takes a cycle.
@@ -223,7 +266,7 @@ class DatapathWriter {
 
   std::string delays(NodeId id) const {
     const Node& node = graph_.node(id);
-    const int bits = width(node.kind);
+    const int bits = node.type.width;
     std::string text, from = node.name;
     int cycle = schedule_.ready[id];
     for (const int tap : names_.taps(id)) {

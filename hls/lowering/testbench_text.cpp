@@ -29,8 +29,8 @@ std::string testbench_source(const LoweredDesign& design) {
          "\", " + std::to_string(design.schedule.latency) + ",\n" +
          listed("      {", "       ", ports(design.graph.inputs()), "},") +
          listed("      {", "       ", ports(design.graph.outputs()), "},") +
-         "      emax::on_words(&" + function + "<emax::FlushedFloat>),\n" + "      [&](bool" +
-         (clocked ? " clock) {\n        module.clk = clock;\n" : ") {\n") +
+         "      emax::on_words(&" + function + "<" + std::string(design.about.scalar) + ">),\n" +
+         "      [&](bool" + (clocked ? " clock) {\n        module.clk = clock;\n" : ") {\n") +
          "        module.eval();\n      }};\n  return emax::run_bench(bench, argc, argv);\n}\n";
 }
 

@@ -1,6 +1,7 @@
 // The text forms of lines of generated SystemVerilog.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ std::string generated_line(const LoweredDesign& design);
 
 // "[31:0] "; nothing for a single bit.
 std::string vector_type(int bits);
+
+// `word` with a digit for every four of the bits, upper or lower case.
+std::string hexadecimal(std::uint64_t word, int bits, bool upper);
 
 // Items separated by commas, on as many lines as needed; later lines begin with `indent`.
 std::string listed(const std::string& head, const std::string& indent,

@@ -26,7 +26,7 @@ std::vector<Word> inputs_of(const DataflowGraph& graph, const Pair& pair,
       words.push_back(pair.point[axis]);
     } else {
       const Word word = record[input.record_bit / 32] >> (input.record_bit % 32);
-      words.push_back(graph.node(input.node).kind == ValueKind::kCondition ? word & 1u : word);
+      words.push_back(graph.node(input.node).type.kind == ValueKind::kCondition ? word & 1u : word);
     }
   }
   return words;
@@ -105,7 +105,7 @@ std::optional<NodeMismatch> NodeObserver::first_divergence(const ElementRun& run
                             .operation = std::string(info(node.operation).name),
                             .place = std::string(repository_path(node.place.file)) + ":" +
                                      std::to_string(node.place.line),
-                            .kind = node.kind,
+                            .kind = node.type.kind,
                             .start = in_run(design.schedule.start[id]),
                             .cycle = in_run(design.schedule.ready[id]),
                             .model = model[id],
@@ -116,7 +116,7 @@ std::optional<NodeMismatch> NodeObserver::first_divergence(const ElementRun& run
         mismatch.operands.push_back({.node = operand,
                                      .name = names.signal(operand, design.schedule.ready[operand]),
                                      .signal = names.signal(operand, design.schedule.start[id]),
-                                     .kind = design.graph.node(operand).kind,
+                                     .kind = design.graph.node(operand).type.kind,
                                      .model = model[operand],
                                      .element = is_constant ? std::nullopt : shown(p, operand)});
       }

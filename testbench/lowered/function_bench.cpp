@@ -1,9 +1,12 @@
 #include "testbench/lowered/function_bench.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sw_model/base/float_bits.h"
 #include "testbench/stimuli/words.h"
@@ -46,21 +49,54 @@ BenchOptions options_of(int argc, char** argv) {
   return options;
 }
 
-// Of four samples one has ordinary numbers alone, two have some words of other kinds, and one has
-// words of any kind in every place.
-std::vector<Word> drawn_words(Random& random, std::size_t count, int sample) {
-  constexpr std::uint32_t kSpoiled[] = {0, 1, 4, 16};  // of 16 words
-  std::vector<Word> words(count);
-  for (Word& word : words) {
-    word = random.below(16) < kSpoiled[sample % 4]
-               ? any_word(random)
-               : float_bits(static_cast<float>(random.uniform(-2, 2)));
-  }
-  return words;
+// Of 16 words, how many are of any kind: of four samples one has ordinary numbers alone, two have
+// some words of other kinds, and one has words of any kind in every place.
+std::uint32_t spoiled_words(int sample) {
+  constexpr std::uint32_t kSpoiled[] = {0, 1, 4, 16};
+  return kSpoiled[sample % 4];
 }
 
-std::string described(const BenchPort& port, Word word) {
-  return port.is_condition() ? (word != 0 ? "true" : "false") : describe_bits(word);
+// Ordinary numbers are spread over the format and its middle, where results do not saturate; those
+// of other kinds are at its ends or small.
+Bits drawn_fixed(Random& random, const ValueType& type, bool ordinary) {
+  const Bits mask = (Bits{1} << type.width) - 1;
+  if (ordinary) {
+    const std::int64_t number = fixed_wrapped(random.bits(), type.width);
+    return static_cast<Bits>(number >> random.below(4)) & mask;
+  }
+  const Bits near = random.below(4);
+  const Bits greatest = mask >> 1;
+  switch (random.below(4)) {
+    case 0:
+      return greatest - std::min(near, greatest);
+    case 1:
+      return (greatest + 1 + near) & mask;
+    case 2:
+      return (near - 2) & mask;
+    default:
+      return static_cast<Bits>(static_cast<std::int64_t>(random.bits()) >> random.below(64)) & mask;
+  }
+}
+
+Bits drawn_bits(Random& random, const ValueType& type, bool ordinary) {
+  switch (type.kind) {
+    case ValueKind::kCondition:
+      return random.below(2);
+    case ValueKind::kFixed:
+      return drawn_fixed(random, type, ordinary);
+    default:
+      return ordinary ? float_bits(static_cast<float>(random.uniform(-2, 2))) : any_word(random);
+  }
+}
+
+std::string described(const ValueType& type, Bits bits) {
+  if (type.kind == ValueKind::kCondition) return bits != 0 ? "true" : "false";
+  if (type.kind != ValueKind::kFixed) return describe_bits(static_cast<Word>(bits));
+  char text[80];
+  const std::int64_t number = fixed_wrapped(bits, type.width);
+  std::snprintf(text, sizeof text, "%lld/2^%d = %.12g", static_cast<long long>(number),
+                type.fraction, std::ldexp(static_cast<double>(number), -type.fraction));
+  return text;
 }
 
 class Bench {
@@ -69,10 +105,12 @@ class Bench {
       : bench_(bench), options_(options) {
     Random random(named_seed(bench.name, options.seed));
     for (int i = 0; i < options.samples; ++i) {
-      samples_.push_back(drawn_words(random, bench.inputs.size(), i));
-      for (std::size_t k = 0; k < bench.inputs.size(); ++k) {
-        if (bench.inputs[k].is_condition()) samples_.back()[k] &= 1u;
+      std::vector<Bits> sample;
+      for (const ValueType& type : bench.model.arguments) {
+        const bool ordinary = random.below(16) >= spoiled_words(i);
+        sample.push_back(drawn_bits(random, type, ordinary));
       }
+      samples_.push_back(std::move(sample));
     }
   }
 
@@ -90,22 +128,23 @@ class Bench {
   }
 
  private:
-  void give(const std::vector<Word>& words) {
+  void give(const std::vector<Bits>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) bench_.inputs[i].set(words[i]);
   }
 
   bool compared(std::size_t sample) const {
-    const std::vector<Word> expected = bench_.model(samples_[sample]);
+    const std::vector<Bits> expected = bench_.model.call(samples_[sample]);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const BenchPort& port = bench_.outputs[i];
       if (port.get() == expected[i]) continue;
       std::printf("%.*s: sample %zu of seed %llu, output %zu: %s, model %s\n",
                   static_cast<int>(bench_.name.size()), bench_.name.data(), sample,
                   static_cast<unsigned long long>(options_.seed), i,
-                  described(port, port.get()).c_str(), described(port, expected[i]).c_str());
+                  described(bench_.model.results[i], port.get()).c_str(),
+                  described(bench_.model.results[i], expected[i]).c_str());
       for (std::size_t k = 0; k < bench_.inputs.size(); ++k) {
         std::printf("  input %zu: %s\n", k,
-                    described(bench_.inputs[k], samples_[sample][k]).c_str());
+                    described(bench_.model.arguments[k], samples_[sample][k]).c_str());
       }
       return false;
     }
@@ -114,7 +153,7 @@ class Bench {
 
   const FunctionBench& bench_;
   const BenchOptions options_;
-  std::vector<std::vector<Word>> samples_;
+  std::vector<std::vector<Bits>> samples_;
 };
 
 }  // namespace

@@ -10,38 +10,56 @@
 #include <type_traits>
 #include <vector>
 
+#include "hls/kernel/fixed.h"
 #include "hls/kernel/word.h"
+#include "hls/lowering/dataflow_graph.h"
 #include "hls/lowering/fields.h"
 #include "sw_model/model/flushed_float.h"
 
 namespace emax {
 
-// A port of a Verilated module: 32 bits, or one.
+// The bits of a value: a condition as 0 or 1, a fixed-point number in the low bits.
+using Bits = std::uint64_t;
+
+// A port of a Verilated module, which has one of four sizes.
 class BenchPort {
  public:
-  BenchPort(std::uint32_t& word) : word_(&word) {}          // NOLINT(google-explicit-constructor)
-  BenchPort(std::uint8_t& condition) : bit_(&condition) {}  // NOLINT(google-explicit-constructor)
+  BenchPort(std::uint8_t& port) : byte_(&port) {}    // NOLINT(google-explicit-constructor)
+  BenchPort(std::uint16_t& port) : half_(&port) {}   // NOLINT(google-explicit-constructor)
+  BenchPort(std::uint32_t& port) : word_(&port) {}   // NOLINT(google-explicit-constructor)
+  BenchPort(std::uint64_t& port) : words_(&port) {}  // NOLINT(google-explicit-constructor)
 
-  bool is_condition() const { return bit_ != nullptr; }
-  void set(Word word) const {
-    if (word_ != nullptr) *word_ = word;
-    if (bit_ != nullptr) *bit_ = (word & 1u) != 0;
+  void set(Bits bits) const {
+    if (byte_ != nullptr) *byte_ = static_cast<std::uint8_t>(bits);
+    if (half_ != nullptr) *half_ = static_cast<std::uint16_t>(bits);
+    if (word_ != nullptr) *word_ = static_cast<std::uint32_t>(bits);
+    if (words_ != nullptr) *words_ = bits;
   }
-  Word get() const { return word_ != nullptr ? *word_ : *bit_; }
+  Bits get() const {
+    return byte_ != nullptr   ? *byte_
+           : half_ != nullptr ? *half_
+           : word_ != nullptr ? *word_
+                              : *words_;
+  }
 
  private:
+  std::uint8_t* byte_ = nullptr;
+  std::uint16_t* half_ = nullptr;
   std::uint32_t* word_ = nullptr;
-  std::uint8_t* bit_ = nullptr;
+  std::uint64_t* words_ = nullptr;
 };
 
-// The words of a function's results for those of its arguments.
-using WordFunction = std::function<std::vector<Word>(std::span<const Word>)>;
+// A function on bits: those of its results for those of its arguments, with the types of both.
+struct FunctionModel {
+  std::vector<ValueType> arguments, results;
+  std::function<std::vector<Bits>(std::span<const Bits>)> call;
+};
 
 struct FunctionBench {
   std::string_view name;
   int latency;
   std::vector<BenchPort> inputs, outputs;
-  WordFunction model;
+  FunctionModel model;
   std::function<void(bool clock)> evaluate;  // the module, with its clock at this level
 };
 
@@ -50,26 +68,52 @@ struct FunctionBench {
 // code: 0 if all results are equal, 1 if one is not, 2 for arguments that are not understood.
 int run_bench(const FunctionBench& bench, int argc, char** argv);
 
-inline void set_scalar(FlushedFloat& scalar, Word word) { scalar = FlushedFloat(to_float(word)); }
-inline void set_scalar(bool& condition, Word word) { condition = (word & 1u) != 0; }
-inline Word word_of_scalar(FlushedFloat scalar) { return to_word(scalar); }
-inline Word word_of_scalar(bool condition) { return condition ? 1 : 0; }
+inline void set_scalar(FlushedFloat& scalar, Bits bits) {
+  scalar = FlushedFloat(to_float(static_cast<Word>(bits)));
+}
+inline void set_scalar(bool& condition, Bits bits) { condition = (bits & 1u) != 0; }
+template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
+void set_scalar(Fixed<kWidth, kFraction, kRounding, kOverflow>& number, Bits bits) {
+  number = number.from_raw(static_cast<std::int64_t>(bits));
+}
+
+inline Bits bits_of_scalar(FlushedFloat scalar) { return to_word(scalar); }
+inline Bits bits_of_scalar(bool condition) { return condition ? 1 : 0; }
+template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
+Bits bits_of_scalar(const Fixed<kWidth, kFraction, kRounding, kOverflow>& number) {
+  return static_cast<Bits>(number.raw()) & ((Bits{1} << kWidth) - 1);
+}
+
+inline ValueType type_of_scalar(FlushedFloat /*scalar*/) { return ValueKind::kReal; }
+inline ValueType type_of_scalar(bool /*condition*/) { return ValueKind::kCondition; }
+template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
+ValueType type_of_scalar(const Fixed<kWidth, kFraction, kRounding, kOverflow>& number) {
+  return ValueType(number.format());
+}
 
 template <class Result, class... Arguments>
-WordFunction on_words(Result (*function)(Arguments...)) {
-  return [function](std::span<const Word> words) {
+FunctionModel on_words(Result (*function)(Arguments...)) {
+  FunctionModel model;
+  const auto types = [](std::vector<ValueType>& into, const auto&... values) {
+    for_each_leaf([&](const auto& scalar) { into.push_back(type_of_scalar(scalar)); }, values...);
+  };
+  const std::tuple<std::decay_t<Arguments>...> none{};
+  std::apply([&](const auto&... each) { types(model.arguments, each...); }, none);
+  types(model.results, std::decay_t<Result>{});
+  model.call = [function](std::span<const Bits> bits) {
     std::tuple<std::decay_t<Arguments>...> arguments;
     std::size_t next = 0;
     std::apply(
         [&](auto&... each) {
-          for_each_leaf([&](auto& scalar) { set_scalar(scalar, words[next++]); }, each...);
+          for_each_leaf([&](auto& scalar) { set_scalar(scalar, bits[next++]); }, each...);
         },
         arguments);
     const auto result = std::apply(function, arguments);
-    std::vector<Word> results;
-    for_each_leaf([&](const auto& scalar) { results.push_back(word_of_scalar(scalar)); }, result);
+    std::vector<Bits> results;
+    for_each_leaf([&](const auto& scalar) { results.push_back(bits_of_scalar(scalar)); }, result);
     return results;
   };
+  return model;
 }
 
 }  // namespace emax

@@ -44,10 +44,10 @@ TEST(DataflowGraph, SharingAndRemovingKeepEveryBit) {
       std::array<NodeId, 3> operands = node.operands;
       for (NodeId& operand : operands) operand = operand == kNoNode ? kNoNode : renamed[operand];
       if (node.operation == Operation::kInput) {
-        renamed.push_back(shared.add_input(plain.inputs()[node.word].name, node.kind,
+        renamed.push_back(shared.add_input(plain.inputs()[node.word].name, node.type,
                                            plain.inputs()[node.word].arrival));
       } else if (node.operation == Operation::kConstant) {
-        renamed.push_back(shared.add_constant(node.kind, node.word));
+        renamed.push_back(shared.add_constant(node.type, node.word));
       } else {
         renamed.push_back(shared.add_operation(node.operation, operands, {}));
       }

@@ -35,6 +35,11 @@ expect fail "no function 'kalman'; check the name" "a function that is not there
   "$script" . "$example" kalman none
 expect fail "leave out --module and -o" "another name of the module" \
   "$script" . "$example" kalman_update none --module other
+for scalar in binary16 fixed fixed:18 fixed:1:0 fixed:63:0 fixed:18:18 fixed:18:16:up fixed:18:16:wrap:down ""; do
+  expect fail "--scalar $scalar: take binary32, or fixed:" "the scalar '$scalar'" \
+    "$script" . "$example" kalman_update none --scalar "$scalar"
+done
+expect fail "--scalar needs a value" "no scalar" "$script" . "$example" kalman_update none --scalar
 expect pass "ADD_LATENCY = 9;" "latencies" "$lower" visible_edge --latency add=9,square=7
 expect pass '.STYLE("shift_register")' "the family" "$lower" visible_edge --family xilinx
 expect pass '.DEPTH(12), .STYLE("registers")' "delay styles" \
@@ -45,9 +50,10 @@ expect fail "'--fast' is not understood" "an unknown option" "$lower" minimum --
 expect fail "--module needs a value" "a missing value" "$lower" minimum --module
 expect fail "with one of add, divide" "an unknown latency" "$lower" minimum --latency div=3
 for limits in "add 1 14" "multiply 2 13" "square 2 13" "less 1 64" "divide 1 27" "square_root 1 26" "select 0 1" \
+  "fixed_add 1 3" "fixed_multiply 3 8" "fixed_negate 1 3" "fixed_fit 1 3" "fixed_less 1 2" \
   "zero_compare 0 1" "logic 0 1" "levels 2 1000"; do
   read -r name least most <<<"$limits"
-  expect pass "$name $(printf '%*s' $((13 - ${#name})) '')$least to $most (" "limits in the help" \
+  expect pass "$name $(printf '%*s' $((15 - ${#name})) '')$least to $most (" "limits in the help" \
     grep -F "$name" <("$lower" --help)
   for cycles in "$least" "$most"; do
     expect pass "endmodule" "$name=$cycles" "$lower" visible_edge --latency "$name=$cycles"

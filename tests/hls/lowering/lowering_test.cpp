@@ -182,7 +182,7 @@ TEST(Lowering, GraphAsJsonHasEveryNodeOperandAndCycle) {
     }
     const std::string line =
         "{\"operation\": \"" + std::string(info(node.operation).name) + "\", \"name\": \"" +
-        node.name + "\", \"width\": " + std::to_string(width(node.kind)) + ", \"operands\": [" +
+        node.name + "\", \"width\": " + std::to_string(node.type.width) + ", \"operands\": [" +
         operands + "], \"word\": " + std::to_string(node.word) +
         ", \"start\": " + std::to_string(design.schedule.start[id]) +
         ", \"ready\": " + std::to_string(design.schedule.ready[id]) + "}";

@@ -64,7 +64,7 @@ std::vector<Word> input_words(const DataflowGraph& graph, const Sample& sample) 
   for (std::size_t i = words.size(); i < graph.inputs().size(); ++i) {
     const Input& input = graph.inputs()[i];
     const Word word = sample.record[input.record_bit / 32] >> (input.record_bit % 32);
-    words.push_back(graph.node(input.node).kind == ValueKind::kCondition ? word & 1u : word);
+    words.push_back(graph.node(input.node).type.kind == ValueKind::kCondition ? word & 1u : word);
   }
   return words;
 }

@@ -47,7 +47,7 @@ std::string fault(const DataflowGraph& graph, const Latencies& latencies, const 
   long bits = 0;
   for (NodeId id = 0; id < graph.nodes().size(); ++id) {
     if (graph.node(id).operation == Operation::kConstant) continue;
-    bits += long{width(graph.node(id).kind)} * (last[id] - s.ready[id]);
+    bits += long{graph.node(id).type.width} * (last[id] - s.ready[id]);
     if (last[id] != s.last_use[id]) return "a last use is wrong";
   }
   return bits == s.delay_bits ? "" : "delay bits are wrong";
@@ -123,7 +123,7 @@ TEST(Schedule, HasTheFewestDelayBits) {
         long bits = 0;
         for (NodeId value = 0; value < nodes; ++value) {
           if (graph.node(value).operation == Operation::kConstant) continue;
-          bits += long{width(graph.node(value).kind)} * (last[value] - ready[value]);
+          bits += long{graph.node(value).type.width} * (last[value] - ready[value]);
         }
         best = std::min(best, bits);
         return;
