@@ -166,15 +166,15 @@ Result product(const Fixed<kA, kFractionA, kRoundingA, kOverflowA>& a,
 //   const Wide sum = product<Wide>(a, a) + product<Wide>(b, b);
 template <class Scalar, int kWidth, int kFraction>
 struct FormatOf {
-  using type = Scalar;
+  using Type = Scalar;
 };
 template <int kOther, int kOthers, Rounding kRounding, Overflow kOverflow, int kWidth,
           int kFraction>
 struct FormatOf<Fixed<kOther, kOthers, kRounding, kOverflow>, kWidth, kFraction> {
-  using type = Fixed<kWidth, kFraction, kRounding, kOverflow>;
+  using Type = Fixed<kWidth, kFraction, kRounding, kOverflow>;
 };
 template <class Scalar, int kWidth, int kFraction>
-using WithFormat = typename FormatOf<Scalar, kWidth, kFraction>::type;
+using WithFormat = typename FormatOf<Scalar, kWidth, kFraction>::Type;
 
 }  // namespace emax
 

@@ -75,7 +75,7 @@ LoweringSubject function_subject(Result (*function)(Arguments...), std::string_v
 
 // The same on a scalar of fixed-point numbers: EMAX_FUNCTION_ON(f, "f.h", emax::Fixed<18, 16>).
 #define EMAX_FUNCTION_ON(function, header, ...)                                             \
-  ::emax::function_subject(&function<::emax::RecordedScalar<__VA_ARGS__>::type>, #function, \
+  ::emax::function_subject(&function<::emax::RecordedScalar<__VA_ARGS__>::Type>, #function, \
                            header, #__VA_ARGS__)
 // NOLINTEND(bugprone-macro-parentheses)
 

@@ -105,7 +105,7 @@ Result product(const RecordedFixed<kA, kFractionA, kRoundingA, kOverflowA>& a,
 template <int kOther, int kOthers, Rounding kRounding, Overflow kOverflow, int kWidth,
           int kFraction>
 struct FormatOf<RecordedFixed<kOther, kOthers, kRounding, kOverflow>, kWidth, kFraction> {
-  using type = RecordedFixed<kWidth, kFraction, kRounding, kOverflow>;
+  using Type = RecordedFixed<kWidth, kFraction, kRounding, kOverflow>;
 };
 
 // The scalar that records what functions do on `Scalar`.
@@ -113,11 +113,11 @@ template <class Scalar>
 struct RecordedScalar;
 template <>
 struct RecordedScalar<float> {
-  using type = RecordedValue;
+  using Type = RecordedValue;
 };
 template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
 struct RecordedScalar<Fixed<kWidth, kFraction, kRounding, kOverflow>> {
-  using type = RecordedFixed<kWidth, kFraction, kRounding, kOverflow>;
+  using Type = RecordedFixed<kWidth, kFraction, kRounding, kOverflow>;
 };
 
 }  // namespace emax

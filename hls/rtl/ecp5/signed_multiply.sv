@@ -31,10 +31,13 @@ module signed_multiply #(
     /* verilator lint_off UNUSEDSIGNAL */  // narrow operands leave copies of the sign above
     logic [35:0] whole;
     /* verilator lint_on UNUSEDSIGNAL */
+    logic [17:0] a_wide, b_wide;
+    assign a_wide = 18'($signed(a_0));
+    assign b_wide = 18'($signed(b_0));
     multiplier_18x18 #(
         .INSIDE(INSIDE), .SIGNED(1)
     ) multiplier (
-        .clk, .a(18'($signed(a_0))), .b(18'($signed(b_0))), .product(whole)
+        .clk, .a(a_wide), .b(b_wide), .product(whole)
     );
     assign exact = whole[WIDTH-1:0];
   end else begin : several
@@ -42,9 +45,9 @@ module signed_multiply #(
     logic [WIDTH_B-1:0] b_1;
     delay_line #(.WIDTH(WIDTH_A), .DEPTH(1)) input_a (.clk, .d(a_0), .q(a_1));
     delay_line #(.WIDTH(WIDTH_B), .DEPTH(1)) input_b (.clk, .d(b_0), .q(b_1));
-    delay_line #(.WIDTH(WIDTH), .DEPTH(1 + INSIDE)) multiplier (
-        .clk, .d(WIDTH'($signed(a_1)) * WIDTH'($signed(b_1))), .q(exact)
-    );
+    logic [WIDTH-1:0] plain;
+    assign plain = WIDTH'($signed(a_1)) * WIDTH'($signed(b_1));
+    delay_line #(.WIDTH(WIDTH), .DEPTH(1 + INSIDE)) multiplier (.clk, .d(plain), .q(exact));
   end
   delay_line #(.WIDTH(WIDTH), .DEPTH(AFTER)) after (.clk, .d(exact), .q(product));
 endmodule

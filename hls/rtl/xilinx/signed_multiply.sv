@@ -24,7 +24,9 @@ module signed_multiply #(
   logic [WIDTH_B-1:0] b_1;
   delay_line #(.WIDTH(WIDTH_A), .DEPTH(1 + BEFORE)) operand_a (.clk, .d(a), .q(a_1));
   delay_line #(.WIDTH(WIDTH_B), .DEPTH(1 + BEFORE)) operand_b (.clk, .d(b), .q(b_1));
+  logic [WIDTH-1:0] exact;
+  assign exact = WIDTH'($signed(a_1)) * WIDTH'($signed(b_1));
   delay_line #(.WIDTH(WIDTH), .DEPTH(LATENCY - 1 - BEFORE)) multiplier (
-      .clk, .d(WIDTH'($signed(a_1)) * WIDTH'($signed(b_1))), .q(product)
+      .clk, .d(exact), .q(product)
   );
 endmodule
