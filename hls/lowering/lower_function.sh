@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [OPTION...]: lowers a function of
-# a header, and builds the testbench of its pipeline. BUILD is a build folder of emax; options are
+# a header, and runs the testbench of its pipeline. BUILD is a build folder of emax; options are
 # emax_lower's. SCALAR is binary32, which is the default, or fixed:WIDTH:FRACTION[:down][:wrap].
 # CXX, VERILATOR and OBJCACHE may name the tools. Into FOLDER:
 #   FUNCTION.sv             the pipeline
@@ -58,6 +58,13 @@ grep -qw -- "$function" "$header" || fail 1 "$header: no function '$function'; c
 mkdir -p "$folder"
 folder=$(realpath "$folder")
 
+libraries=(hls/lowering/libemax_lowering.a testbench/lowered/libemax_function_bench.a
+  testbench/stimuli/libemax_stimuli.a sw_model/base/libemax_base.a)
+libraries=("${libraries[@]/#/$build/}")
+for library in "${libraries[@]}"; do
+  [ -f "$library" ] || fail 1 "$library: is not built yet; run cmake --build $build --target emax_lowering emax_function_bench"
+done
+
 includes=()
 for room in hls.kernel hls.lowering sw_model.base sw_model.model testbench.lowered; do
   includes+=("-I$build/include/$room")
@@ -70,20 +77,21 @@ flags=(-std=c++20 -ffp-contract=off "${includes[@]}")
   printf 'int main(int argc, char** argv) {\n'
   printf '  return emax::lowering_program(argc, argv, {%s});\n}\n' "$recorded"
 } >"$folder/lower.cpp"
-"${CXX:-c++}" "${flags[@]}" "$folder/lower.cpp" "$build/hls/lowering/libemax_lowering.a" \
-  -o "$folder/lower"
+"${CXX:-c++}" "${flags[@]}" "$folder/lower.cpp" "${libraries[0]}" \
+  -o "$folder/lower" || fail 1 "$function cannot be lowered; docs/user/lowering.md says what a function may hold"
 "$folder/lower" "${options[@]}" -o "$folder/$function.sv"
 "$folder/lower" "${options[@]}" --testbench -o "$folder/${function}_testbench.cpp"
 "$folder/lower" "${options[@]}" --report -o "$folder/$function.json"
 rm -f "$folder/$function.cl"
 [ "$scalar" != binary32 ] || "$folder/lower" "${options[@]}" --opencl -o "$folder/$function.cl"
 
-libraries=(testbench/lowered/libemax_function_bench.a testbench/stimuli/libemax_stimuli.a
-  sw_model/base/libemax_base.a)
 operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/division/*.sv "$root"/hls/rtl/fixed/*.sv
   "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
 "${VERILATOR:-verilator}" --cc --exe --build -Wall -O3 -x-assign fast -x-initial fast \
   "-I$root/hls/rtl" --top-module "$function" --prefix "V$function" --Mdir "$folder/verilated" \
-  -o ../bench -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]/#/$build/}" \
+  -o ../bench -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]:1}" \
   "${operators[@]}" "$folder/$function.sv" "$folder/${function}_testbench.cpp" \
   >"$folder/verilator.log" 2>&1 || { cat "$folder/verilator.log" >&2 && exit 1; }
+
+"$folder/bench"
+! "$folder/bench" --late >/dev/null || fail 1 "a comparison one cycle late was not noticed: the function's results do not change"

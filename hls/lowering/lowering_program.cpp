@@ -20,7 +20,7 @@
 namespace emax {
 namespace {
 
-constexpr std::string_view kHelp = R"(usage: PROGRAM NAME [OPTION...] [-o FILE]
+constexpr std::string_view kHelp = R"(usage: PROGRAM NAME [OPTION...] [-o FILE]OTHER_USAGE
 
 Lowers a function to a pipeline and writes it to FILE, or to standard output.
 NAME is SUBJECTS.
@@ -54,7 +54,8 @@ std::string names_of(const Subjects& subjects) {
   return names;
 }
 
-std::string help(const std::string& program, const Subjects& subjects) {
+std::string help(const std::string& program, const Subjects& subjects,
+                 std::string_view other_usage) {
   std::string latencies;
   for (const LatencyLimits& limits : kLatencyLimits) {
     char line[80];
@@ -64,7 +65,8 @@ std::string help(const std::string& program, const Subjects& subjects) {
     latencies += line;
   }
   std::string text(kHelp);
-  for (const auto& [place, words] : {std::pair{"PROGRAM", program},
+  for (const auto& [place, words] : {std::pair{"OTHER_USAGE", std::string(other_usage)},
+                                     {"PROGRAM", program},
                                      {"SUBJECTS", names_of(subjects)},
                                      {"LATENCIES", latencies}}) {
     text.replace(text.find(place), std::string_view(place).size(), words);
@@ -137,7 +139,7 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 int run(const std::string& program, const std::vector<std::string>& arguments,
-        const Subjects& subjects) {
+        const Subjects& subjects, std::string_view other_usage) {
   LoweringOptions options;
   std::string form, file;
   std::optional<std::string> delay;
@@ -155,7 +157,7 @@ int run(const std::string& program, const std::vector<std::string>& arguments,
       return arguments[++i];
     };
     if (argument == "--help" || argument == "-h") {
-      std::cout << help(program, subjects);
+      std::cout << help(program, subjects, other_usage);
       return 0;
     }
     if (const auto found = writers.find(argument); found != writers.end()) {
@@ -210,10 +212,11 @@ int run(const std::string& program, const std::vector<std::string>& arguments,
 
 }  // namespace
 
-int lowering_program(int argc, char** argv, const std::vector<LoweringSubject>& subjects) {
+int lowering_program(int argc, char** argv, const std::vector<LoweringSubject>& subjects,
+                     std::string_view other_usage) {
   const std::string program = std::filesystem::path(argv[0]).filename().string();
   try {
-    return run(program, {argv + 1, argv + argc}, subjects);
+    return run(program, {argv + 1, argv + argc}, subjects, other_usage);
   } catch (const std::invalid_argument& error) {
     std::cerr << program << ": " << error.what() << " (" << program << " --help)\n";
     return 2;

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hls/lowering/designs.h"
@@ -23,7 +24,9 @@ struct LoweringSubject {
 };
 
 // The exit code: 0, 1 if a file cannot be written, 2 for arguments that are not understood. Where
-// there is one subject, its name need not be given.
-int lowering_program(int argc, char** argv, const std::vector<LoweringSubject>& subjects);
+// there is one subject, its name need not be given. `other_usage` follows the first line of the
+// help.
+int lowering_program(int argc, char** argv, const std::vector<LoweringSubject>& subjects,
+                     std::string_view other_usage = {});
 
 }  // namespace emax

@@ -39,6 +39,18 @@ for scalar in binary16 fixed fixed:18 fixed:1:0 fixed:63:0 fixed:18:18 fixed:18:
   expect fail "--scalar $scalar: take binary32, or fixed:" "the scalar '$scalar'" \
     "$script" . "$example" kalman_update none --scalar "$scalar"
 done
+expect fail "kalman_update.h: no function 'kalman'; check the name" "another function of a header" \
+  "$lower" "$example" --function kalman --folder "$folder/none"
+expect pass "" "no function's name is refused" refused "--function needs a value" \
+  "$lower" "$example" --function
+expect pass "" "no header is refused" refused \
+  "no header is given: emax_lower HEADER --function f" "$lower" --function f --scalar binary32
+colours=$project/docs/examples/lowering/colour_transform.h
+expect pass "after 13 cycles, all equal" "a header's function" env VERILATOR="$verilator" \
+  "$lower" "$colours" --function colour_transform --folder "$folder/colours" --scalar fixed:18:16
+expect pass "endmodule" "its pipeline" cat "$folder/colours/colour_transform.sv"
+expect fail "kalman_update cannot be lowered" "a scalar without division" env VERILATOR="$verilator" \
+  "$lower" "$example" --function kalman_update --folder "$folder/kalman" --scalar fixed:18:16
 expect fail "--scalar needs a value" "no scalar" "$script" . "$example" kalman_update none --scalar
 expect pass "ADD_LATENCY = 9;" "latencies" "$lower" visible_edge --latency add=9,square=7
 expect pass '.STYLE("shift_register")' "the family" "$lower" visible_edge --family xilinx
