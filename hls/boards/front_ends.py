@@ -37,6 +37,7 @@ PARAMETERS = {
     "fixed_less": [{"LATENCY": 2}],
     "fixed_multiply": [{"WIDTH_A": 8, "WIDTH_B": 9}],
     "fixed_negate": [{"LATENCY": 3}, {"LATENCY": 1, "MAGNITUDE": 1}],
+    "pipeline_stream": [{"LATENCY": 3, "WIDTH": 5}],
     "signed_multiply": [{"WIDTH_A": 8, "WIDTH_B": 9}],
     "delay_line": [{"WIDTH": 5, "DEPTH": 1}, {"WIDTH": 5, "DEPTH": 6}],
     "axis_fifo": [{"WIDTH": 5, "DEPTH_BITS": 3}],
@@ -58,7 +59,7 @@ PARTS_PROVEN = ["emax_element", "emax_distance", "emax_distance_unit", "emax_cor
 # Modules of a family without cells of the family: their other parts are driven in a simulation.
 FAMILY_PROOFS = [("signed_multiply", {"WIDTH_A": 8, "WIDTH_B": 19, "LATENCY": 4}, family) for family in ("ecp5", "xilinx")]
 PACKAGES = ["mutation"]  # no module
-SOURCES = ["", "core", "link", "fixed", "generated", "behavioural"]
+SOURCES = ["", "core", "link", "fixed", "stream", "generated", "behavioural"]
 
 
 def script(top, parameters, files):
@@ -104,7 +105,7 @@ def proofs():
 
 def prove(runner, top, parameters, family, replaced={}):
     design = designs.Design("", top, 0, replaced=replaced)
-    more = [path for folder in ("core", "link", "fixed") for path in sorted((RTL / folder).glob("*.sv"))]
+    more = [path for folder in ("core", "link", "fixed", "stream") for path in sorted((RTL / folder).glob("*.sv"))]
     files = " ".join(map(str, [*design.sources(family), *more]))
     name = "_".join([top, family, *(["misread"] if replaced else []), *map(str, parameters.values())]).replace('"', "")
     runner.step("yosys", f"{top} {parameters or ''}, {family}", f"front_ends/{name}",

@@ -60,10 +60,12 @@ static_assert(std::ranges::is_sorted(kOtherWords));
 // clang-format on
 
 constexpr auto kUsedModules = std::to_array<std::string_view>(
-    {"block_memory", "delay_line", "field_memory", "fp_add", "fp_divide", "fp_less", "fp_multiply",
-     "fp_product", "fp_square", "fp_square_root", "mantissa_multiply", "mantissa_square",
-     "fixed_add", "fixed_fit", "fixed_less", "fixed_multiply", "fixed_negate", "multiplier_18x18",
-     "signed_multiply"});
+    {"block_memory",   "delay_line",       "field_memory",      "fp_add",
+     "fp_divide",      "fp_less",          "fp_multiply",       "fp_product",
+     "fp_square",      "fp_square_root",   "mantissa_multiply", "mantissa_square",
+     "fixed_add",      "fixed_fit",        "fixed_less",        "fixed_multiply",
+     "fixed_negate",   "multiplier_18x18", "pipeline_stream",   "axis_fifo",
+     "credit_counter", "ring_memory",      "valid_line",        "signed_multiply"});
 
 // The names that systemverilog.cpp and record_unit.cpp write into every module, whatever the graph.
 constexpr auto kFixedNames = std::to_array<std::string_view>({"clk",
@@ -122,7 +124,8 @@ void check_module_name(const std::string& name) {
   }
 }
 
-Identifiers::Identifiers(const std::string& module) : taken_{module, module + "_unit"} {
+Identifiers::Identifiers(const std::string& module)
+    : taken_{module, module + "_unit", module + "_stream"} {
   taken_.insert(kFixedNames.begin(), kFixedNames.end());
   taken_.insert(kUsedModules.begin(), kUsedModules.end());
 }

@@ -53,6 +53,9 @@ package emax_mutation;
   localparam int FIXED_LESS_OR_EQUAL = 137;  // fixed/fixed_less: compares with <= instead of <
   localparam int FIXED_LESS_UNSIGNED = 138;  // fixed/fixed_less: a counts as positive
 
+  localparam int STREAM_ALWAYS_READY = 141;  // stream/pipeline_stream: takes samples without room
+  localparam int STREAM_LAST_LOST = 142;  // stream/pipeline_stream: no result is marked as the last
+
   localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
   localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back
   localparam int FIFO_IGNORES_STALL = 103;  // ring_memory: the output moves on before its word is taken
