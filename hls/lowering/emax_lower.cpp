@@ -15,10 +15,12 @@
 namespace {
 
 constexpr std::string_view kFileHelp = R"(
-       emax_lower HEADER --function FUNCTION [--folder FOLDER] [--scalar SCALAR] [OPTION...]
+       emax_lower HEADER --function FUNCTION [--folder FOLDER] [--scalar SCALAR] [--stream]
+                  [OPTION...]
 
 Lowers a function of one's own and compares the pipeline, simulated, with the function itself. The
-files come into FOLDER (lowered/FUNCTION). SCALAR is binary32, or fixed:WIDTH:FRACTION[:down][:wrap].)";
+files come into FOLDER (lowered/FUNCTION); --stream adds the pipeline between two AXI4-Streams.
+SCALAR is binary32, or fixed:WIDTH:FRACTION[:down][:wrap].)";
 
 // The value that follows an option, which both are taken out of the arguments; empty if the option
 // is not there, or is the last one.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [OPTION...]: lowers a function of
-# a header, and runs the testbench of its pipeline. BUILD is a build folder of emax; options are
-# emax_lower's. SCALAR is binary32, which is the default, or fixed:WIDTH:FRACTION[:down][:wrap].
+# lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [--stream] [OPTION...]: lowers a
+# function of a header, and runs the testbench of its pipeline. BUILD is a build folder of emax;
+# options are emax_lower's. SCALAR is binary32, which is the default, or fixed:WIDTH:FRACTION[:down][:wrap].
 # CXX, VERILATOR and OBJCACHE may name the tools. Into FOLDER:
 #   FUNCTION.sv             the pipeline
 #   FUNCTION.cl             the function in OpenCL C, if the scalar is binary32
@@ -9,6 +9,8 @@
 #   FUNCTION_testbench.cpp  the pipeline beside the function itself
 #   bench                   that testbench with the Verilated pipeline
 #   lower                   the program that wrote them; --help lists its options
+# and with --stream, the pipeline between two AXI4-Streams:
+#   FUNCTION_stream.sv, FUNCTION_stream_testbench.cpp, stream_bench
 set -euo pipefail
 [ $# -ge 4 ] || { sed -n '2,4s/^# //p' "$0" >&2 && exit 2; }
 build=$(realpath "$1") header=$(realpath "$2") function=$3 folder=$4
@@ -32,7 +34,7 @@ fixed_type() {
   echo "emax::Fixed<$width, $fraction, emax::Rounding::$rounding, emax::Overflow::$overflow>"
 }
 
-scalar=binary32 options=()
+scalar=binary32 stream=no options=()
 while [ $# -gt 0 ]; do
   case $1 in
     --module | -o)
@@ -43,6 +45,7 @@ while [ $# -gt 0 ]; do
       scalar=$2
       shift
       ;;
+    --stream) stream=yes ;;
     *) options+=("$1") ;;
   esac
   shift
@@ -87,11 +90,26 @@ rm -f "$folder/$function.cl"
 
 operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/division/*.sv "$root"/hls/rtl/fixed/*.sv
   "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
-"${VERILATOR:-verilator}" --cc --exe --build -Wall -O3 -x-assign fast -x-initial fast \
-  "-I$root/hls/rtl" --top-module "$function" --prefix "V$function" --Mdir "$folder/verilated" \
-  -o ../bench -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]:1}" \
-  "${operators[@]}" "$folder/$function.sv" "$folder/${function}_testbench.cpp" \
-  >"$folder/verilator.log" 2>&1 || { cat "$folder/verilator.log" >&2 && exit 1; }
+streams=("$root"/hls/rtl/stream/*.sv "$root"/hls/rtl/{axis_fifo,credit_counter,ring_memory,valid_line}.sv)
 
-"$folder/bench"
-! "$folder/bench" --late >/dev/null || fail 1 "a comparison one cycle late was not noticed: the function's results do not change"
+# run_testbench MODULE PROGRAM SOURCE...: builds the program of the module's testbench and runs it.
+run_testbench() {
+  local module=$1 program=$2
+  shift 2
+  "${VERILATOR:-verilator}" --cc --exe --build --assert -Wall -O3 -x-assign fast -x-initial fast \
+    "-I$root/hls/rtl" --top-module "$module" --prefix "V$module" --Mdir "$folder/verilated_$program" \
+    -o "../$program" -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]:1}" \
+    "$@" "${operators[@]}" "$folder/$function.sv" "$folder/${module}_testbench.cpp" \
+    >"$folder/$program.log" 2>&1 || { cat "$folder/$program.log" >&2 && exit 1; }
+  "$folder/$program"
+  ! "$folder/$program" --late >/dev/null ||
+    fail 1 "a comparison one cycle late was not noticed: the function's results do not change"
+}
+
+run_testbench "$function" bench
+rm -f "$folder/${function}_stream"* "$folder/stream_bench"
+if [ $stream = yes ]; then
+  "$folder/lower" "${options[@]}" --stream -o "$folder/${function}_stream.sv"
+  "$folder/lower" "${options[@]}" --stream-testbench -o "$folder/${function}_stream_testbench.cpp"
+  run_testbench "${function}_stream" stream_bench "${streams[@]}" "$folder/${function}_stream.sv"
+fi

@@ -30,6 +30,8 @@ what to write (the datapath unless one of these is given)
   --schedule          macros with the schedule's figures, for the modules that use the unit
   --opencl            the same arithmetic as a function in OpenCL C
   --testbench         a main for Verilator: the pipeline beside the function itself
+  --stream            the datapath between two AXI4-Streams, module NAME_stream
+  --stream-testbench  a main for Verilator: that module beside the function itself
   --dot               the graph, for Graphviz
   --report            operations, latency and delay bits, as JSON
   --graph             the graph with its schedule, as JSON
@@ -147,6 +149,7 @@ int run(const std::string& program, const std::vector<std::string>& arguments,
   const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
       {"--unit", unit_module},       {"--schedule", schedule_header},
       {"--opencl", opencl_function}, {"--testbench", testbench_source},
+      {"--stream", stream_module},   {"--stream-testbench", stream_testbench_source},
       {"--dot", dot_graph},          {"--report", report_json},
       {"--graph", graph_json}};
   bool has_writer = false;

@@ -26,9 +26,8 @@ class DatapathWriter {
         graph_(design.graph),
         schedule_(design.schedule),
         names_(design),
-        canonical_(canonical_nodes(design.graph)) {
-    for (const int ready : schedule_.ready) clocked_ = clocked_ || ready > 0;
-  }
+        canonical_(canonical_nodes(design.graph)),
+        clocked_(is_clocked(design)) {}
 
   std::string write() const {
     return generated_line(design_) + "//\n" + comment() + ports() + body() + "endmodule\n" +
@@ -298,7 +297,7 @@ class DatapathWriter {
   const Schedule& schedule_;
   DatapathNames names_;
   std::vector<bool> canonical_;  // comparing these with zero takes fewer bits
-  bool clocked_ = false;
+  const bool clocked_;
 };
 
 }  // namespace

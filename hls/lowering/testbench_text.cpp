@@ -1,37 +1,60 @@
 #include "hls/lowering/testbench_text.h"
 
-#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
+#include "hls/lowering/systemverilog.h"
 #include "hls/lowering/verilog_text.h"
 
 namespace emax {
 
-std::string testbench_source(const LoweredDesign& design) {
-  const std::string module = design.options.module, function(design.about.function);
+namespace {
+
+std::vector<std::string> module_ports(const auto& list) {
+  std::vector<std::string> names;
+  for (const auto& port : list) names.push_back("module." + port.name);
+  return names;
+}
+
+// What both mains have in common: the module and the bench up to its latency.
+std::string beginning(const LoweredDesign& design, const std::string& module, const char* bench) {
   if (design.about.name != design.about.function) {
     throw std::invalid_argument(
-        "--testbench is for functions of one's own; the kernel's forms have "
-        "theirs, ./dev cosim");
+        "a testbench is for functions of one's own; the kernel's forms have theirs, ./dev cosim");
   }
-  const auto ports = [&](const auto& list) {
-    std::vector<std::string> names;
-    for (const auto& port : list) names.push_back("module." + port.name);
-    return names;
-  };
-  const bool clocked = std::any_of(design.schedule.ready.begin(), design.schedule.ready.end(),
-                                   [](int cycle) { return cycle > 0; });
   return generated_line(design) + "#include \"V" + module + ".h\"\n#include \"" +
          std::string(design.about.source) +
          "\"\n#include \"testbench/lowered/function_bench.h\"\n\n"
          "int main(int argc, char** argv) {\n  V" +
-         module + " module;\n" + "  const emax::FunctionBench bench = {\n      \"" + function +
-         "\", " + std::to_string(design.schedule.latency) + ",\n" +
-         listed("      {", "       ", ports(design.graph.inputs()), "},") +
-         listed("      {", "       ", ports(design.graph.outputs()), "},") +
-         "      emax::on_words(&" + function + "<" + std::string(design.about.scalar) + ">),\n" +
-         "      [&](bool" + (clocked ? " clock) {\n        module.clk = clock;\n" : ") {\n") +
+         module + " module;\n" + "  const emax::" + bench + " bench = {\n      \"" +
+         std::string(design.about.function) + "\", ";
+}
+
+// The module's ports and the function on bits.
+std::string function_and_ports(const LoweredDesign& design) {
+  return listed("      {", "       ", module_ports(design.graph.inputs()), "},") +
+         listed("      {", "       ", module_ports(design.graph.outputs()), "},") +
+         "      emax::on_words(&" + std::string(design.about.function) + "<" +
+         std::string(design.about.scalar) + ">),\n";
+}
+
+}  // namespace
+
+std::string testbench_source(const LoweredDesign& design) {
+  return beginning(design, design.options.module, "FunctionBench") +
+         std::to_string(design.schedule.latency) + ",\n" + function_and_ports(design) +
+         "      [&](bool" +
+         (is_clocked(design) ? " clock) {\n        module.clk = clock;\n" : ") {\n") +
          "        module.eval();\n      }};\n  return emax::run_bench(bench, argc, argv);\n}\n";
+}
+
+std::string stream_testbench_source(const LoweredDesign& design) {
+  return beginning(design, design.options.module + "_stream", "StreamBench") + "\n" +
+         function_and_ports(design) +
+         "      {module.aresetn, module.s_axis_tvalid, module.s_axis_tready, module.s_axis_tlast,\n"
+         "       module.m_axis_tvalid, module.m_axis_tready, module.m_axis_tlast},\n"
+         "      [&](bool clock) {\n        module.clk = clock;\n        module.eval();\n      }};\n"
+         "  return emax::run_stream_bench(bench, argc, argv);\n}\n";
 }
 
 }  // namespace emax

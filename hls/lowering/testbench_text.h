@@ -11,4 +11,7 @@ namespace emax {
 // design with inputs from a memory, and for one of the kernel's forms, which have testbenches.
 std::string testbench_source(const LoweredDesign& design);
 
+// The same for the module V<name>_stream of stream_module.
+std::string stream_testbench_source(const LoweredDesign& design);
+
 }  // namespace emax

@@ -1,167 +1,39 @@
 #include "testbench/lowered/function_bench.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
-#include "sw_model/base/float_bits.h"
-#include "testbench/stimuli/words.h"
+#include "testbench/lowered/bench_samples.h"
 
 namespace emax {
 namespace {
 
-struct BenchOptions {
-  int samples = 20000;
-  std::uint64_t seed = 1;
-  int late = 0;
-};
-
-template <class Number>
-Number number_of(const std::string& option, std::string_view text) {
-  Number value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw std::invalid_argument(option + " needs a number, not '" + std::string(text) + "'");
-  }
-  return value;
-}
-
-BenchOptions options_of(int argc, char** argv) {
-  BenchOptions options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    const auto value = [&] { return i + 1 < argc ? argv[++i] : ""; };
-    if (option == "--samples") {
-      options.samples = number_of<int>(option, value());
-    } else if (option == "--seed") {
-      options.seed = number_of<std::uint64_t>(option, value());
-    } else if (option == "--late") {
-      options.late = 1;
-    } else {
-      throw std::invalid_argument("'" + option +
-                                  "' is not understood; there are --samples N, --seed N, --late");
+bool is_equal_every_cycle(const FunctionBench& bench, const BenchOptions& options) {
+  const auto samples = drawn_samples(bench.name, bench.model, options);
+  for (int cycle = 0; cycle < options.samples + bench.latency; ++cycle) {
+    if (cycle < options.samples) {
+      const std::vector<Bits>& given = samples[static_cast<std::size_t>(cycle)];
+      for (std::size_t i = 0; i < given.size(); ++i) bench.inputs[i].set(given[i]);
     }
-  }
-  return options;
-}
-
-// Of 16 words, how many are of any kind: of four samples one has ordinary numbers alone, two have
-// some words of other kinds, and one has words of any kind in every place.
-std::uint32_t spoiled_words(int sample) {
-  constexpr std::uint32_t kSpoiled[] = {0, 1, 4, 16};
-  return kSpoiled[sample % 4];
-}
-
-// Ordinary numbers are spread over the format and its middle, where results do not saturate; those
-// of other kinds are at its ends or small.
-Bits drawn_fixed(Random& random, const ValueType& type, bool ordinary) {
-  const Bits mask = (Bits{1} << type.width) - 1;
-  if (ordinary) {
-    const std::int64_t number = fixed_wrapped(random.bits(), type.width);
-    return static_cast<Bits>(number >> random.below(4)) & mask;
-  }
-  const Bits near = random.below(4);
-  const Bits greatest = mask >> 1;
-  switch (random.below(4)) {
-    case 0:
-      return greatest - std::min(near, greatest);
-    case 1:
-      return (greatest + 1 + near) & mask;
-    case 2:
-      return (near - 2) & mask;
-    default:
-      return static_cast<Bits>(static_cast<std::int64_t>(random.bits()) >> random.below(64)) & mask;
-  }
-}
-
-Bits drawn_bits(Random& random, const ValueType& type, bool ordinary) {
-  switch (type.kind) {
-    case ValueKind::kCondition:
-      return random.below(2);
-    case ValueKind::kFixed:
-      return drawn_fixed(random, type, ordinary);
-    default:
-      return ordinary ? float_bits(static_cast<float>(random.uniform(-2, 2))) : any_word(random);
-  }
-}
-
-std::string described(const ValueType& type, Bits bits) {
-  if (type.kind == ValueKind::kCondition) return bits != 0 ? "true" : "false";
-  if (type.kind != ValueKind::kFixed) return describe_bits(static_cast<Word>(bits));
-  char text[80];
-  const std::int64_t number = fixed_wrapped(bits, type.width);
-  std::snprintf(text, sizeof text, "%lld/2^%d = %.12g", static_cast<long long>(number),
-                type.fraction, std::ldexp(static_cast<double>(number), -type.fraction));
-  return text;
-}
-
-class Bench {
- public:
-  Bench(const FunctionBench& bench, const BenchOptions& options)
-      : bench_(bench), options_(options) {
-    Random random(named_seed(bench.name, options.seed));
-    for (int i = 0; i < options.samples; ++i) {
-      std::vector<Bits> sample;
-      for (const ValueType& type : bench.model.arguments) {
-        const bool ordinary = random.below(16) >= spoiled_words(i);
-        sample.push_back(drawn_bits(random, type, ordinary));
-      }
-      samples_.push_back(std::move(sample));
-    }
-  }
-
-  bool equal() {
-    for (int cycle = 0; cycle < options_.samples + bench_.latency; ++cycle) {
-      if (cycle < options_.samples) give(samples_[static_cast<std::size_t>(cycle)]);
-      bench_.evaluate(false);
-      const int sample = cycle - bench_.latency - options_.late;
-      if (sample >= 0 && sample < options_.samples && !compared(static_cast<std::size_t>(sample))) {
-        return false;
-      }
-      bench_.evaluate(true);
-    }
-    return true;
-  }
-
- private:
-  void give(const std::vector<Bits>& words) {
-    for (std::size_t i = 0; i < words.size(); ++i) bench_.inputs[i].set(words[i]);
-  }
-
-  bool compared(std::size_t sample) const {
-    const std::vector<Bits> expected = bench_.model.call(samples_[sample]);
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      const BenchPort& port = bench_.outputs[i];
-      if (port.get() == expected[i]) continue;
-      std::printf("%.*s: sample %zu of seed %llu, output %zu: %s, model %s\n",
-                  static_cast<int>(bench_.name.size()), bench_.name.data(), sample,
-                  static_cast<unsigned long long>(options_.seed), i,
-                  described(bench_.model.results[i], port.get()).c_str(),
-                  described(bench_.model.results[i], expected[i]).c_str());
-      for (std::size_t k = 0; k < bench_.inputs.size(); ++k) {
-        std::printf("  input %zu: %s\n", k,
-                    described(bench_.model.arguments[k], samples_[sample][k]).c_str());
-      }
+    bench.evaluate(false);
+    const int sample = cycle - bench.latency - options.late;
+    const auto number = static_cast<std::size_t>(sample);
+    if (sample >= 0 && sample < options.samples &&
+        !is_models_result(bench.name, bench.model, bench.outputs, samples[number], number,
+                          options.seed)) {
       return false;
     }
-    return true;
+    bench.evaluate(true);
   }
-
-  const FunctionBench& bench_;
-  const BenchOptions options_;
-  std::vector<std::vector<Bits>> samples_;
-};
+  return true;
+}
 
 }  // namespace
 
 int run_bench(const FunctionBench& bench, int argc, char** argv) {
   try {
-    const BenchOptions options = options_of(argc, argv);
-    if (!Bench(bench, options).equal()) return 1;
+    const BenchOptions options = bench_options(argc, argv);
+    if (!is_equal_every_cycle(bench, options)) return 1;
     std::printf("%.*s: %d samples of seed %llu, a result every cycle after %d cycles, all equal\n",
                 static_cast<int>(bench.name.size()), bench.name.data(), options.samples,
                 static_cast<unsigned long long>(options.seed), bench.latency);

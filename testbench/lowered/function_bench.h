@@ -68,6 +68,25 @@ struct FunctionBench {
 // code: 0 if all results are equal, 1 if one is not, 2 for arguments that are not understood.
 int run_bench(const FunctionBench& bench, int argc, char** argv);
 
+struct StreamPorts {
+  BenchPort aresetn, s_axis_tvalid, s_axis_tready, s_axis_tlast;
+  BenchPort m_axis_tvalid, m_axis_tready, m_axis_tlast;
+};
+
+// The module `<name>_stream`, with its arguments and results as ports beside the handshakes.
+struct StreamBench {
+  std::string_view name;
+  std::vector<BenchPort> inputs, outputs;
+  FunctionModel model;
+  StreamPorts streams;
+  std::function<void(bool clock)> evaluate;
+};
+
+// Drives the streams through idle cycles and back-pressure, in stretches with and without either,
+// and compares every result and its tlast. Options and exit code as of run_bench; --late compares
+// each result with the sample before its own, which has to fail.
+int run_stream_bench(const StreamBench& bench, int argc, char** argv);
+
 inline void set_scalar(FlushedFloat& scalar, Bits bits) {
   scalar = FlushedFloat(to_float(static_cast<Word>(bits)));
 }

@@ -26,7 +26,8 @@ expect pass "return squared_distance;" "the function in OpenCL C" \
   "$lower" visible_edge --opencl
 expect pass "*result_index_out = result_index;" "several outputs in OpenCL C" \
   "$lower" maximum --opencl
-expect fail "--testbench is for functions of one's own" "a testbench of a form" \
+expect fail "--stream is for functions of one's own" "streams of a form" "$lower" visible_edge --stream
+expect fail "a testbench is for functions of one's own" "a testbench of a form" \
   "$lower" visible_edge --testbench
 script=$project/hls/lowering/lower_function.sh example=$project/docs/examples/lowering/kalman_update.h
 expect fail "none.h: no such file; check the path" "a header that is not there" \
@@ -48,6 +49,12 @@ expect pass "" "no header is refused" refused \
 colours=$project/docs/examples/lowering/colour_transform.h
 expect pass "after 13 cycles, all equal" "a header's function" env VERILATOR="$verilator" \
   "$lower" "$colours" --function colour_transform --folder "$folder/colours" --scalar fixed:18:16
+cat >"$folder/clash.h" <<'TEXT'
+template <class Scalar>
+Scalar clash(Scalar m_axis_tdata) { return m_axis_tdata * m_axis_tdata; }
+TEXT
+expect fail "a port is called m_axis_tdata, which --stream needs" "a port like a handshake" \
+  env VERILATOR="$verilator" "$lower" "$folder/clash.h" --function clash --folder "$folder/clash" --stream
 expect pass "endmodule" "its pipeline" cat "$folder/colours/colour_transform.sv"
 expect fail "kalman_update cannot be lowered" "a scalar without division" env VERILATOR="$verilator" \
   "$lower" "$example" --function kalman_update --folder "$folder/kalman" --scalar fixed:18:16
