@@ -27,7 +27,7 @@ SCALAR is binary32, or fixed:WIDTH:FRACTION[:down][:wrap].)";
 std::string take_option(std::vector<std::string>& arguments, const char* option) {
   const auto at = std::find(arguments.begin(), arguments.end(), option);
   if (at == arguments.end() || at + 1 == arguments.end()) return {};
-  const std::string value = *(at + 1);
+  std::string value = *(at + 1);
   arguments.erase(at, at + 2);
   return value;
 }
