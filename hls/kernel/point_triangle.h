@@ -61,20 +61,19 @@ TriangleView<Scalar> view_edges(const TriangleRecord<Scalar>& t, const Scalar& y
           {across23, along23, edge_residual(along23, Scalar(along23 - t.edge23.length))}};
 }
 
-// `segment` is the record's flag: the triangle is degenerate and only edge 1 counts.
-// Works on any Scalar and its condition type; exact to the bit for a given Scalar. Error against
-// the true distance: docs/numerics.md.
+// Where a point in the plane of a triangle is nearest to it.
 template <class Scalar, class Condition>
-Scalar squared_distance(const TriangleRecord<Scalar>& t, const Condition& segment,
-                        const Vector3<Scalar>& p) {
-  const Scalar zero(0.0f);
-  const Vector3<Scalar> frame = to_frame(t, p);
-  const TriangleView<Scalar> view = view_edges(t, frame.y, frame.z);
-  const auto visible12 = either(view.edge12.across < zero, segment);
-  const auto visible13 = both(view.edge13.across < zero, negated(segment));
-  const auto visible23 = both(view.edge23.across < zero, negated(segment));
+struct NearestEdge {
+  Scalar across, residual;
+  Condition outside;  // else the point is inside, and the edge says nothing
+};
 
-  // An edge of higher number is chosen only where its residual is smaller: ties go to the lower.
+// Of the visible edges the one with the least |r|. An edge of higher number is chosen only where
+// its residual is smaller: ties go to the lower.
+template <class Scalar, class Condition>
+NearestEdge<Scalar, Condition> nearest_edge(const TriangleView<Scalar>& view,
+                                            const Condition& visible12, const Condition& visible13,
+                                            const Condition& visible23) {
   const auto prefer23 =
       both(visible23, either(negated(visible13),
                              magnitude(view.edge23.residual) < magnitude(view.edge13.residual)));
@@ -88,9 +87,26 @@ Scalar squared_distance(const TriangleRecord<Scalar>& t, const Condition& segmen
   const Scalar residual = select(prefer_upper, residual_upper, view.edge12.residual);
 
   const auto outside = either(visible12, visible_upper);
+  return {across, residual, outside};
+}
+
+// `segment` is the record's flag: the triangle is degenerate and only edge 1 counts.
+// Works on any Scalar and its condition type; exact to the bit for a given Scalar. Error against
+// the true distance: docs/numerics.md.
+template <class Scalar, class Condition>
+Scalar squared_distance(const TriangleRecord<Scalar>& t, const Condition& segment,
+                        const Vector3<Scalar>& p) {
+  const Scalar zero(0.0f);
+  const Vector3<Scalar> frame = to_frame(t, p);
+  const TriangleView<Scalar> view = view_edges(t, frame.y, frame.z);
+  const auto visible12 = either(view.edge12.across < zero, segment);
+  const auto visible13 = both(view.edge13.across < zero, negated(segment));
+  const auto visible23 = both(view.edge23.across < zero, negated(segment));
+  const auto nearest = nearest_edge(view, visible12, visible13, visible23);
+
   const Scalar off_plane = frame.x * frame.x;
-  const Scalar in_plane = across * across + residual * residual;
-  return off_plane + select(outside, in_plane, zero);
+  const Scalar in_plane = nearest.across * nearest.across + nearest.residual * nearest.residual;
+  return off_plane + select(nearest.outside, in_plane, zero);
 }
 
 }  // namespace emax
