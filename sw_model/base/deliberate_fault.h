@@ -8,6 +8,9 @@ enum class Fault {
   // In the search for e_max in blocks.
   kSearchWithoutMargin,  // lower bounds are taken as exact
   kSearchDropsTies,      // groups that could hold a lower index are dropped
+  // In the fixed-point filter.
+  kFilterWithoutMargin,    // the filter's distance is taken as exact
+  kFilterTrustsSaturated,  // a distance is trusted although its numbers may have left their range
   // In the distance between surfaces.
   kCutsWithoutMargin,    // the rounding of cuts is not added
   kNearestOfEachCorner,  // a bound is taken from each corner's own nearest triangle

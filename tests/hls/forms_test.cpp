@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hls/kernel/forms/barycentric.h"
+#include "hls/kernel/forms/guarded_edge.h"
 #include "hls/kernel/forms/three_edge.h"
 #include "hls/kernel/point_triangle.h"
 #include "sw_model/model/triangle_frame.h"
@@ -47,6 +48,12 @@ TEST(Forms, CostTheOperationsTheirHeadersState) {
       [](const auto& t, auto flag, const auto& p) { squared_distance(t, flag, p); });
   EXPECT_EQ(visible.multiplications, 20);
   EXPECT_EQ(visible.additions, 18);
+  const Counts guarded =
+      count_operations<TriangleRecord<CountingScalar>>([](const auto& t, auto flag, const auto& p) {
+        squared_distance_guarded<CountingScalar>(t, flag, p);
+      });
+  EXPECT_EQ(guarded.multiplications, 20);
+  EXPECT_EQ(guarded.additions, 18);
   const Counts three = count_operations<TriangleRecord<CountingScalar>>(
       [](const auto& t, auto flag, const auto& p) { squared_distance_three_edge(t, flag, p); });
   EXPECT_EQ(three.multiplications, 24);
@@ -72,6 +79,9 @@ TEST(Forms, AgreeOnEveryStimulus) {
         const double reach = eigen(frame.record.v1).norm() + frame.record.length12 + 2;
         const double d = std::sqrt(squared_distance(record, frame.segment, points[i]));
         ASSERT_NEAR(d, std::sqrt(squared_distance_three_edge(record, frame.segment, points[i])),
+                    2e-6 * reach)
+            << "point " << i << ", triangle " << j;
+        ASSERT_NEAR(d, std::sqrt(squared_distance_guarded<float>(record, frame.segment, points[i])),
                     2e-6 * reach)
             << "point " << i << ", triangle " << j;
         ASSERT_NEAR(d, std::sqrt(squared_distance_barycentric(literal, frame.segment, points[i])),
