@@ -24,6 +24,7 @@ import decimation_bench
 import device_bench
 import error_bench
 import features_bench
+import filter_bench
 import scale_bench
 import search_bench
 import sections
@@ -160,7 +161,7 @@ def install_peers():
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="./dev bench", description="\n".join([__doc__, error_bench.__doc__, search_bench.__doc__, decimation_bench.__doc__, corpus_bench.__doc__, surface_bench.__doc__, features_bench.__doc__, scale_bench.__doc__, device_bench.__doc__, comparison_bench.__doc__]),
+        prog="./dev bench", description="\n".join([__doc__, error_bench.__doc__, search_bench.__doc__, decimation_bench.__doc__, corpus_bench.__doc__, surface_bench.__doc__, features_bench.__doc__, scale_bench.__doc__, device_bench.__doc__, filter_bench.__doc__, comparison_bench.__doc__]),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Other arguments go to the program, which then prints and writes no file; "
                f"{PROGRAM} --help lists them, and --benchmark_filter=REGEX is Google Benchmark's.")
@@ -176,10 +177,11 @@ def main():
     parser.add_argument("--features", action="store_true", help="measure the search for planes instead")
     parser.add_argument("--scale", action="store_true", help="measure large clouds instead")
     parser.add_argument("--devices", action="store_true", help="measure pairs a second of every device instead")
+    parser.add_argument("--filter", action="store_true", help="measure what the fixed-point filter leaves open instead")
     parser.add_argument("--comparison", action="store_true",
                         help="give files to emax and other tools instead, and write docs/comparison.md")
     arguments, others = parser.parse_known_args()
-    if arguments.quick and (arguments.search or arguments.error or arguments.corpus or arguments.surfaces or arguments.features or arguments.scale or arguments.devices or arguments.comparison):
+    if arguments.quick and (arguments.search or arguments.error or arguments.corpus or arguments.surfaces or arguments.features or arguments.scale or arguments.devices or arguments.filter or arguments.comparison):
         parser.error("--quick is for the engine and --decimate; --search --only ablations takes some minutes")
     LOG.unlink(missing_ok=True)
     if arguments.search:
@@ -202,6 +204,9 @@ def main():
         return
     if arguments.devices:
         device_bench.main()
+        return
+    if arguments.filter:
+        filter_bench.main()
         return
     if arguments.comparison:
         comparison_bench.main(install_peers(), fetch_gltfpack(), FILES_PYTHON)

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 DOCUMENT = Path("docs/benchmarks.md")
-NAMES = ["error", "search", "scans", "decimation", "corpus", "surfaces", "features", "scale"]
+NAMES = ["error", "search", "scans", "decimation", "corpus", "surfaces", "features", "scale", "filter"]
 
 
 def marks(name):

@@ -7,7 +7,7 @@ verb_bench() {
   # Not the tests, which are in that preset too.
   verb_build bench emax emax_benchmark emax_decimation_benchmark emax_search_benchmark \
     emax_search_problems emax_scan emax_surface_distance_benchmark emax_device_benchmark \
-    emax_features_benchmark
+    emax_features_benchmark emax_filter_benchmark
   verb_data
   case " $* " in
     *" --comparison "*) python_packages "laspy and pye57" tests/host/files/requirements.txt ;;
