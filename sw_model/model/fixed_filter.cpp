@@ -14,12 +14,16 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Greater than every squared distance: of a point that has met no triangle.
-const FilterSquare kNoTriangleYet = FilterSquare::from_raw(fixed_greatest(37));
+template <int kBits>
+FilterSquare<kBits> none() {
+  using Square = FilterSquare<kBits>;
+  return Square::from_raw(fixed_greatest(Square::format().width));
+}
 
 // In filter units.
-double filter_distance(FilterSquare squared_distance) {
-  if (squared_distance == kNoTriangleYet) return kInfinity;
-  return std::sqrt(static_cast<double>(squared_distance));
+template <int kBits>
+double filter_distance(FilterSquare<kBits> squared) {
+  return squared == none<kBits>() ? kInfinity : std::sqrt(static_cast<double>(squared));
 }
 
 // The greatest exponent up to `most` with which value * 2^exponent is at most `limit`.
@@ -53,8 +57,8 @@ int filter_exponent(std::span<const Vector3<float>> points,
   return fitting_exponent(longest, 1, fitting_exponent(extent, 2 - filter_step(bits), kMost));
 }
 
-double filter_upper_bound(FilterSquare squared_distance, double longest, int bits) {
-  const double step = filter_step(bits), f = filter_distance(squared_distance);
+double filter_upper_bound(double f, double longest, int bits) {
+  const double step = filter_step(bits);
   if (!EMAX_FAULT(kFilterTrustsSaturated) && f >= 1 - kFilterUnreachedSteps * step) {
     return kInfinity;
   }
@@ -72,7 +76,7 @@ FilterBounds filter_bounds(std::span<const Vector3<float>> points,
   for (const Vector3<float>& p : points) fixed_points.push_back(filter_point<kBits>(p, exponent));
 
   FilterBounds bounds;
-  std::vector<FilterSquare> nearest(points.size(), kNoTriangleYet);
+  std::vector<FilterSquare<kBits>> nearest(points.size(), none<kBits>());
   double longest = 0;
   for (const TriangleRecord<float>& record : records) {
     const auto fixed = filter_record<kBits>(record, exponent);
@@ -85,9 +89,10 @@ FilterBounds filter_bounds(std::span<const Vector3<float>> points,
       nearest[i] = std::min(nearest[i], filter_squared_distance<kBits>(fixed_points[i], *fixed));
     }
   }
-  for (const FilterSquare squared : nearest) {
-    bounds.distance.push_back(std::ldexp(filter_distance(squared), -exponent));
-    bounds.upper.push_back(std::ldexp(filter_upper_bound(squared, longest, kBits), -exponent));
+  for (const FilterSquare<kBits> squared : nearest) {
+    const double f = filter_distance<kBits>(squared);
+    bounds.distance.push_back(std::ldexp(f, -exponent));
+    bounds.upper.push_back(std::ldexp(filter_upper_bound(f, longest, kBits), -exponent));
   }
   return bounds;
 }

@@ -28,8 +28,9 @@ constexpr int kFilterBits = 18;
 template <int kBits>
 using FilterScalar = Fixed<kBits, kBits - 2, Rounding::kHalfUp, Overflow::kSaturate>;
 constexpr int kLeastFilterBits = 14, kMostFilterBits = 18;  // for which the error is proven
-// Holds sums of three products of any of them: below 12 in steps of 2^-32.
-using FilterSquare = Fixed<37, 32, Rounding::kDown, Overflow::kWrap>;
+// Steps of filter_step(kBits) squared.
+template <int kBits>
+using FilterSquare = SumOfProducts<FilterScalar<kBits>>;
 
 inline double filter_step(int bits) { return std::ldexp(1.0, 2 - bits); }
 
@@ -79,12 +80,12 @@ std::optional<TriangleRecord<FilterScalar<kBits>>> filter_record(
 
 // The filter's squared distance of one pair, in filter units.
 template <int kBits>
-FilterSquare filter_squared_distance(const Vector3<FilterScalar<kBits>>& point,
-                                     const TriangleRecord<FilterScalar<kBits>>& record) {
+FilterSquare<kBits> filter_squared_distance(const Vector3<FilterScalar<kBits>>& point,
+                                            const TriangleRecord<FilterScalar<kBits>>& record) {
   static_assert(kLeastFilterBits <= kBits && kBits <= kMostFilterBits,
                 "docs/numerics.md proves the error of 14 to 18 bits");
   const bool segment = (record.tag & kSegmentFlag) != 0;
-  return squared_distance_guarded<FilterSquare>(record, segment, point);
+  return squared_distance_guarded(record, segment, point);
 }
 
 // What the filter's distance f of a pair proves: the kernel's distance d_k, in filter units, is at
@@ -97,7 +98,7 @@ constexpr double kFilterErrorOfDistance = 3.125;
 constexpr double kFilterErrorOfLength = 4.625;
 // A pair of which a number saturated has f >= 1 - 16 steps.
 constexpr double kFilterUnreachedSteps = 16;
-double filter_upper_bound(FilterSquare squared_distance, double longest, int bits);
+double filter_upper_bound(double f, double longest, int bits);
 
 struct FilterCounts {
   std::size_t points = 0;

@@ -48,10 +48,8 @@ TEST(Forms, CostTheOperationsTheirHeadersState) {
       [](const auto& t, auto flag, const auto& p) { squared_distance(t, flag, p); });
   EXPECT_EQ(visible.multiplications, 20);
   EXPECT_EQ(visible.additions, 18);
-  const Counts guarded =
-      count_operations<TriangleRecord<CountingScalar>>([](const auto& t, auto flag, const auto& p) {
-        squared_distance_guarded<CountingScalar>(t, flag, p);
-      });
+  const Counts guarded = count_operations<TriangleRecord<CountingScalar>>(
+      [](const auto& t, auto flag, const auto& p) { squared_distance_guarded(t, flag, p); });
   EXPECT_EQ(guarded.multiplications, 20);
   EXPECT_EQ(guarded.additions, 18);
   const Counts three = count_operations<TriangleRecord<CountingScalar>>(
@@ -81,7 +79,7 @@ TEST(Forms, AgreeOnEveryStimulus) {
         ASSERT_NEAR(d, std::sqrt(squared_distance_three_edge(record, frame.segment, points[i])),
                     2e-6 * reach)
             << "point " << i << ", triangle " << j;
-        ASSERT_NEAR(d, std::sqrt(squared_distance_guarded<float>(record, frame.segment, points[i])),
+        ASSERT_NEAR(d, std::sqrt(squared_distance_guarded(record, frame.segment, points[i])),
                     2e-6 * reach)
             << "point " << i << ", triangle " << j;
         ASSERT_NEAR(d, std::sqrt(squared_distance_barycentric(literal, frame.segment, points[i])),

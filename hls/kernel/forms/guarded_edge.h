@@ -12,7 +12,7 @@
 // than some steps for a triangle of any shape (docs/numerics.md). It can be too large by more for a
 // flat one, whose apex has nearly 180 degrees.
 //
-// Products and their sums are of the type Wide, and each coordinate is rounded to a Scalar once.
+// Products and their sums are exact, and each coordinate is rounded to a Scalar once.
 // 20 multiplications and 18 additions.
 #ifndef EMAX_HLS_KERNEL_FORMS_GUARDED_EDGE_H
 #define EMAX_HLS_KERNEL_FORMS_GUARDED_EDGE_H
@@ -22,15 +22,31 @@
 
 namespace emax {
 
-template <class Wide, class Scalar>
+// Holds sums of three products of two Scalars: they need no rounding and never wrap around. Of
+// scalars that are not fixed-point numbers it is Scalar itself.
+template <class Scalar>
+struct SumOfProductsOf {
+  using Type = Scalar;
+};
+template <template <int, int, Rounding, Overflow> class Number, int kWidth, int kFraction,
+          Rounding kRounding, Overflow kOverflow>
+struct SumOfProductsOf<Number<kWidth, kFraction, kRounding, kOverflow>> {
+  using Type = Number<2 * kWidth + 1, 2 * kFraction, Rounding::kDown, Overflow::kWrap>;
+};
+template <class Scalar>
+using SumOfProducts = typename SumOfProductsOf<Scalar>::Type;
+
+template <class Scalar>
 Scalar rounded_dot(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+  using Wide = SumOfProducts<Scalar>;
   return Scalar(product<Wide>(a.x, b.x) + product<Wide>(a.y, b.y) + product<Wide>(a.z, b.z));
 }
 
 // view_edges() with each coordinate rounded once.
-template <class Wide, class Scalar>
+template <class Scalar>
 TriangleView<Scalar> rounded_view(const TriangleRecord<Scalar>& t, const Scalar& y,
                                   const Scalar& z) {
+  using Wide = SumOfProducts<Scalar>;
   const Scalar z_from_v2 = z - t.length12;
   const Vector2<Scalar>& e2 = t.edge13.direction;
   const Vector2<Scalar>& e3 = t.edge23.direction;
@@ -43,17 +59,16 @@ TriangleView<Scalar> rounded_view(const TriangleRecord<Scalar>& t, const Scalar&
           {across23, along23, edge_residual(along23, Scalar(along23 - t.edge23.length))}};
 }
 
-// Wide holds sums of three products without rounding: Fixed<37, 32> for a Scalar of 18 bits with 16
-// behind the point. Scalar and Wide may both be float.
-template <class Wide, class Scalar, class Condition>
-Wide squared_distance_guarded(const TriangleRecord<Scalar>& t, const Condition& segment,
-                              const Vector3<Scalar>& p) {
+template <class Scalar, class Condition>
+SumOfProducts<Scalar> squared_distance_guarded(const TriangleRecord<Scalar>& t,
+                                               const Condition& segment, const Vector3<Scalar>& p) {
+  using Wide = SumOfProducts<Scalar>;
   const Scalar zero(0.0f);
   const Vector3<Scalar> q = {p.x - t.v1.x, p.y - t.v1.y, p.z - t.v1.z};
-  const Scalar x = rounded_dot<Wide>(t.normal, q);
-  const Scalar y = rounded_dot<Wide>(t.in_plane, q);
-  const Scalar z = rounded_dot<Wide>(t.along, q);
-  const TriangleView<Scalar> view = rounded_view<Wide>(t, y, z);
+  const Scalar x = rounded_dot(t.normal, q);
+  const Scalar y = rounded_dot(t.in_plane, q);
+  const Scalar z = rounded_dot(t.along, q);
+  const TriangleView<Scalar> view = rounded_view(t, y, z);
   const auto before_v1 = view.edge12.residual < zero;
   const auto beyond_v2 = zero < view.edge12.residual;
   const auto visible12 = either(y < zero, segment);

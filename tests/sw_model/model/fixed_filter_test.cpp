@@ -216,8 +216,8 @@ struct Bounded {
 };
 
 template <int kBits>
-using FixedForm = std::function<FilterSquare(const Vector3<FilterScalar<kBits>>&,
-                                             const TriangleRecord<FilterScalar<kBits>>&)>;
+using FixedForm = std::function<FilterSquare<kBits>(const Vector3<FilterScalar<kBits>>&,
+                                                    const TriangleRecord<FilterScalar<kBits>>&)>;
 
 template <int kBits>
 std::optional<Bounded> measure(const Pair& pair, const FixedForm<kBits>& form) {
@@ -227,11 +227,11 @@ std::optional<Bounded> measure(const Pair& pair, const FixedForm<kBits>& form) {
   const auto fixed = filter_record<kBits>(record, kExponent);
   if (!fixed || pair.p.cwiseAbs().maxCoeff() > 1 - std::ldexp(1.0, 1 - kBits)) return std::nullopt;
   const double step = std::ldexp(1.0, 2 - kBits);
-  const FilterSquare squared = form(filter_point<kBits>(p, kExponent), *fixed);
+  const FilterSquare<kBits> squared = form(filter_point<kBits>(p, kExponent), *fixed);
   const double f = std::sqrt(static_cast<double>(squared));
   const double kernel = std::ldexp(distance_of(pair_squared_bits(p, record)), kExponent);
   const double longest = std::ldexp(static_cast<double>(record.length12), kExponent);
-  const double upper = filter_upper_bound(squared, longest, kBits);
+  const double upper = filter_upper_bound(f, longest, kBits);
   return Bounded{(kernel - f) / (upper - f), (f - kernel) / step};
 }
 
@@ -284,17 +284,17 @@ TEST(FilterBound, HoldsFor16Bits) { expect_theorem<16>(); }
 TEST(FilterBound, HoldsFor14Bits) { expect_theorem<14>(); }
 
 // Visible edges by the sign of h alone: beyond a sharp corner no edge is seen.
-FilterSquare without_guard(const Vector3<FilterScalar<18>>& p,
-                           const TriangleRecord<FilterScalar<18>>& t) {
+FilterSquare<18> without_guard(const Vector3<FilterScalar<18>>& p,
+                               const TriangleRecord<FilterScalar<18>>& t) {
   const FilterScalar<18> zero(0.0);
   const Vector3<FilterScalar<18>> q = {p.x - t.v1.x, p.y - t.v1.y, p.z - t.v1.z};
-  const auto x = rounded_dot<FilterSquare>(t.normal, q);
-  const auto y = rounded_dot<FilterSquare>(t.in_plane, q);
-  const auto z = rounded_dot<FilterSquare>(t.along, q);
-  const auto view = rounded_view<FilterSquare>(t, y, z);
+  const auto x = rounded_dot(t.normal, q);
+  const auto y = rounded_dot(t.in_plane, q);
+  const auto z = rounded_dot(t.along, q);
+  const auto view = rounded_view(t, y, z);
   const bool seen = (t.tag & kSegmentFlag) != 0 || y < zero || view.edge13.across < zero ||
                     view.edge23.across < zero;
-  return seen ? filter_squared_distance<18>(p, t) : product<FilterSquare>(x, x);
+  return seen ? filter_squared_distance<18>(p, t) : product<FilterSquare<18>>(x, x);
 }
 
 TEST(FilterBound, IsBrokenWithoutTheGuard) {
@@ -318,11 +318,11 @@ TEST(FilterBound, IsInfiniteForWhatMayHaveSaturated) {
     const Vector3<float> p = kernel_point(random.point(-0.99, 0.99));
     const auto fixed = filter_record<18>(record, 1);
     if (!fixed) continue;
-    const FilterSquare squared = filter_squared_distance<18>(filter_point<18>(p, 1), *fixed);
+    const FilterSquare<18> squared = filter_squared_distance<18>(filter_point<18>(p, 1), *fixed);
     const double kernel = std::ldexp(distance_of(pair_squared_bits(p, record)), 1);
     const double longest = std::ldexp(static_cast<double>(record.length12), 1);
-    ASSERT_LE(kernel, filter_upper_bound(squared, longest, 18)) << "seed 65, pair " << i;
     const double f = std::sqrt(static_cast<double>(squared));
+    ASSERT_LE(kernel, filter_upper_bound(f, longest, 18)) << "seed 65, pair " << i;
     too_small += kernel > f * 1.01 ? 1 : 0;
   }
   EXPECT_GT(too_small, 1000) << "too few pairs saturated";
