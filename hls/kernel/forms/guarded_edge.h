@@ -50,10 +50,10 @@ TriangleView<Scalar> rounded_view(const TriangleRecord<Scalar>& t, const Scalar&
   const Scalar z_from_v2 = z - t.length12;
   const Vector2<Scalar>& e2 = t.edge13.direction;
   const Vector2<Scalar>& e3 = t.edge23.direction;
-  const Scalar along13(product<Wide>(y, e2.y) + product<Wide>(z, e2.z));
-  const Scalar across13(product<Wide>(z, e2.y) - product<Wide>(y, e2.z));
-  const Scalar along23(product<Wide>(y, e3.y) + product<Wide>(z_from_v2, e3.z));
-  const Scalar across23(product<Wide>(y, e3.z) - product<Wide>(z_from_v2, e3.y));
+  const Scalar along13 = Scalar(product<Wide>(y, e2.y) + product<Wide>(z, e2.z));
+  const Scalar across13 = Scalar(product<Wide>(z, e2.y) - product<Wide>(y, e2.z));
+  const Scalar along23 = Scalar(product<Wide>(y, e3.y) + product<Wide>(z_from_v2, e3.z));
+  const Scalar across23 = Scalar(product<Wide>(y, e3.z) - product<Wide>(z_from_v2, e3.y));
   return {{y, z, edge_residual(z, z_from_v2)},
           {across13, along13, edge_residual(along13, Scalar(along13 - t.edge13.length))},
           {across23, along23, edge_residual(along23, Scalar(along23 - t.edge23.length))}};
