@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "host/files/copy_limit.h"
@@ -138,14 +139,7 @@ class Scene {
     const std::optional<std::uint64_t> position = attributes.whole("POSITION");
     if (!position) return;  // the specification lets a reader pass over it
     const GltfAccessor vertices = glb_.accessor(*position, "VEC3", primitive.place);
-    limit_.spend(vertices.size());
-    const std::size_t first = content_.vertices.size();
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      content_.add_vertex(
-          pose({vertices.number(v, 0), vertices.number(v, 1), vertices.number(v, 2)}), "vertex",
-          content_.vertices.size());
-    }
-    ++primitives_;
+    const std::size_t first = add_vertices(vertices, *position, pose);
     if (mode == kPoints) return;
     if (!primitive.has("indices")) may_repeat_ = true;
     const std::vector<std::uint32_t> corners = corners_of(primitive, vertices.size());
@@ -154,6 +148,24 @@ class Scene {
     }
     add_triangles(corners, mode, static_cast<std::uint32_t>(first),
                   pose.rotation.determinant() < 0);
+  }
+
+  // The number of the first of them. Vertices that another part of our file has at the same place
+  // are added once: our writer gives all parts the vertices of the whole.
+  std::size_t add_vertices(const GltfAccessor& vertices, std::uint64_t accessor, const Pose& pose) {
+    if (is_ours_ && added_ && added_->accessor == accessor &&
+        added_->pose.rotation == pose.rotation && added_->pose.shift == pose.shift) {
+      return added_->first;
+    }
+    limit_.spend(vertices.size());
+    added_ = {accessor, pose, content_.vertices.size()};
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      content_.add_vertex(
+          pose({vertices.number(v, 0), vertices.number(v, 1), vertices.number(v, 2)}), "vertex",
+          content_.vertices.size());
+    }
+    ++primitives_;
+    return added_->first;
   }
 
   std::vector<std::uint32_t> corners_of(const GltfObject& primitive, std::size_t vertices) {
@@ -207,6 +219,12 @@ class Scene {
   CopyLimit limit_;
   std::vector<bool> seen_;  // of the nodes
   FileContent content_;
+  struct AddedVertices {
+    std::uint64_t accessor;
+    Pose pose;
+    std::size_t first;
+  };
+  std::optional<AddedVertices> added_;  // last
   std::size_t primitives_ = 0;
   bool may_repeat_ = false;
   bool is_ours_ = false;  // our writer made the file

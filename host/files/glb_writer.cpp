@@ -62,6 +62,14 @@ std::size_t add_positions(std::span<const Point> points, const Point& origin, Ar
   return position;
 }
 
+std::size_t add_indices(std::span<const Triangle> triangles, Arrays& arrays) {
+  return arrays.add(kGltfUint32, "SCALAR", 3 * triangles.size(), kTargetIndices, [&] {
+    for (const Triangle& t : triangles) {
+      for (const std::uint32_t corner : t) append_value(arrays.bytes, corner);
+    }
+  });
+}
+
 OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const Point& origin,
                          Arrays& arrays) {
   const std::size_t position = add_positions(mesh.vertices, origin, arrays);
@@ -76,12 +84,7 @@ OrderedJson primitive_of(const TriangleMesh& mesh, const MeshNotes& notes, const
     primitive["mode"] = kPointsMode;
     return primitive;
   }
-  primitive["indices"] =
-      arrays.add(kGltfUint32, "SCALAR", 3 * mesh.triangles.size(), kTargetIndices, [&] {
-        for (const Triangle& t : mesh.triangles) {
-          for (const std::uint32_t corner : t) append_value(arrays.bytes, corner);
-        }
-      });
+  primitive["indices"] = add_indices(mesh.triangles, arrays);
   return primitive;
 }
 
@@ -122,6 +125,15 @@ OrderedJson material() {
           {"doubleSided", true}};
 }
 
+OrderedJson material(const std::array<std::uint8_t, 3>& colour) {
+  OrderedJson look = material();
+  OrderedJson factor = OrderedJson::array();
+  for (const std::uint8_t c : colour) factor.push_back(c / 255.0);
+  factor.push_back(1);
+  look["pbrMetallicRoughness"]["baseColorFactor"] = std::move(factor);
+  return look;
+}
+
 std::string container(const OrderedJson& json, const std::string& binary) {
   std::string bytes(kGlbMagic);
   append_value(bytes, kGlbVersion);
@@ -137,9 +149,37 @@ std::string container(const OrderedJson& json, const std::string& binary) {
   return bytes;
 }
 
+// A mesh of triangles for each run of a group. All have the same vertices.
+std::string glb_of_parts(const TriangleMesh& mesh, const MeshNotes& notes) {
+  const Point origin = storage_origin(mesh.vertices);
+  OrderedJson nodes = OrderedJson::array(), meshes = OrderedJson::array(),
+              materials = OrderedJson::array();
+  Arrays arrays;
+  const OrderedJson whole = primitive_of({mesh.vertices, {}}, notes, origin, arrays);
+  for (const auto& [group, begin, end] : group_runs(*notes.groups)) {
+    const std::string name(name_of(*notes.groups, group));
+    OrderedJson primitive = {
+        {"attributes", whole["attributes"]},
+        {"material", materials.size()},
+        {"indices", add_indices(std::span(mesh.triangles).subspan(begin, end - begin), arrays)}};
+    nodes.push_back({{"name", name}, {"translation", xyz(origin)}, {"mesh", meshes.size()}});
+    OrderedJson part = {{"name", name}};
+    part["primitives"] = OrderedJson::array({std::move(primitive)});
+    meshes.push_back(std::move(part));
+    materials.push_back(
+        group == TriangleGroups::kNone ? material() : material(notes.groups->groups[group].colour));
+  }
+  OrderedJson json = scene_of(notes.unit, std::move(nodes));
+  json["meshes"] = std::move(meshes);
+  json["materials"] = std::move(materials);
+  set_arrays(json, arrays);
+  return container(json, arrays.bytes);
+}
+
 }  // namespace
 
 std::string glb_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
+  if (notes.groups != nullptr && !mesh.triangles.empty()) return glb_of_parts(mesh, notes);
   const Point origin = storage_origin(mesh.vertices);
   OrderedJson node = {{"name", "mesh"}, {"translation", xyz(origin)}};
   if (!mesh.vertices.empty()) node["mesh"] = 0;
@@ -168,11 +208,6 @@ std::string glb_of_groups(const PointGroups& groups) {
     const auto colour = none ? kColourOfNone : groups.groups[g].colour;
     std::vector<Point> points;
     for (const std::uint32_t i : members[g]) points.push_back(groups.points[i]);
-    OrderedJson look = material();
-    OrderedJson factor = OrderedJson::array();
-    for (const std::uint8_t c : colour) factor.push_back(c / 255.0);
-    factor.push_back(1);
-    look["pbrMetallicRoughness"]["baseColorFactor"] = std::move(factor);
     nodes.push_back({{"name", name}, {"translation", xyz(origin)}, {"mesh", meshes.size()}});
     OrderedJson primitive = {{"attributes", {{"POSITION", add_positions(points, origin, arrays)}}},
                              {"material", materials.size()},
@@ -180,7 +215,7 @@ std::string glb_of_groups(const PointGroups& groups) {
     OrderedJson mesh = {{"name", name}};
     mesh["primitives"] = OrderedJson::array({std::move(primitive)});
     meshes.push_back(std::move(mesh));
-    materials.push_back(std::move(look));
+    materials.push_back(material(colour));
   }
   OrderedJson json = scene_of(groups.unit, std::move(nodes));
   if (!groups.points.empty()) {

@@ -106,7 +106,7 @@ std::string mesh_bytes(const TriangleMesh& mesh, MeshFormat format, const MeshNo
     case MeshFormat::kPly:
       return ply_bytes(mesh, notes);
     case MeshFormat::kObj:
-      return obj_bytes(mesh);
+      return obj_bytes(mesh, notes);
     case MeshFormat::kStl:
       return stl_bytes(mesh);
     case MeshFormat::kGlb:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -20,11 +22,25 @@ std::span<const std::string_view> mesh_endings();
 // The format by the ending of `path`. Throws Error for another ending.
 MeshFormat mesh_format(const std::filesystem::path& path);
 
+// The parts of a mesh, each with a name and a colour.
+struct TriangleGroups {
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  struct Group {
+    std::string name;  // of letters, digits and _
+    std::array<std::uint8_t, 3> colour;
+  };
+  std::vector<std::uint32_t> group_of;  // of each triangle; kNone: none
+  std::vector<Group> groups;
+};
+
 // What a file holds beside vertices and triangles, where its format has a place for it.
 struct MeshNotes {
   std::optional<Unit> unit = {};                       // of the coordinates: GLB, 3MF, DXF
   std::span<const float> deviation = {};               // empty, or a number per vertex: PLY, GLB
   std::span<const float> deviation_of_triangles = {};  // empty, or a number per triangle: PLY
+  // PLY: the number of each triangle's group as `region`, -1 for none; OBJ: groups; GLB: a mesh of
+  // its name and colour for each. Where triangles of a group follow others, it begins again.
+  const TriangleGroups* groups = nullptr;
 };
 
 // A mesh, with the names of the other attributes in its file, which the files that we write do not

@@ -146,6 +146,30 @@ TEST_F(SceneFile, DeviationsOfTrianglesHaveAPlaceInPly) {
   EXPECT_EQ(file.attributes, std::vector<std::string>{"\"deviation\""});
 }
 
+TEST_F(SceneFile, GroupsOfTrianglesHaveAPlaceAndLeaveTheMesh) {
+  TriangleMesh apart = kTetrahedron;
+  apart.vertices.push_back(apart.vertices[3]);  // stays a vertex of its own
+  apart.triangles[2][2] = 4;
+  const TriangleGroups groups{{1, 1, TriangleGroups::kNone, 0},
+                              {{"plane_1", {10, 20, 30}}, {"plane_2", {40, 50, 60}}}};
+  for (const std::string name : {"a.ply", "a.obj", "a.glb"}) {
+    SCOPED_TRACE(name);
+    write_mesh(folder_ / name, apart, {.groups = &groups});
+    const MeshFile file = read_mesh_file(folder_ / name);
+    EXPECT_EQ(file.mesh.vertices, apart.vertices);
+    EXPECT_EQ(file.mesh.triangles, apart.triangles);
+  }
+  const std::string glb = bytes_of(folder_ / "a.glb"), obj = bytes_of(folder_ / "a.obj"),
+                    ply = bytes_of(folder_ / "a.ply");
+  for (const std::string_view named :
+       {"\"name\":\"plane_2\"", "\"name\":\"none\"", "\"name\":\"plane_1\""}) {
+    EXPECT_NE(glb.find(named), std::string::npos) << named;
+  }
+  EXPECT_TRUE(obj.ends_with("g plane_2\nf 1 3 2\nf 1 2 4\ng none\nf 2 3 5\ng plane_1\nf 3 1 4\n"));
+  EXPECT_NE(ply.find("property int region\n"), std::string::npos);
+  EXPECT_TRUE(ply.ends_with(std::string(4, '\0')));  // of the last triangle: group 0
+}
+
 TEST_F(SceneFile, GlbNodesAreTurnedScaledAndShifted) {
   Sample sample;
   EXPECT_EQ(read(sample).vertices, (std::vector<Point>{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}));
