@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 
 # The rooms that the public headers need. Their objects are compiled once.
 set(rooms emax_base emax_model emax_certify emax_protocol emax_simd emax_geometry emax_surface
-  emax_decimate emax_engine emax_block_search emax_measure emax_genocop)
+  emax_features emax_decimate emax_engine emax_block_search emax_measure emax_genocop)
 set(objects)
 foreach(room ${rooms})
   list(APPEND objects $<TARGET_OBJECTS:${room}>)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "host/decimate/decimation_schedule.h"
 #include "host/decimate/far_points.h"
@@ -25,6 +26,7 @@ constexpr double kBelongs = 0.1;                               // of the mesh's 
 // Times the limit: longer edges of the reference get a sample, those of its border several.
 constexpr double kSampledEdge = 4, kSampledBorder = 1;
 constexpr double kMostOnBorder = 7;
+constexpr double kOnPlane = 1e-7;  // of the limit: what lies on a plane but for rounding
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -51,6 +53,21 @@ double limit_of(double epsilon, double roundings, double undecided) {
 std::size_t guides_of(std::size_t points, std::size_t vertices) {
   constexpr std::size_t kGuides = 160'000;
   return std::max<std::size_t>(points / std::max(vertices, kGuides), 1);
+}
+
+bool has_planes(const DecimationSettings& settings) {
+  return settings.planes && !settings.planes->planes.empty();
+}
+
+// The triangles on each plane follow each other, in the order of the planes; then all others.
+void order_by_plane(TriangleMesh& mesh, std::span<const Plane> planes, double limit) {
+  const std::vector<std::uint32_t> plane_of = planes_under(mesh, planes, kOnPlane * limit);
+  std::vector<std::uint32_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return plane_of[t]; });
+  std::vector<Triangle> ordered;
+  for (const std::uint32_t t : order) ordered.push_back(mesh.triangles[t]);
+  mesh.triangles = std::move(ordered);
 }
 
 void require_belonging(const DecimationState& state) {
@@ -230,7 +247,29 @@ const BoundedDecimator::Prepared& BoundedDecimator::prepared(double limit,
 
 DecimatedMesh BoundedDecimator::run(const TriangleMesh& start,
                                     const DecimationSettings& settings) const {
-  return run(start, settings, 0);
+  const bool twice = settings.without_planes_too && has_planes(settings);
+  return twice ? run_twice(start, settings) : run(start, settings, 0);
+}
+
+// With planes, then without.
+DecimatedMesh BoundedDecimator::run_twice(const TriangleMesh& start,
+                                          const DecimationSettings& settings) const {
+  DecimationSettings half = settings;
+  double begun = 0;
+  if (settings.advanced) {
+    half.advanced = [&](double share, std::size_t triangles) {
+      settings.advanced(begun + share / 2, triangles);
+    };
+  }
+  DecimatedMesh with = run(start, half, 0);
+  if (with.interrupted) return with;
+  begun = 0.5;
+  half.planes = nullptr;
+  if (with.expected == 0) half.rival = with.mesh.triangles.size();
+  DecimatedMesh without = run(start, half, 0);
+  const bool fewer = without.mesh.triangles.size() < with.mesh.triangles.size();
+  with.interrupted = without.interrupted;
+  return fewer ? without : with;
 }
 
 DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationSettings& settings,
@@ -273,10 +312,15 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     options.spring = settings.hoppe.spring;
     options.representation = settings.hoppe.representation * width * width / (limit * limit);
   }
+  if (has_planes(settings)) {
+    state.follow(settings.planes->planes,
+                 planes_of_triangles(ordered, *settings.planes, limit, settings.threads));
+  }
   ScheduledMesh scheduled = run_passes(state, std::move(options), settings);
   result.interrupted = !scheduled.complete;
   result.expected = scheduled.expected;
   result.mesh = std::move(scheduled.mesh);
+  if (has_planes(settings)) order_by_plane(result.mesh, settings.planes->planes, limit);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/decimate/hoppe_energy.h"
+#include "host/decimate/plane_parts.h"
 #include "host/geometry/triangle_mesh.h"
 
 namespace emax {
@@ -87,6 +88,12 @@ struct DecimationSettings {
   } objective = Objective::kFewest;
   HoppeWeights hoppe;
 
+  // Planes that parts of the start follow, if any. A vertex amid triangles of one plane lies on it,
+  // one between two on their line, one between three at their corner, where the bounds permit that.
+  std::shared_ptr<const PlaneParts> planes = nullptr;
+  // With planes: also decimates without them, and takes the mesh with fewer triangles.
+  bool without_planes_too = false;
+
   // Where the start has vertices that stay, with the triangles between three and the edges between
   // two of them.
   std::vector<Point> fixed;
@@ -155,6 +162,7 @@ class BoundedDecimator {
   friend class DecimationSequence;
   struct Prepared;
 
+  DecimatedMesh run_twice(const TriangleMesh& start, const DecimationSettings& settings) const;
   const Prepared& prepared(double limit, double back_limit) const;
   // If `reach` exceeds epsilon, points up to `reach` from the start hold collapses back, too.
   DecimatedMesh run(const TriangleMesh& start, const DecimationSettings& settings,

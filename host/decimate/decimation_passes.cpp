@@ -197,6 +197,10 @@ bool DecimationPasses::apply_collapse(const Collapse& candidate) {
            search_.finish(fit, true, edit_) && state_.permits(edit_);
   };
   bool made = try_at(candidate.fit);
+  if (!made && search_.place()) {
+    Collapse free;
+    made = proposers_.front().judge(a, b, kPower, free, false) && try_at(free.fit);
+  }
   // At the position of one of the two vertices few triangles are new, so the collapse is less
   // likely to intersect anything.
   if (!made && options_.representation == 0 &&
@@ -230,7 +234,9 @@ void DecimationPasses::make_collapse(std::uint32_t a, std::uint32_t b) {
 }
 
 bool DecimationPasses::try_plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
-  return proposers_.front().plain_collapse(a, b, most) && state_.permits(edit_);
+  EditProposer& proposer = proposers_.front();
+  if (proposer.plain_collapse(a, b, most, true) && state_.permits(edit_)) return true;
+  return search_.place() && proposer.plain_collapse(a, b, most, false) && state_.permits(edit_);
 }
 
 std::size_t DecimationPasses::sweep() {
@@ -328,6 +334,16 @@ std::size_t DecimationPasses::relocate(int power) {
   std::iota(vertices.begin(), vertices.end(), 0u);
   std::erase_if(vertices, [&](std::uint32_t v) { return !state_.mesh().used(v); });
   return relocate_each(std::move(vertices), power, {{0, 1}});
+}
+
+std::size_t DecimationPasses::move_into_place() {
+  if (!state_.follows_planes()) return 0;
+  std::vector<std::uint32_t> vertices(state_.mesh().vertex_slots());
+  std::iota(vertices.begin(), vertices.end(), 0u);
+  std::erase_if(vertices, [&](std::uint32_t v) { return !state_.mesh().used(v); });
+  return edit_each(std::move(vertices), {{0, 1}}, [](EditProposer& proposer, std::uint32_t vertex) {
+    return proposer.into_place(vertex);
+  });
 }
 
 std::size_t DecimationPasses::relocate_each(std::vector<std::uint32_t> vertices, int power,

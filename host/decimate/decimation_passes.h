@@ -41,6 +41,9 @@ class DecimationPasses {
   // Moves each vertex to where the energy of its points is least. Returns the number of moved
   // vertices.
   std::size_t relocate(int power);
+  // Moves vertices onto the planes that the triangles around them follow, as far as the limits
+  // permit. Returns the number of moved vertices.
+  std::size_t move_into_place();
   // Flips each edge whose flip lowers the energy. Returns the number of flips.
   std::size_t flip(int power);
   // Tries collapses that break the limit, and relocates vertices and flips edges around them to

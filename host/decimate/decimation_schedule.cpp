@@ -44,12 +44,14 @@ class Schedule {
     }
     sweep();
     if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
+    if (state_.follows_planes() && settings_.effort != Effort::kSweep) settle_on_planes();
     const bool goes_on =
         settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
     if (goes_on && !passes_.stopped() && !lost(Race::At::kCollapsed)) {
       const bool done = may_even_out() ? equidistribute() : lost(Race::At::kUneven);
       if (!done) improve();
     }
+    move_into_place();
     TriangleMesh mesh = state_.mesh().compact();
     if (kept_ && kept_->triangles.size() < mesh.triangles.size()) mesh = std::move(*kept_);
     return {std::move(mesh), !passes_.stopped(), race_.expected()};
@@ -85,6 +87,16 @@ class Schedule {
     tell("sweeps", collapses);
   }
 
+  std::size_t move_into_place() {
+    if (!state_.follows_planes() || passes_.stopped()) return 0;
+    return tell("vertices moved onto planes", passes_.move_into_place());
+  }
+
+  // Only once the mesh is coarse: vertices as close as their noise would fold over each other.
+  void settle_on_planes() {
+    if (move_into_place() > 0) tell("collapses", passes_.collapse());
+  }
+
   void relocate(int power) { tell("relocations", passes_.relocate(power)); }
   void flip(int power) { tell("flips", passes_.flip(power)); }
 
@@ -114,6 +126,7 @@ class Schedule {
   // their place under loosened limits.
   bool may_even_out() const {
     if (!passes_.features().empty()) return false;
+    if (state_.follows_planes()) return false;
     if (settings_.effort == Effort::kDeep) return true;
     return state_.back() != nullptr &&
            state_.back()->usual_rise() <= kSmooth * state_.back()->limit();

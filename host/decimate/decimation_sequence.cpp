@@ -36,8 +36,8 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
   const TriangleMesh* start = &reference_;
   // The meshes of the sequence were made without features, so a cut with features must start from
   // the reference. Hoppe's energy keeps vertices where the other objective leaves none.
-  const bool direct =
-      settings.feature_angle > 0 || settings.objective != DecimationSettings::Objective::kFewest;
+  const bool direct = settings.feature_angle > 0 || settings.planes ||
+                      settings.objective != DecimationSettings::Objective::kFewest;
   std::vector<TriangleMesh>& meshes = meshes_[settings.two_sided ? 1 : 0];
   double below = finest_;
   for (std::size_t level = 0; !direct && below > 0 && below <= kShare * bound; ++level) {

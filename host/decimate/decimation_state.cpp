@@ -267,6 +267,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
       undo->sight = sight_[edit.vertex];
     }
   }
+  take_planes(edit);
   for (const std::uint32_t slot : edit.removed) mesh_.clear(slot);
   if (edit.vertex != kNoIndex) {
     mesh_.move(edit.vertex, edit.position);
@@ -298,6 +299,30 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   for (const std::uint32_t slot : edit.removed) changed(slot);
   for (std::size_t i = edit.removed.size(); i < placed_.size(); ++i) changed(placed_[i]);
   if (tree_.outgrown(mesh_)) tree_.rebuild(mesh_);
+}
+
+void DecimationState::follow(std::span<const Plane> planes, std::vector<std::uint32_t> plane_of) {
+  planes_ = planes;
+  plane_of_ = std::move(plane_of);
+}
+
+// Of the slots that added triangles will have: those of the removed ones first, then new ones. A
+// split adds as many triangles for each that it removes, in their order.
+void DecimationState::take_planes(const MeshEdit& edit) {
+  if (plane_of_.empty() || edit.added.size() <= edit.removed.size()) return;
+  const std::size_t parts = edit.added.size() / edit.removed.size();
+  std::vector<std::uint32_t> planes;
+  for (std::size_t k = 0; k < edit.added.size(); ++k) {
+    planes.push_back(plane_of(edit.removed[k / parts]));
+  }
+  plane_of_.resize(mesh_.slots(), kNoIndex);
+  for (std::size_t k = 0; k < edit.added.size(); ++k) {
+    if (k < edit.removed.size()) {
+      plane_of_[edit.removed[k]] = planes[k];
+    } else {
+      plane_of_.push_back(planes[k]);  // EditableMesh::add_slot() appends
+    }
+  }
 }
 
 void DecimationState::cover_reference() {
@@ -426,6 +451,7 @@ void DecimationState::restore(const Snapshot& snapshot) {
   assigned_ = snapshot.assigned;
   points_.resize(assigned_.size());
   sight_ = snapshot.sight;
+  plane_of_ = snapshot.plane_of;
   permitted_ = permitted_back_ = 1;
   may_stay_beyond_ = guides_alone_ = false;
   breaks_back_.clear();

@@ -13,6 +13,7 @@
 #include "host/decimate/mesh_edit.h"
 #include "host/decimate/reference_cover.h"
 #include "host/decimate/slot_tree.h"
+#include "host/features/shapes.h"
 
 namespace emax {
 
@@ -98,6 +99,16 @@ class DecimationState {
 
   const Guards& guards() const { return guards_; }
 
+  // Planes that parts of the mesh follow, and the number of each slot's plane, kNoIndex for none.
+  // Edits leave each slot its plane, and parts of a triangle that is split have its plane. `planes`
+  // must outlive the state.
+  void follow(std::span<const Plane> planes, std::vector<std::uint32_t> plane_of);
+  bool follows_planes() const { return !plane_of_.empty(); }
+  std::uint32_t plane_of(std::uint32_t slot) const {
+    return slot < plane_of_.size() ? plane_of_[slot] : kNoIndex;
+  }
+  const Plane& plane(std::uint32_t number) const { return planes_[number]; }
+
   // Whether every point was assigned. False after an interrupt.
   bool complete() const { return complete_; }
 
@@ -162,8 +173,9 @@ class DecimationState {
     EditableMesh mesh;
     AssignedPoints assigned;
     std::vector<BackBound::Sight> sight;
+    std::vector<std::uint32_t> plane_of;
   };
-  Snapshot snapshot() const { return {mesh_, assigned_, sight_}; }
+  Snapshot snapshot() const { return {mesh_, assigned_, sight_, plane_of_}; }
   // Every limit holds as in the snapshot, which was taken without loosened limits. O(n log n).
   void restore(const Snapshot& snapshot);
 
@@ -186,6 +198,7 @@ class DecimationState {
   std::size_t crossings(std::span<const Triangle> triangles,
                         std::span<const std::uint32_t> removed) const;
   void take_area_normals();
+  void take_planes(const MeshEdit& edit);
   void changed(std::uint32_t slot);
 
   EditableMesh mesh_;
@@ -202,6 +215,8 @@ class DecimationState {
   SlotTree tree_;
   std::optional<ReferenceCover> cover_;
   std::vector<Point> area_normals_;  // of each slot
+  std::span<const Plane> planes_;
+  std::vector<std::uint32_t> plane_of_;  // of each slot; empty where no planes are followed
   bool complete_ = false;
   std::vector<BackBound::Sight> sight_;                       // of each vertex
   std::vector<std::shared_ptr<BackBound::Search>> searches_;  // of each thread

@@ -15,13 +15,16 @@ constexpr double kNothingOfHighPowers = 1e-30;
 // distances gain that share over the power.
 double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
 
+constexpr double kInPlace = 1e-6;  // of the limit
+
 }  // namespace
 
 bool EditProposer::keeps_features(std::uint32_t a, std::uint32_t b, const Point& at) const {
   return options_.features.stays_near(a, b, at, state_.mesh().positions(), state_.squared_limit());
 }
 
-bool EditProposer::judge(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse) {
+bool EditProposer::judge(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse,
+                         bool in_place) {
   const FeatureEdges::Collapse feature = permitted(a, b);
   if (feature == FeatureEdges::Collapse::kForbidden) return false;
   if (!search_.prepare_collapse(a, b)) return false;
@@ -38,7 +41,7 @@ bool EditProposer::judge(std::uint32_t a, std::uint32_t b, int power, Collapse& 
     if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
   } else if (hoppe) {
     if (!judge_for_hoppe(pa, pb, fit)) return false;
-  } else if (!judge_free(pa, pb, power, fit)) {
+  } else if (!judge_free(pa, pb, power, in_place, fit)) {
     return false;
   }
   if (hoppe && !(fit.energy < before)) return false;
@@ -74,7 +77,9 @@ bool EditProposer::judge_for_hoppe(const Point& pa, const Point& pb, Fit& fit) {
 
 // Finds the position where the energy of the prepared collapse is least. Returns whether it may be
 // within the limit.
-bool EditProposer::judge_free(const Point& pa, const Point& pb, int power, Fit& fit) {
+bool EditProposer::judge_free(const Point& pa, const Point& pb, int power, bool in_place,
+                              Fit& fit) {
+  if (in_place && search_.place() && judge_in_place(pa, pb, power, fit)) return true;
   LocalSearch::Options options;
   options.power = power;
   if (search_.fine()) options.steps = 0;
@@ -95,6 +100,23 @@ bool EditProposer::judge_free(const Point& pa, const Point& pb, int power, Fit& 
   return fit.worst <= 1 || search_.finish(fit, true, edit_);
 }
 
+// The same in the place of the planes that the triangles follow.
+bool EditProposer::judge_in_place(const Point& pa, const Point& pb, int power, Fit& fit) {
+  LocalSearch::Options options;
+  options.power = power;
+  options.in_place = true;
+  if (search_.fine()) options.steps = 0;
+  for (const Point& start : {search_.quadric_optimum(), Point(0.5 * (pa + pb)), pa, pb}) {
+    if (search_.fit(start, options, fit)) return fit.worst <= state_.permitted();
+  }
+  return false;
+}
+
+bool EditProposer::is_in_place(const Point& at) const {
+  const double apart = kInPlace * kInPlace * state_.squared_limit();
+  return (at - search_.place()->project(at)).squaredNorm() <= apart;
+}
+
 // By the features and by what is held.
 FeatureEdges::Collapse EditProposer::permitted(std::uint32_t a, std::uint32_t b) const {
   const bool held = options_.holds(a) || options_.holds(b);
@@ -111,7 +133,13 @@ bool EditProposer::judge_beyond(std::uint32_t a, std::uint32_t b, Collapse& coll
   const Point middle = 0.5 * (state_.mesh().position(a) + state_.mesh().position(b));
   for (const Point& start : {search_.quadric_optimum(), middle}) {
     Fit fit;
-    if (!search_.fit(start, options, fit)) continue;
+    options.in_place = search_.place().has_value();
+    bool found = search_.fit(start, options, fit);
+    if (options.in_place && !(found && fit.worst <= kMendable)) {
+      options.in_place = false;
+      found = search_.fit(start, options, fit);
+    }
+    if (!found) continue;
     if (!any || fit.worst < collapse.fit.worst) collapse.fit = fit;
     any = true;
   }
@@ -125,18 +153,21 @@ bool EditProposer::rate(std::uint32_t a, std::uint32_t b, int power, Collapse& c
   Fit fit;
   if (permitted(a, b) == FeatureEdges::Collapse::kForbidden) return false;
   if (!search_.prepare_collapse(a, b)) return false;
-  if (!search_.evaluate(search_.quadric_optimum(), power, fit)) return false;
+  const Point optimum = search_.quadric_optimum();
+  const Point at = search_.place() ? search_.place()->project(optimum) : optimum;
+  if (!search_.evaluate(at, power, fit)) return false;
   collapse.a = a;
   collapse.b = b;
   collapse.cost = fit.energy - search_.energy_before(power);
   return true;
 }
 
-bool EditProposer::plain_collapse(std::uint32_t a, std::uint32_t b, double most) {
+bool EditProposer::plain_collapse(std::uint32_t a, std::uint32_t b, double most, bool in_place) {
   if (permitted(a, b) != FeatureEdges::Collapse::kAnywhere) return false;
   if (!search_.prepare_collapse(a, b)) return false;
   LocalSearch::Options options;
   options.steps = 0;
+  options.in_place = in_place && search_.place().has_value();
   Fit fit;
   if (!search_.fit(search_.quadric_optimum(), options, fit) || fit.worst > most) return false;
   return keeps_features(a, b, fit.position) && search_.finish(fit, true, edit_);
@@ -150,8 +181,20 @@ bool EditProposer::relocation(std::uint32_t vertex, int power, bool limit) {
   Fit fit;
   LocalSearch::Options options;
   options.power = power;
-  if (!search_.fit(state_.mesh().position(vertex), options, fit)) return false;
+  const Point& at = state_.mesh().position(vertex);
+  options.in_place = search_.place() && is_in_place(at);
+  if (!search_.fit(at, options, fit)) return false;
   return fit.energy < before * (1 - least_gain(power)) && search_.finish(fit, limit, edit_);
+}
+
+bool EditProposer::into_place(std::uint32_t vertex) {
+  if (options_.features.fixed(vertex) || options_.holds(vertex)) return false;
+  if (!search_.prepare_relocation(vertex) || !search_.place()) return false;
+  const Point& at = state_.mesh().position(vertex);
+  if (is_in_place(at)) return false;
+  Fit fit;
+  return search_.evaluate(search_.place()->project(at), kPower, fit) && fit.worst <= 1 &&
+         search_.finish(fit, true, edit_);
 }
 
 bool EditProposer::may_split(std::uint32_t a, std::uint32_t b) const {
@@ -160,6 +203,8 @@ bool EditProposer::may_split(std::uint32_t a, std::uint32_t b) const {
 
 // What is around fixed edges is free, unlike what is around a held vertex.
 bool EditProposer::may_flip(std::uint32_t a, std::uint32_t b) const {
+  const auto [first, second] = state_.mesh().slots_at_edge(a, b);
+  if (state_.plane_of(first) != state_.plane_of(second)) return false;
   return may_split(a, b) &&
          std::ranges::none_of(state_.mesh().slots_at_edge(a, b), [this](std::uint32_t slot) {
            return slot != kNoIndex &&

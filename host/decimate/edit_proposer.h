@@ -53,18 +53,22 @@ class EditProposer {
 
   // Each returns whether there is something to propose; it is then in edit(), except after
   // judge(), judge_beyond() and rate().
-  bool judge(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse);
+  // A vertex between planes is put into their place if it can be there; without `in_place` it may
+  // be anywhere.
+  bool judge(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse, bool in_place = true);
   // A collapse that may break the limit by so much as can be mended. Its cost is the greatest
   // squared distance / limit^2.
   bool judge_beyond(std::uint32_t a, std::uint32_t b, Collapse& collapse);
   // How much energy the collapse into the optimum of the planes' quadrics adds.
   bool rate(std::uint32_t a, std::uint32_t b, int power, Collapse& collapse);
   // The new vertex is the optimum of the planes' quadrics, and no squared distance / limit^2 is
-  // greater than `most`.
-  bool plain_collapse(std::uint32_t a, std::uint32_t b, double most);
+  // greater than `most`. `in_place` as for judge().
+  bool plain_collapse(std::uint32_t a, std::uint32_t b, double most, bool in_place);
   // Without `limit` points may go beyond it.
   bool relocation(std::uint32_t vertex, int power, bool limit);
   bool flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
+  // Moves a vertex onto the planes that the triangles around it follow.
+  bool into_place(std::uint32_t vertex);
   // Edges between two fixed vertices and triangles between three may not.
   bool may_split(std::uint32_t a, std::uint32_t b) const;
   bool may_split(const Triangle& triangle) const;
@@ -76,7 +80,9 @@ class EditProposer {
  private:
   FeatureEdges::Collapse permitted(std::uint32_t a, std::uint32_t b) const;
   bool may_flip(std::uint32_t a, std::uint32_t b) const;
-  bool judge_free(const Point& pa, const Point& pb, int power, Fit& fit);
+  bool judge_free(const Point& pa, const Point& pb, int power, bool in_place, Fit& fit);
+  bool judge_in_place(const Point& pa, const Point& pb, int power, Fit& fit);
+  bool is_in_place(const Point& at) const;
   bool judge_for_hoppe(const Point& pa, const Point& pb, Fit& fit);
   bool judge_along_feature(std::uint32_t a, std::uint32_t b, int power, Fit& fit);
 

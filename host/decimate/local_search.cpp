@@ -24,6 +24,8 @@ constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 constexpr double kLoosenedEdge = 2;
 // Guides for each triangle of an edit that are enough for the steps of Newton.
 constexpr std::size_t kGuidesOfNewton = 20;
+// Of the limit: so far the planes at a vertex may pass from the place that they have in common.
+constexpr double kPlanesApart = 0.1;
 
 Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
   if (t[1] == vertex) return {t[1], t[2], t[0]};
@@ -45,6 +47,7 @@ void LocalSearch::begin(std::uint32_t vertex, std::uint32_t other) {
   removed_.clear();
   added_.clear();
   normals_.clear();
+  place_.reset();
 }
 
 void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
@@ -55,7 +58,23 @@ void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
   normals_.push_back(state_.area_normal(slot).normalized());
 }
 
+// What a collapse removes without replacing it has no say.
+void LocalSearch::take_place() {
+  if (!state_.follows_planes() || vertex_ == kNoIndex || EMAX_FAULT(kForgetsPlanes)) return;
+  std::vector<std::uint32_t> numbers;
+  const std::size_t replaced = other_ == kNoIndex ? removed_.size() : added_.size();
+  for (std::size_t i = 0; i < replaced; ++i) numbers.push_back(state_.plane_of(removed_[i]));
+  sort_once(numbers);
+  if (!numbers.empty() && numbers.back() == kNoIndex) numbers.pop_back();
+  if (numbers.empty()) return;
+  std::vector<Plane> planes;
+  for (const std::uint32_t number : numbers) planes.push_back(state_.plane(number));
+  place_ = place_on(planes, state_.mesh().position(vertex_),
+                    kPlanesApart * std::sqrt(state_.squared_limit()));
+}
+
 void LocalSearch::take_points() {
+  take_place();
   ids_.clear();
   for (const std::uint32_t slot : removed_) {
     state_.assigned().for_each_guide(slot, [&](std::uint32_t p) { ids_.push_back(p); });
@@ -325,12 +344,20 @@ bool LocalSearch::step(const Options& options, double damping, Fit& at) const {
   if (!(trace > 0)) return false;
   matrix.diagonal().array() += damping * trace;
   const double share = newton ? 1.0 / (options.power - 1) : 1;
-  at.position += share * matrix.ldlt().solve(right);
+  if (!options.in_place) {
+    at.position += share * matrix.ldlt().solve(right);
+    return true;
+  }
+  // The same in the directions of the place alone.
+  const Eigen::Matrix3d& along = place_->along;
+  matrix = along * matrix * along + trace * (Eigen::Matrix3d::Identity() - along);
+  at.position = place_->project(at.position + share * matrix.ldlt().solve(along * right));
   return true;
 }
 
 bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
-  if (!evaluate(start, options.power, best)) return false;
+  const Point begun = options.in_place ? place_->project(start) : start;
+  if (!evaluate(begun, options.power, best)) return false;
   if (steps_ == Steps::kNewton) return fit_by_newton(options, best);
   Fit at = best;
   for (int i = 0; i < options.steps; ++i) {
@@ -340,6 +367,7 @@ bool LocalSearch::fit(const Point& start, const Options& options, Fit& best) {
     // A step that does not lower the energy is halved once.
     for (int halving = 0; halving < 2 && !better; ++halving) {
       if (halving > 0) at.position = 0.5 * (at.position + best.position);
+      if (halving > 0 && options.in_place) at.position = place_->project(at.position);
       better = evaluate(at.position, options.power, next, best.energy);
     }
     if (!better) break;

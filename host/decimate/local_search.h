@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/decimate/decimation_state.h"
 #include "host/decimate/edge_samples.h"
 #include "host/decimate/local_distance.h"
+#include "host/decimate/plane_place.h"
 
 namespace emax {
 
@@ -25,9 +27,10 @@ struct Fit {
 class LocalSearch {
  public:
   struct Options {
-    int power = 4;       // of the energy, even
-    int steps = 4;       // at most, of reweighted least squares
-    double gain = 0.02;  // the least share of the energy that a step gains for another to follow
+    int power = 4;          // of the energy, even
+    int steps = 4;          // at most, of reweighted least squares
+    double gain = 0.02;     // the least share of the energy that a step gains for another to follow
+    bool in_place = false;  // the vertex stays in place()
   };
 
   // The energy includes `spring` times the edges' squared lengths, in units of epsilon^2.
@@ -52,6 +55,10 @@ class LocalSearch {
 
   // The present energy of the points of the prepared edit.
   double energy_before(int power) const;
+
+  // Where the prepared edit's vertex keeps the planes flat that its triangles follow; nothing where
+  // they follow none, or planes that share no place.
+  const std::optional<PlanePlace>& place() const { return place_; }
 
   // A position to start from: the optimum of the planes' quadrics.
   Point quadric_optimum() const;
@@ -82,6 +89,7 @@ class LocalSearch {
  private:
   void begin(std::uint32_t vertex, std::uint32_t other);
   void replace(std::uint32_t slot, std::uint32_t corner);  // `corner` becomes the moving vertex
+  void take_place();
   void take_points();
   void choose_guiding_points();
   void take_edges();
@@ -108,8 +116,9 @@ class LocalSearch {
   std::uint32_t vertex_ = kNoIndex;
   std::uint32_t other_ = kNoIndex;  // the vertex that is drawn in
   std::vector<std::uint32_t> removed_;
-  std::vector<Triangle> added_;     // the moving vertex first
-  std::vector<Point> normals_;      // of the triangles that `added_` replaces
+  std::vector<Triangle> added_;  // the moving vertex first
+  std::vector<Point> normals_;   // of the triangles that `added_` replaces
+  std::optional<PlanePlace> place_;
   std::vector<std::uint32_t> ids_;  // of the guides among the points of the edit
   bool watch_back_ = false;         // whether the moving vertex's distance to the reference counts
   std::vector<std::uint32_t> others_;  // scratch: the points of the edit that are no guides

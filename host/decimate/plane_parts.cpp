@@ -1,0 +1,194 @@
+#include "host/decimate/plane_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <tuple>
+#include <variant>
+
+#include "host/features/find_features.h"
+#include "host/geometry/point_tree.h"
+#include "sw_model/base/parallel.h"
+
+namespace emax {
+namespace {
+
+constexpr double kBand = 0.5;            // of epsilon
+constexpr std::size_t kVotes = 5;        // points nearest to a vertex
+constexpr int kSmoothings = 3;           // rounds in which the borders between planes are smoothed
+constexpr std::size_t kVertices = 1024;  // that a thread takes at a time
+
+using Neighbours = std::array<std::uint32_t, 3>;  // of a triangle, over the edge at each corner
+
+std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
+  struct Side {
+    std::uint32_t low, high, triangle, place;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
+      sides.push_back({low, high, t, i});
+    }
+  }
+  std::ranges::sort(sides);
+  constexpr std::uint32_t kNone = PlaneParts::kNoPlane;
+  std::vector<Neighbours> neighbours(mesh.triangles.size(), {kNone, kNone, kNone});
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const Side &a = sides[i], &b = sides[i + 1];
+    if (a.low != b.low || a.high != b.high) continue;
+    neighbours[a.triangle][a.place] = b.triangle;
+    neighbours[b.triangle][b.place] = a.triangle;
+  }
+  return neighbours;
+}
+
+class Labels {
+ public:
+  Labels(const TriangleMesh& mesh, const PlaneParts& parts, double reach)
+      : mesh_(mesh),
+        parts_(parts),
+        reach_(reach),
+        plane_of_(mesh.triangles.size(), PlaneParts::kNoPlane) {}
+
+  std::vector<std::uint32_t> run(std::size_t threads) && {
+    begin(threads);
+    neighbours_ = neighbours_of(mesh_);
+    grow();
+    for (int i = 0; i < kSmoothings; ++i) smooth();
+    return std::move(plane_of_);
+  }
+
+ private:
+  // The plane of most of the points nearest to p; of equal ones, that of the nearest point.
+  std::uint32_t vote(const PointTree& tree, const Point& p,
+                     std::vector<PointTree::Neighbour>& found) const {
+    tree.nearest(p, kVotes, found);
+    std::uint32_t best = PlaneParts::kNoPlane;
+    std::ptrdiff_t most = 0;
+    for (const PointTree::Neighbour& neighbour : found) {
+      const std::uint32_t plane = parts_.plane_of[neighbour.index];
+      const std::ptrdiff_t votes = std::ranges::count_if(
+          found, [&](const auto& other) { return parts_.plane_of[other.index] == plane; });
+      if (votes > most) most = votes, best = plane;
+    }
+    return best;
+  }
+
+  void begin(std::size_t threads) {
+    const PointTree tree(parts_.points);
+    std::vector<std::uint32_t> of_vertex(mesh_.vertices.size(), PlaneParts::kNoPlane);
+    in_pieces(threads, of_vertex.size(), kVertices,
+              [&](std::size_t, std::size_t first, std::size_t last) {
+                std::vector<PointTree::Neighbour> found;
+                for (std::size_t v = first; v < last; ++v) {
+                  of_vertex[v] = vote(tree, mesh_.vertices[v], found);
+                }
+              });
+    for (std::uint32_t t = 0; t < plane_of_.size(); ++t) {
+      const auto [a, b, c] = mesh_.triangles[t];
+      const std::uint32_t plane = of_vertex[a];
+      const bool same = plane == of_vertex[b] && plane == of_vertex[c];
+      if (same && plane != PlaneParts::kNoPlane && distance(t, plane) <= reach_) {
+        plane_of_[t] = plane;
+      }
+    }
+  }
+
+  // Of the farthest corner.
+  double distance(std::uint32_t triangle, std::uint32_t plane) const {
+    double farthest = 0;
+    for (const std::uint32_t v : mesh_.triangles[triangle]) {
+      farthest =
+          std::max(farthest, std::abs(parts_.planes[plane].signed_distance(mesh_.vertices[v])));
+    }
+    return farthest;
+  }
+
+  void grow() {
+    using Step = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, triangle, plane
+    std::priority_queue<Step, std::vector<Step>, std::greater<>> steps;
+    const auto push_around = [&](std::uint32_t triangle) {
+      for (const std::uint32_t t : neighbours_[triangle]) {
+        if (t == PlaneParts::kNoPlane || plane_of_[t] != PlaneParts::kNoPlane) continue;
+        const double far = distance(t, plane_of_[triangle]);
+        if (far <= reach_) steps.emplace(far, t, plane_of_[triangle]);
+      }
+    };
+    for (std::uint32_t t = 0; t < plane_of_.size(); ++t) {
+      if (plane_of_[t] != PlaneParts::kNoPlane) push_around(t);
+    }
+    while (!steps.empty()) {
+      const auto [far, triangle, plane] = steps.top();
+      steps.pop();
+      if (plane_of_[triangle] != PlaneParts::kNoPlane) continue;
+      plane_of_[triangle] = plane;
+      push_around(triangle);
+    }
+  }
+
+  // A triangle between two of another plane that it may follow, too, follows that one.
+  void smooth() {
+    for (std::uint32_t t = 0; t < plane_of_.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t first = neighbours_[t][i], second = neighbours_[t][(i + 1) % 3];
+        if (first == PlaneParts::kNoPlane || second == PlaneParts::kNoPlane) continue;
+        const std::uint32_t plane = plane_of_[first];
+        if (plane == PlaneParts::kNoPlane || plane == plane_of_[t]) continue;
+        if (plane == plane_of_[second] && distance(t, plane) <= reach_) plane_of_[t] = plane;
+      }
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  const PlaneParts& parts_;
+  double reach_;
+  std::vector<std::uint32_t> plane_of_;
+  std::vector<Neighbours> neighbours_;
+};
+
+}  // namespace
+
+PlaneParts find_plane_parts(std::span<const Point> points, double epsilon, std::size_t threads,
+                            const std::function<void()>& check) {
+  FeatureSearch search;
+  search.curved = false;
+  search.max_error = kBand * epsilon;
+  search.threads = threads;
+  search.check = check;
+  const Features features = find_features(points, search);
+  PlaneParts parts;
+  parts.points.assign(points.begin(), points.end());
+  parts.plane_of.assign(points.size(), PlaneParts::kNoPlane);
+  for (const Region& region : features.regions) {
+    const auto number = static_cast<std::uint32_t>(parts.planes.size());
+    parts.planes.push_back(std::get<Plane>(region.shape));
+    parts.support.push_back({region.points.size(), region.rms});
+    for (const std::uint32_t p : region.points) parts.plane_of[p] = number;
+  }
+  return parts;
+}
+
+std::vector<std::uint32_t> planes_of_triangles(const TriangleMesh& mesh, const PlaneParts& parts,
+                                               double reach, std::size_t threads) {
+  return Labels(mesh, parts, reach).run(threads);
+}
+
+std::vector<std::uint32_t> planes_under(const TriangleMesh& mesh, std::span<const Plane> planes,
+                                        double apart) {
+  std::vector<std::uint32_t> under;
+  for (const Triangle& t : mesh.triangles) {
+    const auto found = std::ranges::find_if(planes, [&](const Plane& plane) {
+      return std::ranges::all_of(t, [&](std::uint32_t v) {
+        return std::abs(plane.signed_distance(mesh.vertices[v])) <= apart;
+      });
+    });
+    under.push_back(found == planes.end() ? PlaneParts::kNoPlane
+                                          : static_cast<std::uint32_t>(found - planes.begin()));
+  }
+  return under;
+}
+
+}  // namespace emax

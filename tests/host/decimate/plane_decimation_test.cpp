@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "host/decimate/bounded_decimation.h"
+#include "host/geometry/mesh_topology.h"
+#include "host/geometry/mesh_validity.h"
+#include "sw_model/base/deliberate_fault.h"
+#include "sw_model/certify/certificate.h"
+#include "sw_model/certify/surface_distance.h"
+#include "tests/host/support/decimation.h"
+#include "tests/host/support/surfaces.h"
+#include "tests/support/stimuli.h"
+
+namespace emax::test {
+namespace {
+
+constexpr double kWithin = 0.03, kRoughness = 0.006;
+
+TriangleMesh roughened(TriangleMesh mesh, double noise, std::uint64_t seed = 1) {
+  Random random(named_seed("noisy planes", seed));
+  for (Point& v : mesh.vertices) v += random.point(-noise, noise);
+  return mesh;
+}
+
+DecimationSettings with_planes(const TriangleMesh& mesh, double epsilon = kWithin) {
+  DecimationSettings settings = with(epsilon);
+  settings.planes = std::make_shared<const PlaneParts>(find_plane_parts(mesh.vertices, epsilon, 1));
+  return settings;
+}
+
+TriangleMesh decimated(const TriangleMesh& mesh, const DecimationSettings& settings) {
+  return BoundedDecimator(mesh, mesh.vertices).run(settings).mesh;
+}
+
+// In the three directions, by code that is not the decimator's.
+void expect_bounds_kept(const TriangleMesh& mesh, const TriangleMesh& reference, double epsilon) {
+  SurfaceDistanceOptions options;
+  options.relative = 0;
+  options.limit = epsilon;
+  EXPECT_TRUE(certify(reference.vertices, mesh.view(), {}).within(epsilon));
+  EXPECT_TRUE(surface_distance(mesh.view(), ExactMesh(reference.view()), options).within(epsilon));
+  EXPECT_TRUE(surface_distance(reference.view(), ExactMesh(mesh.view()), options).within(epsilon));
+  EXPECT_TRUE(check_mesh(mesh.view()).valid());
+  EXPECT_EQ(topology_of(mesh.view()), topology_of(reference.view()));
+}
+
+// How many vertices lie on none of the planes.
+std::size_t off_planes(const TriangleMesh& mesh, const std::vector<Plane>& planes) {
+  return static_cast<std::size_t>(std::ranges::count_if(mesh.vertices, [&](const Point& v) {
+    return std::ranges::none_of(
+        planes, [&](const Plane& p) { return std::abs(p.signed_distance(v)) < 1e-9; });
+  }));
+}
+
+TEST(PlaneDecimation, LeavesANoisyCubeItsTwelveTrianglesOnItsPlanes) {
+  const TriangleMesh mesh = roughened(cube(14), kRoughness);
+  const DecimationSettings settings = with_planes(mesh);
+  ASSERT_EQ(settings.planes->planes.size(), 6u);
+  const TriangleMesh result = decimated(mesh, settings);
+  expect_bounds_kept(result, mesh, kWithin);
+  EXPECT_EQ(result.triangles.size(), 12u);
+  for (const Point& v : result.vertices) {
+    const auto through = std::ranges::count_if(settings.planes->planes, [&](const Plane& p) {
+      return std::abs(p.signed_distance(v)) < 1e-9;
+    });
+    EXPECT_EQ(through, 3);
+  }
+}
+
+TEST(PlaneDecimation, KeepsAnOpenSheetOnItsPlane) {
+  const TriangleMesh mesh = roughened(sheet(24, 0), kRoughness);
+  const DecimationSettings settings = with_planes(mesh);
+  ASSERT_EQ(settings.planes->planes.size(), 1u);
+  const TriangleMesh result = decimated(mesh, settings);
+  expect_bounds_kept(result, mesh, kWithin);
+  EXPECT_EQ(off_planes(result, settings.planes->planes), 0u);
+}
+
+TEST(PlaneDecimation, WithoutAPlaneChangesNoByte) {
+  const TriangleMesh mesh = bumpy(24, 40);
+  const DecimationSettings settings = with_planes(mesh, 0.003);
+  ASSERT_TRUE(settings.planes->planes.empty());
+  EXPECT_TRUE(same_bytes(decimated(mesh, settings), decimated(mesh, with(0.003))));
+}
+
+TEST(PlaneDecimation, HoldsItsBoundsWherePlanesDoNot) {
+  const TriangleMesh mesh = roughened(cube(12), kRoughness);
+  DecimationSettings settings = with_planes(mesh);
+  auto wrong = std::make_shared<PlaneParts>(*settings.planes);
+  for (Plane& plane : wrong->planes) {
+    plane.offset += 0.9 * kWithin;
+    plane.normal = (plane.normal + Point(0.01, 0.02, 0.01)).normalized();
+  }
+  settings.planes = wrong;
+  expect_bounds_kept(decimated(mesh, settings), mesh, kWithin);
+}
+
+TEST(PlaneDecimation, KeepsWallsApartThatAreCloserThanTheBound) {
+  TriangleMesh slab = cube(14);
+  for (Point& v : slab.vertices) v.z() *= 0.4 * kWithin;
+  const TriangleMesh mesh = roughened(slab, 0.05 * kWithin);
+  const TriangleMesh result = decimated(mesh, with_planes(mesh));
+  expect_bounds_kept(result, mesh, kWithin);
+}
+
+TEST(PlaneDecimation, KeepsItsBoundsOnPlanesAmidCurves) {
+  const TriangleMesh mesh = joined(bumpy(10, 15), roughened(cube(14), kRoughness), {4, 0, 0});
+  const DecimationSettings settings = with_planes(mesh);
+  EXPECT_GE(settings.planes->planes.size(), 6u);
+  expect_bounds_kept(decimated(mesh, settings), mesh, kWithin);
+}
+
+TEST(PlaneDecimation, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = joined(bumpy(10, 15), roughened(cube(14), kRoughness), {4, 0, 0});
+  DecimationSettings settings = with_planes(mesh);
+  const TriangleMesh one = decimated(mesh, settings);
+  settings.threads = 2;
+  EXPECT_TRUE(same_bytes(decimated(mesh, settings), one));
+}
+
+TEST(PlaneDecimation, TakesTheFewerTrianglesOfBoth) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const TriangleMesh mesh = joined(roughened(bumpy(10, 15), 0.01, seed),
+                                     roughened(cube(12), kRoughness, seed), {4, 0, 0});
+    DecimationSettings settings = with_planes(mesh);
+    const std::size_t with_them = decimated(mesh, settings).triangles.size();
+    const std::size_t without = decimated(mesh, with(kWithin)).triangles.size();
+    settings.without_planes_too = true;
+    const TriangleMesh best = decimated(mesh, settings);
+    EXPECT_EQ(best.triangles.size(), std::min(with_them, without));
+    expect_bounds_kept(best, mesh, kWithin);
+  }
+}
+
+TEST(PlaneDecimationFault, ThatForgetsPlanesIsSeen) {
+  const TriangleMesh mesh = roughened(cube(14), kRoughness);
+  const DecimationSettings settings = with_planes(mesh);
+  const DeliberateFault fault(Fault::kForgetsPlanes);
+  EXPECT_GT(off_planes(decimated(mesh, settings), settings.planes->planes), 0u);
+}
+
+}  // namespace
+}  // namespace emax::test
