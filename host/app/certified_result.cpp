@@ -45,7 +45,9 @@ std::string certificate_text(const CertifiedResult& result, const std::filesyste
 
 WrittenResult write_result(const std::filesystem::path& mesh, const CertifiedResult& result,
                            ReferenceFile* reference) {
-  std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh), {.unit = result.cloud.scan.unit});
+  const TriangleGroups* groups = result.regions != nullptr ? &result.regions->groups : nullptr;
+  std::string bytes = mesh_bytes(result.mesh, mesh_format(mesh),
+                                 {.unit = result.cloud.scan.unit, .groups = groups});
   const std::string mesh_sha256 = sha256(bytes);
   std::string certificate = certificate_text(result, mesh, mesh_sha256);
   std::vector<OutputFile> files;
@@ -72,6 +74,7 @@ ResultReport report_of(const CertifiedResult& result) {
   if (scan.unit) report.unit = scan.unit->name;
   report.transform = normalization_of(scan.cloud.points);
   report.reference = result.proven.reference;
+  if (result.regions != nullptr) report.regions = result.regions->regions;
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/app/reference_file.h"
+#include "host/app/result_regions.h"
 #include "host/app/scan.h"
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
@@ -38,6 +39,7 @@ struct CertifiedResult {
   const ProvenMesh& proven;
   ChainSettings chain = {};  // how it was found
   std::uint64_t seed = 0, evaluations = 0;
+  const ResultRegions* regions = nullptr;  // where planes of the scan were followed
 };
 
 struct WrittenResult {

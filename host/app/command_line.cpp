@@ -313,6 +313,14 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "the error, and their corners; 40 suits machine parts; leave it out for noisy "
                   "scans")
       ->check(within(1, 180));
+  command
+      .add_option(
+          "--features", decimate.features,
+          "planes: find the planes of the scan and put vertices on them, on the lines where "
+          "two meet and the corners of three; auto: with and without, and take the mesh "
+          "with fewer triangles")
+      ->check(CLI::IsMember({"none", "planes", "auto"}))
+      ->capture_default_str();
   add_points_and_json(command, decimate.excluded_share, decimate.reading, decimate.json);
   add_report(command, decimate.report);
   add_unit(command, decimate.unit);

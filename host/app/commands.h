@@ -75,6 +75,7 @@ struct DecimateOptions {
   std::string effort = "normal";        // or quick, deep
   std::string objective = "triangles";  // or hoppe
   double feature_angle = 0;             // degrees; 0: no features
+  std::string features = "none";        // or planes, auto
   std::string json;
   ReportOptions report;
   std::string excluded_share = "0";

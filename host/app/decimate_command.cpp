@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "host/app/certified_result.h"
 #include "host/app/commands.h"
@@ -28,6 +29,8 @@ namespace emax {
 namespace {
 
 using Effort = DecimationSettings::Effort;
+
+constexpr double kOnPlane = 1e-6;  // of the tolerance: what lies on a plane but for rounding
 
 Effort effort_named(const std::string& name) {
   return name == "quick" ? Effort::kCollapse : name == "deep" ? Effort::kDeep : Effort::kRelax;
@@ -115,6 +118,7 @@ class DecimateCommand {
   void check_tiles(bool several) const {
     if (several) throw Error("--tiles: give one --max-error");
     if (options_.feature_angle > 0) throw Error("--tiles cannot be combined with --feature-angle");
+    if (options_.features != "none") throw Error("--tiles cannot be combined with --features");
     if (options_.objective == "hoppe") {
       throw Error("--tiles cannot be combined with --objective hoppe");
     }
@@ -147,7 +151,19 @@ class DecimateCommand {
     settings_.decimation.epsilon_back = back_.value_or(epsilon_);
   }
 
+  // The planes that vertices are to lie on, for the present tolerance.
+  void find_planes() {
+    if (options_.features == "none") return;
+    progress_.begin("searching planes", joining_seconds(kept_.points.size()));
+    settings_.decimation.planes = std::make_shared<const PlaneParts>(
+        find_plane_parts(kept_.points, epsilon_, settings_.decimation.threads, [] {
+          if (was_interrupted()) throw Interrupted{};
+        }));
+    settings_.decimation.without_planes_too = options_.features == "auto";
+  }
+
   int run_once() {
+    find_planes();
     progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
     settings_.early = [this](const CertifiedDecimation& made) { write_early(made); };
     result_ = decimate_scan(reference_.surface.mesh, scan_, kept_, settings_,
@@ -183,6 +199,7 @@ class DecimateCommand {
     std::vector<MadeReport> reports;
     for (const ToleratedMesh& bound : bounds_) {
       set_bound(bound);
+      find_planes();
       progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
       result_ = decimate_certified(
           reference_.surface.mesh, kept_.points, settings_,
@@ -249,6 +266,11 @@ class DecimateCommand {
 
   void prove_and_write() {
     proven_ = proofs_of(result_, scan_);
+    if (settings_.decimation.planes) {
+      const double moved = storage_displacement(reference_.surface.mesh, settings_.storage);
+      regions_ =
+          regions_of(result_.mesh, *settings_.decimation.planes, 2 * moved + kOnPlane * epsilon_);
+    }
     feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     if (feasible_) write();
   }
@@ -312,7 +334,8 @@ class DecimateCommand {
             .epsilon = epsilon_,
             .mesh = result_.mesh,
             .proven = proven_,
-            .chain = chain_of(settings_.decimation)};
+            .chain = chain_of(settings_.decimation),
+            .regions = regions_ ? &*regions_ : nullptr};
   }
 
   void print_result(Facts& facts) const {
@@ -326,6 +349,7 @@ class DecimateCommand {
     facts.add("e_max",
               "{:.9g} certified, at most {:.9g} ({:.4g}% of the width): every point to the mesh",
               result_.points.e_max_upper, epsilon_, percent(result_.points.e_max_upper));
+    if (regions_) print(facts, *regions_, *settings_.decimation.planes);
     if (proven_.reference)
       print(facts, *proven_.reference, epsilon_, scan_.width, reference_file());
     if (!may_leave_out_own_vertices()) {
@@ -395,7 +419,8 @@ class DecimateCommand {
   std::optional<ReferenceFile> file_;  // of a two-sided bound
   CertifiedDecimation result_;
   ProvenMesh proven_;
-  WrittenResult written_;  // of the last result that keeps the bounds
+  std::optional<ResultRegions> regions_;  // of the last result, with --features
+  WrittenResult written_;                 // of the last result that keeps the bounds
   bool feasible_ = false;
 };
 

@@ -4,6 +4,21 @@
 #include "host/report/json_parts.h"
 
 namespace emax {
+namespace {
+
+Json to_json(const ResultRegion& region) {
+  const Point& n = region.plane.normal;
+  return {{"name", region.name},
+          {"kind", "plane"},
+          {"normal", {n.x(), n.y(), n.z()}},
+          {"offset", region.plane.offset},
+          {"triangles", region.triangles},
+          {"area", region.area},
+          {"points", region.points},
+          {"rms", region.rms}};
+}
+
+}  // namespace
 
 std::string to_json_text(const ResultReport& r) {
   Json json = {
@@ -51,6 +66,10 @@ std::string to_json_text(const ResultReport& r) {
         {"basis", "estimated"},
         {"cpu_seconds", or_null(r.cpu_seconds)},
         {"cpu_basis", "measured"}};
+  }
+  if (r.regions) {
+    json["regions"] = Json::array();
+    for (const ResultRegion& region : *r.regions) json["regions"].push_back(to_json(region));
   }
   return json.dump(2) + "\n";
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/decimate/feature_edges.h"
@@ -17,6 +18,8 @@
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
 #include "tests/host/app/program.h"
+#include "tests/host/support/surfaces.h"
+#include "tests/support/stimuli.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax {
@@ -81,6 +84,52 @@ TEST_F(DecimateCommand, BoundsBothSurfacesAndVerifyAgrees) {
   }
   EXPECT_EQ(verify("out.ply"), 0);
   EXPECT_EQ(test::files_in(folder_.path()).size(), 5u);
+}
+
+// A cube of 16 x 16 squares a side, its vertices off the sides by up to 0.4 % of the width.
+TriangleMesh rough_cube() {
+  TriangleMesh mesh = test::cube(16);
+  Random random(named_seed("rough cube", 1));
+  for (Point& v : mesh.vertices) v += random.point(-0.008, 0.008);
+  return mesh;
+}
+
+TEST_F(DecimateCommand, PutsVerticesOnPlanesAndNamesTheirTriangles) {
+  write_mesh(folder_ / "cube.ply", rough_cube());
+  for (const std::string output : {"out.ply", "out.obj", "out.glb"}) {
+    SCOPED_TRACE(output);
+    const ProgramRun run =
+        decimate(output, {"--features", "planes", "--json", "r.json"}, "cube.ply", "2%");
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_NE(run.output.find("6 found"), std::string::npos) << run.output;
+    const json regions = read("r.json").at("regions");
+    ASSERT_EQ(regions.size(), 6u);
+    const TriangleMesh out = read_mesh(folder_ / output);
+    std::size_t triangles = 0;
+    double area = 0;
+    for (const json& region : regions) {
+      triangles += region.at("triangles").get<std::size_t>();
+      area += region.at("area").get<double>();
+      EXPECT_GT(region.at("points"), 100);
+      EXPECT_LT(region.at("rms"), 0.008);
+    }
+    EXPECT_EQ(triangles, out.triangles.size());
+    EXPECT_EQ(triangles, 12u);
+    EXPECT_NEAR(area, 24, 0.2);
+    EXPECT_EQ(verify(output), 0);
+  }
+  EXPECT_NE(test::file_text(folder_ / "out.obj").find("g plane_1\n"), std::string::npos);
+}
+
+TEST_F(DecimateCommand, AutoTakesTheFewerTriangles) {
+  write_mesh(folder_ / "cube.ply", rough_cube());
+  std::map<std::string, std::size_t> triangles;
+  for (const std::string features : {"none", "planes", "auto"}) {
+    ASSERT_EQ(decimate(features + ".ply", {"--features", features}, "cube.ply", "1%").exit_code, 0);
+    triangles[features] = read_mesh(folder_ / (features + ".ply")).triangles.size();
+  }
+  EXPECT_EQ(triangles["auto"], std::min(triangles["none"], triangles["planes"]));
+  EXPECT_EQ(decimate("t.ply", {"--features", "auto", "--tiles", "100"}).exit_code, 1);
 }
 
 TEST_F(DecimateCommand, KeepsTheCornersOfAPartSharp) {
