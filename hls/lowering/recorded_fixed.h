@@ -55,13 +55,13 @@ class RecordedFixed : public RecordedNode<RecordedFixed<kWidth, kFraction, kRoun
   friend RecordedCondition operator>=(const Here& a, const RecordedFixed& b) {
     return logic(a, Operation::kNegated, less(a, a.node, b.node()));
   }
-  friend RecordedCondition operator!=(const Here& a, const RecordedFixed& b) {
-    return logic(a, Operation::kEither, less(a, a.node, b.node()), less(a, b.node(), a.node));
+  // Both sides alike: an operand order that C++20 may reverse.
+  friend RecordedCondition operator!=(const Here& a, const Here& b) {
+    return logic(a, Operation::kEither, less(a, a.node, b.node), less(a, b.node, a.node));
   }
-  friend RecordedCondition operator==(const Here& a, const RecordedFixed& b) {
-    return logic(
-        a, Operation::kNegated,
-        logic(a, Operation::kEither, less(a, a.node, b.node()), less(a, b.node(), a.node)));
+  friend RecordedCondition operator==(const Here& a, const Here& b) {
+    return logic(a, Operation::kNegated,
+                 logic(a, Operation::kEither, less(a, a.node, b.node), less(a, b.node, a.node)));
   }
   friend RecordedFixed select(const Located<RecordedCondition>& condition,
                               const RecordedFixed& if_true, const RecordedFixed& if_false) {

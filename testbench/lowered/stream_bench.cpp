@@ -13,7 +13,7 @@ struct Pace {
   std::uint32_t offered, taken;
 };
 constexpr Pace kPaces[] = {{16, 16}, {16, 4}, {4, 16}, {8, 8}};
-constexpr int kCyclesOfAPace = 500;
+constexpr std::size_t kCyclesOfAPace = 500;
 constexpr int kMostCyclesWithoutAResult = 4000;
 
 class Streams {
@@ -30,7 +30,7 @@ class Streams {
   bool equal() {
     reset();
     int idle = 0;
-    for (int cycle = 0; received_ < samples_.size(); ++cycle) {
+    for (std::size_t cycle = 0; received_ < samples_.size(); ++cycle) {
       const Pace& pace = kPaces[cycle / kCyclesOfAPace % std::size(kPaces)];
       offer(pace);
       bench_.streams.m_axis_tready.set(random_.below(16) < pace.taken ? 1 : 0);
