@@ -30,6 +30,9 @@ namespace {
 
 using Effort = DecimationSettings::Effort;
 
+// Points of the cloud farther than this from the mesh, as a share of the tolerance, are joined to
+// it. In tiles, whose surfaces average noise away, nearer ones are mostly noise.
+constexpr double kFar = 0.5, kFarInTiles = 0.9;
 constexpr double kOnPlane = 1e-6;  // of the tolerance: what lies on a plane but for rounding
 
 Effort effort_named(const std::string& name) {
@@ -126,7 +129,7 @@ class DecimateCommand {
 
   // Makes the reference and the file that holds it.
   void make_reference() {
-    reference_ = emax::make_reference(given_, kept_.points, epsilon_ / 2,
+    reference_ = emax::make_reference(given_, kept_.points, far() * epsilon_,
                                       {.repair = options_.repair,
                                        .closed = options_.closed,
                                        .threads = settings_.decimation.threads},
@@ -280,6 +283,7 @@ class DecimateCommand {
     return feasible && reference_.all_closed() ? kExitOk : kExitNo;
   }
 
+  double far() const { return options_.tile_triangles > 0 ? kFarInTiles : kFar; }
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
   // Vertices of removed triangles are not part of the remaining surface.

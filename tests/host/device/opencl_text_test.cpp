@@ -36,7 +36,7 @@ std::string kernel_of(const LoweredDesign& design) {
   for (std::size_t i = 0; i < own; ++i) add("splat(in[" + std::to_string(i) + "])");
   if (own < graph.inputs().size()) add("in + " + std::to_string(own));
   for (std::size_t i = 0; i < graph.outputs().size(); ++i) {
-    const bool real = graph.node(graph.outputs()[i].node).kind == ValueKind::kReal;
+    const bool real = graph.node(graph.outputs()[i].node).type.kind == ValueKind::kReal;
     const std::string name = "output" + std::to_string(i);
     results += std::string(real ? "real " : "condition ") + name + ";\n";
     add("&" + name);
@@ -65,7 +65,7 @@ Word input_word(const DataflowGraph& graph, const Input& input, std::span<const 
                 std::size_t& sample_input) {
   if (input.arrival == Arrival::kSample) return words[sample_input++];
   const Word record = words[sample_inputs(graph)];
-  return graph.node(input.node).kind == ValueKind::kCondition ? record & 1u : record;
+  return graph.node(input.node).type.kind == ValueKind::kCondition ? record & 1u : record;
 }
 
 // The number of output words that differ.
