@@ -186,11 +186,15 @@ void add_optimize(CLI::App& app, CommandLine& line) {
   command.add_option("--seed", optimize.seed, "seed of every random choice")
       ->check(whole())
       ->capture_default_str();
-  command
-      .add_option("--effort", optimize.effort,
-                  "quick: one good candidate; deep: four times as many evaluations as normal")
-      ->check(CLI::IsMember({"quick", "normal", "deep"}))
-      ->capture_default_str();
+  CLI::Option& effort =
+      *command
+           .add_option(
+               "--effort", optimize.effort,
+               "quick: one good candidate; deep: four times as many evaluations as normal; with "
+               "--tiles that of `emax decimate`, and quick for more than three million points "
+               "unless said")
+           ->check(CLI::IsMember({"quick", "normal", "deep"}))
+           ->capture_default_str();
   CLI::Option& budget =
       *command
            .add_option(
@@ -261,6 +265,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
     if (optimize.output.empty() && (!optimize.max_error.empty() || optimize.level > 0)) {
       throw CLI::RequiredError("--output");
     }
+    optimize.effort_is_given = effort.count() > 0;
     if (polish.count() == 0) optimize.polish = optimize.effort != "quick";
     line.chosen = [&optimize] { return run_optimize(optimize); };
   });

@@ -25,7 +25,8 @@ struct OptimizeOptions {
   std::string bound;  // empty: two-sided if the decimator supports it
   std::string config;
   std::uint64_t seed = 1;
-  std::string effort = "normal";        // quick or deep: see search_budget()
+  std::string effort = "normal";  // quick or deep: see search_budget()
+  bool effort_is_given = false;
   std::optional<std::uint64_t> budget;  // nothing: that of the effort
   std::optional<double> seconds;
   unsigned jobs = 0;  // of each of the machines' processes; 0: one per processor
@@ -72,10 +73,11 @@ struct DecimateOptions {
   int level = 0;           // of accuracy, in place of max_error
   std::string back_error;  // empty: the tolerance
   std::string output;
-  std::string effort = "normal";        // or quick, deep
-  std::string objective = "triangles";  // or hoppe
-  double feature_angle = 0;             // degrees; 0: no features
-  std::string features = "none";        // or planes, auto
+  std::string effort = "normal";               // or quick, deep
+  std::size_t quick_beyond = ~std::size_t{0};  // so many points, the effort is quick
+  std::string objective = "triangles";         // or hoppe
+  double feature_angle = 0;                    // degrees; 0: no features
+  std::string features = "none";               // or planes, auto
   std::string json;
   ReportOptions report;
   std::string excluded_share = "0";

@@ -91,7 +91,8 @@ class DecimateCommand {
       tolerance_below_width(bound.tolerance, "--max-error", scan_);
     set_bound(bounds_.front());
     settings_.decimation.two_sided = options.two_sided;
-    settings_.decimation.effort = effort_named(options.effort);
+    is_large_ = scan_.cloud.points.size() > options.quick_beyond;
+    settings_.decimation.effort = effort_named(is_large_ ? "quick" : options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
     settings_.decimation.threads = options.threads > 0 ? options.threads : processor_threads();
     if (options.objective == "hoppe") {
@@ -322,6 +323,10 @@ class DecimateCommand {
     facts.add("tolerance", "{}{}, {}{}", tolerances, level_text(options_.level),
               options_.two_sided ? "two-sided" : "one-sided",
               own_back ? fmt::format(", mesh to reference {:.6g}", epsilon_back()) : "");
+    if (is_large_) {
+      facts.add("effort", "quick, for more than {} points; --effort normal finds fewer triangles",
+                grouped(options_.quick_beyond));
+    }
     std::fflush(stdout);
   }
 
@@ -425,6 +430,7 @@ class DecimateCommand {
   ProvenMesh proven_;
   std::optional<ResultRegions> regions_;  // of the last result, with --features
   WrittenResult written_;                 // of the last result that keeps the bounds
+  bool is_large_ = false;                 // so that the effort is quick
   bool feasible_ = false;
 };
 

@@ -19,6 +19,8 @@ using Clock = std::chrono::steady_clock;
 // Of the tolerance, what the surface gives up for a fraction of its triangles
 // (docs/decisions/0038-tiles-are-simplified.md).
 constexpr double kSimplified = 0.125;
+// Points: moving vertices, too, would take hours.
+constexpr std::size_t kQuickBeyond = 3'000'000;
 
 std::string surface_file(const OptimizeOptions& options) { return options.output + ".surface.ply"; }
 std::string tile_folder(const OptimizeOptions& options) { return options.output + ".tiles"; }
@@ -70,6 +72,7 @@ DecimateOptions decimation(const OptimizeOptions& options) {
   made.level = options.level;
   made.output = options.output;
   made.effort = options.effort;
+  if (!options.effort_is_given) made.quick_beyond = kQuickBeyond;
   made.json = options.common.json;
   made.report = options.common.report;
   made.excluded_share = options.common.excluded_share;
