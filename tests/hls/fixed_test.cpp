@@ -12,34 +12,34 @@
 namespace emax {
 namespace {
 
-__extension__ using Wide = __int128;
+__extension__ using Int128 = __int128;
 
 // What `exact` units of 2^-fraction are in a format: by division of 128-bit integers, where the
 // kernel shifts.
-Wide defined(Wide exact, int fraction, const FixedFormat& to) {
-  const Wide range = Wide{1} << to.width, half_range = range / 2;
-  Wide scaled = exact;
+Int128 defined(Int128 exact, int fraction, const FixedFormat& to) {
+  const Int128 range = Int128{1} << to.width, half_range = range / 2;
+  Int128 scaled = exact;
   int up = to.fraction - fraction;
   for (; up > 0; --up) scaled *= 2;
-  Wide divisor = 1;
+  Int128 divisor = 1;
   for (; up < 0; ++up) divisor *= 2;
   if (to.rounding == Rounding::kHalfUp) {
     scaled = 2 * scaled + divisor;
     divisor *= 2;
   }
-  Wide rounded = scaled / divisor;
+  Int128 rounded = scaled / divisor;
   if (rounded * divisor > scaled) --rounded;
   if (to.overflow == Overflow::kSaturate) {
     return rounded >= half_range ? half_range - 1 : rounded < -half_range ? -half_range : rounded;
   }
-  Wide wrapped = rounded % range;
+  Int128 wrapped = rounded % range;
   if (wrapped >= half_range) wrapped -= range;
   if (wrapped < -half_range) wrapped += range;
   return wrapped;
 }
 
 template <class Number>
-std::int64_t as_defined(Wide exact, int fraction) {
+std::int64_t as_defined(Int128 exact, int fraction) {
   return static_cast<std::int64_t>(defined(exact, fraction, Number::format()));
 }
 
@@ -47,7 +47,7 @@ std::int64_t as_defined(Wide exact, int fraction) {
 template <class Judge, class A, class B>
 int differences(const A& a, const B& b) {
   constexpr int kA = A::format().fraction, kB = B::format().fraction;
-  const Wide x = a.raw(), y = b.raw();
+  const Int128 x = a.raw(), y = b.raw();
   const A to_a(b);
   const B to_b(a);
   int wrong = product<A>(a, b).raw() != as_defined<Judge>(x * y, kA + kB);
@@ -152,7 +152,7 @@ TEST(Fixed, WidestSumsDoNotOverflow) {
 TEST(Fixed, ConstantsAreTheNearestNumbers) {
   using Number = Fixed<8, 4>;
   for (int eighths = -80; eighths <= 80; ++eighths) {
-    const Wide exact = defined(eighths, 3, Number::format());
+    const Int128 exact = defined(eighths, 3, Number::format());
     EXPECT_EQ(Number(eighths / 8.0).raw(), static_cast<std::int64_t>(exact)) << eighths;
   }
   EXPECT_EQ(Number(0.03125).raw(), 1);  // half a unit
