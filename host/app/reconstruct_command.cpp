@@ -172,9 +172,7 @@ class ReconstructCommand {
   }
 
   double in_cloud_unit(const std::optional<Tolerance>& length, const char* option) const {
-    if (!length) return 0;
-    const Scan& scan = pieces_->scan();
-    return below_width(length->in_unit_of(scan.unit, option), option, scan);
+    return length ? below_width(*length, option, pieces_->scan()) : 0;
   }
 
   double normalised_thin() const { return pieces_->normalization().length(thin_); }
