@@ -29,7 +29,7 @@ Certificate certificate_of(const CertifiedResult& result, const std::filesystem:
   certificate.validity = result.proven.validity;
   certificate.topology = result.proven.topology;
   certificate.reference = result.proven.reference;
-  certificate.transform = normalization_of(scan.cloud.points);
+  certificate.transform = result.cloud.transform();
   certificate.chain = result.chain;
   certificate.seed = result.seed;
   certificate.evaluations = result.evaluations;
@@ -70,9 +70,9 @@ ResultReport report_of(const CertifiedResult& result) {
   report.epsilon = result.epsilon;
   report.certified = in_file_indices(result.proven.points, scan.cloud);
   report.kernel = result.proven.kernel;
-  report.points = scan.cloud.points.size();
+  report.points = result.cloud.points();
   if (scan.unit) report.unit = scan.unit->name;
-  report.transform = normalization_of(scan.cloud.points);
+  report.transform = result.cloud.transform();
   report.reference = result.proven.reference;
   if (result.regions != nullptr) report.regions = result.regions->regions;
   return report;

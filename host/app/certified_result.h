@@ -8,6 +8,7 @@
 #include "host/app/reference_file.h"
 #include "host/app/result_regions.h"
 #include "host/app/scan.h"
+#include "host/app/scan_pieces.h"
 #include "host/report/certificate_file.h"
 #include "host/report/result_json.h"
 
@@ -19,8 +20,9 @@ struct ProvenMesh {
   MeshTopology topology;
   CertifiedError points;   // indices are the cloud's
   EmaxResult kernel = {};  // over the points that are not excluded; the index is the file's
-  std::optional<ReferenceBound> reference;  // of a two-sided bound
-  std::filesystem::path reference_path;     // of its file
+  std::optional<double> points_to_reference;  // greatest distance of a kept point, where known
+  std::optional<ReferenceBound> reference;    // of a two-sided bound
+  std::filesystem::path reference_path;       // of its file
 };
 
 // The scan that results are certified against, and how it was read.
@@ -29,6 +31,13 @@ struct ResultCloud {
   const std::string& sha256;      // of its file
   CloudReadOptions reading = {};  // see Certificate
   bool vertices_of_mesh = false;  // see Certificate
+  // Where the points are not in memory.
+  const ScanPieces* pieces = nullptr;
+
+  std::uint64_t points() const { return pieces ? pieces->points() : scan.cloud.points.size(); }
+  Normalization transform() const {
+    return pieces ? pieces->normalization() : normalization_of(scan.cloud.points);
+  }
 };
 
 // A mesh that a command found, with all that its certificate and the JSON report.

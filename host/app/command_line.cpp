@@ -341,9 +341,13 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command
       .add_option("--tiles", decimate.tile_triangles,
                   "decimate in tiles of at most this many triangles, for a mesh that is too large "
-                  "for the memory as a whole; about 2% more triangles are left (default: the mesh "
-                  "as a whole)")
+                  "for the memory as a whole; about 2% more triangles are left (default: 250000 "
+                  "where the cloud needs more than --memory, else the mesh as a whole)")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{1} << 32));
+  add_memory(command, decimate.memory);
+  command.add_option("--tile-folder", decimate.tile_folder,
+                     "for the points of the tiles where they do not fit into the memory, 40 bytes "
+                     "each (default: MESH.tiles, removed at the end)");
   add_progress(command, line);
   add_examples(
       command,

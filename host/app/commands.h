@@ -82,8 +82,10 @@ struct DecimateOptions {
   ReportOptions report;
   std::string excluded_share = "0";
   std::optional<double> seconds;
-  unsigned threads = 0;            // 0: one per processor
-  std::size_t tile_triangles = 0;  // 0: the mesh is decimated as a whole
+  unsigned threads = 0;                 // 0: one per processor
+  std::optional<std::uint64_t> memory;  // bytes for the points; nothing: half of what is free
+  std::size_t tile_triangles = 0;       // 0: the mesh is decimated as a whole if memory allows it
+  std::string tile_folder;              // empty: beside the output
   Machines machines;
   bool two_sided = true;
   bool repair = false;  // remove intersecting triangles instead of keeping them

@@ -13,6 +13,9 @@
 #include "host/app/proven_decimation.h"
 #include "host/app/reference_text.h"
 #include "host/app/report_output.h"
+#include "host/app/scan_pieces.h"
+#include "host/app/tile_folder.h"
+#include "host/app/tiled_scan.h"
 #include "host/app/tolerated_meshes.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/decimate/decimation_sequence.h"
@@ -32,7 +35,11 @@ using Effort = DecimationSettings::Effort;
 
 // Points of the cloud farther than this from the mesh, as a share of the tolerance, are joined to
 // it. In tiles, whose surfaces average noise away, nearer ones are mostly noise.
-constexpr double kFar = 0.5, kFarInTiles = 0.9;
+constexpr double kFar = 0.5, kFarInTiles = 0.999;
+// Where tiles are needed and not asked for.
+constexpr std::size_t kTileTriangles = 250'000;
+// The points of a cloud in parts, and of the tiles that are worked at.
+constexpr std::uint64_t kBytesPerPointInTiles = 40;
 constexpr double kOnPlane = 1e-6;  // of the tolerance: what lies on a plane but for rounding
 
 Effort effort_named(const std::string& name) {
@@ -46,6 +53,7 @@ class DecimateCommand {
                                   : std::nullopt),
         options_(options),
         own_cloud_(options.cloud.empty()),
+        memory_(options.memory.value_or(standard_memory())),
         share_(parse_share(options.excluded_share)),
         bounds_(tolerated_meshes(options.max_error, options.level, options.output)),
         output_(bounds_.front().output) {
@@ -53,7 +61,8 @@ class DecimateCommand {
     if (several && share_ > 0) {
       throw Error("--exclude-outliers: give one --max-error, as each would exclude other points");
     }
-    if (options.tile_triangles > 0) check_tiles(several);
+    tile_triangles_ = options.tile_triangles;
+    if (tile_triangles_ > 0) check_tiles();
     std::optional<Tolerance> back;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
     const std::filesystem::path curve = several ? curve_path(options.output) : "";
@@ -67,31 +76,17 @@ class DecimateCommand {
     }
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
     for (const ToleratedMesh& bound : bounds_) check_not_among_scans(bound.output, options.cloud);
-    progress_.begin("reading", reading_seconds(options.mesh) +
-                                   (own_cloud_ ? 0 : reading_seconds(options.cloud)));
-    MeshFile file = read_mesh_file(options.mesh);
-    given_ = std::move(file.mesh);
-    lost_attributes_ = std::move(file.attributes);
-    scan_ =
-        own_cloud_ ? vertices_of(options.mesh, given_) : read_scan(options.cloud, options.reading);
-    if (own_cloud_) scan_.unit = file.unit;
-    if (!options.unit.empty()) scan_.unit = unit_named(options.unit);
-    if (!own_cloud_) require_unit_of(scan_, options.mesh, file.unit);
-    drop_unused_vertices(given_.vertices, given_.triangles);
-    // The checksums are those of the files as they were read: files may change while the decimation
-    // runs.
-    mesh_sha256_ = sha256_of_input(options.mesh);
-    cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_input(scan_.path);
-    if (back) back_ = tolerance_below_width(*back, "--back-error", scan_);
-    for (ToleratedMesh& bound : bounds_) bound.tolerance = bound.tolerance.in_unit_of(scan_.unit);
+    read_inputs();
+    if (back) back_ = tolerance_below_width(*back, "--back-error", scan());
+    for (ToleratedMesh& bound : bounds_) bound.tolerance = bound.tolerance.in_unit_of(scan().unit);
     // All tolerances have the same reference, which is made for the smallest.
     std::ranges::sort(bounds_, {},
-                      [&](const ToleratedMesh& b) { return b.tolerance.in_units(scan_.width); });
+                      [&](const ToleratedMesh& b) { return b.tolerance.in_units(scan().width); });
     for (const ToleratedMesh& bound : bounds_)
-      tolerance_below_width(bound.tolerance, "--max-error", scan_);
+      tolerance_below_width(bound.tolerance, "--max-error", scan());
     set_bound(bounds_.front());
     settings_.decimation.two_sided = options.two_sided;
-    is_large_ = scan_.cloud.points.size() > options.quick_beyond;
+    is_large_ = pieces_->points() > options.quick_beyond;
     settings_.decimation.effort = effort_named(is_large_ ? "quick" : options.effort);
     settings_.decimation.feature_angle = options.feature_angle;
     settings_.decimation.threads = options.threads > 0 ? options.threads : processor_threads();
@@ -99,16 +94,22 @@ class DecimateCommand {
       settings_.decimation.objective = DecimationSettings::Objective::kHoppe;
     }
     format_ = mesh_format(options.output);
-    require_unit(scan_.unit, format_, options.output);
+    require_unit(scan().unit, format_, options.output);
     settings_.storage = storage_of(format_);
     require_storable(given_, format_, std::min(epsilon_, epsilon_back()), options.output);
   }
 
+  ~DecimateCommand() {
+    tiled_.reset();
+    if (folder_) folder_->remove();
+  }
+  DecimateCommand(const DecimateCommand&) = delete;
+  DecimateCommand& operator=(const DecimateCommand&) = delete;
+
   int run() {
     progress_.finish();
     print_task(facts_);
-    progress_.begin("making the reference surface", joining_seconds(scan_.cloud.points.size()));
-    kept_ = choose_kept(scan_, given_.view(), epsilon_, excludable(), settings_.decimation.threads);
+    progress_.begin("making the reference surface", joining_seconds(pieces_->points()));
     make_reference();
     settings_.decimation.interrupted = [&] { return progress_.out_of_time() || was_interrupted(); };
     settings_.decimation.advanced = [&](double share, std::size_t triangles) {
@@ -118,39 +119,101 @@ class DecimateCommand {
   }
 
  private:
-  // A tile knows neither the collapses of another tolerance nor the edges of the whole start.
-  void check_tiles(bool several) const {
-    if (several) throw Error("--tiles: give one --max-error");
-    if (options_.feature_angle > 0) throw Error("--tiles cannot be combined with --feature-angle");
-    if (options_.features != "none") throw Error("--tiles cannot be combined with --features");
-    if (options_.objective == "hoppe") {
-      throw Error("--tiles cannot be combined with --objective hoppe");
+  void read_inputs() {
+    progress_.begin("reading", reading_seconds(options_.mesh) +
+                                   (own_cloud_ ? 0 : reading_seconds(options_.cloud)));
+    MeshFile file = read_mesh_file(options_.mesh);
+    given_ = std::move(file.mesh);
+    lost_attributes_ = std::move(file.attributes);
+    if (own_cloud_) {
+      vertices_ = vertices_of(options_.mesh, given_);
+      vertices_.unit = options_.unit.empty() ? file.unit : unit_named(options_.unit);
+      pieces_.emplace(vertices_);
+    } else {
+      // Once the decimation has begun, an interrupt ends that, and what it reached is proven.
+      const auto interrupted = [this] { return !has_begun_ && was_interrupted(); };
+      pieces_.emplace(options_.cloud, options_.reading, options_.unit, memory_, interrupted);
+      require_unit_of(scan(), options_.mesh, file.unit);
     }
+    drop_unused_vertices(given_.vertices, given_.triangles);
+    // The checksums are those of the files as they were read: files may change while the decimation
+    // runs.
+    mesh_sha256_ = sha256_of_input(options_.mesh);
+    cloud_sha256_ = own_cloud_ ? mesh_sha256_ : sha256_of_input(scan().path);
+    if (pieces_->is_in_memory()) return;
+    pieces_->require_in_memory(options_.report);
+    if (tile_triangles_ == 0) tile_triangles_ = kTileTriangles;
+    check_tiles();
+  }
+
+  // A tile knows neither the collapses of another tolerance nor the edges of the whole start.
+  void check_tiles() const {
+    const auto refuse = [this](std::string_view option) {
+      throw Error(fmt::format("{} cannot be combined with {}",
+                              options_.tile_triangles > 0
+                                  ? "--tiles"
+                                  : "a cloud that needs more than --memory, so tiles,",
+                              option));
+    };
+    if (bounds_.size() > 1) refuse("more than one --max-error");
+    if (options_.feature_angle > 0) refuse("--feature-angle");
+    if (options_.features != "none") refuse("--features");
+    if (options_.objective == "hoppe") refuse("--objective hoppe");
   }
 
   // Makes the reference and the file that holds it.
   void make_reference() {
-    reference_ = emax::make_reference(given_, kept_.points, far() * epsilon_,
-                                      {.repair = options_.repair,
-                                       .closed = options_.closed,
-                                       .threads = settings_.decimation.threads},
-                                      was_interrupted);
+    const ReferenceWishes wishes = {.repair = options_.repair,
+                                    .closed = options_.closed,
+                                    .threads = settings_.decimation.threads};
+    if (tile_triangles_ > 0) {
+      begin_tiles();
+      reference_ = tiled_->make_reference(wishes);
+    } else {
+      kept_ = choose_kept(scan(), given_.view(), epsilon_, excludable(), wishes.threads);
+      reference_ =
+          emax::make_reference(given_, kept_.points, kFar * epsilon_, wishes, was_interrupted);
+    }
     if (was_interrupted()) throw Interrupted{};
+    has_begun_ = true;
     if (!options_.two_sided) return;
     const TriangleMesh& mesh = reference_.surface.mesh;
     if (reference_.is_as_given()) {
-      file_.emplace(options_.mesh, mesh, scan_.cloud.points, mesh_sha256_);
+      file_.emplace(options_.mesh, mesh, scan().cloud.points, mesh_sha256_);
       return;
     }
     const ReportOptions report = reports_of(bounds_.front());
     check_distinct({reference_file(), options_.json, report.report, report.picture},
                    {options_.mesh, options_.cloud});
-    file_.emplace(reference_file(), mesh, scan_.cloud.points);
+    file_.emplace(reference_file(), mesh, scan().cloud.points);
+  }
+
+  void begin_tiles() {
+    TiledScanSettings wanted;
+    wanted.epsilon = epsilon_;
+    wanted.far = kFarInTiles * epsilon_;
+    wanted.excludable = excludable();
+    wanted.triangles_of_a_tile = tile_triangles_;
+    wanted.threads = settings_.decimation.threads;
+    wanted.memory = memory_;
+    wanted.runner = options_.machines.tiles.get();
+    wanted.interrupted = was_interrupted;
+    if (!pieces_->is_in_memory()) {
+      TileFolder folder(
+          options_.tile_folder.empty() ? options_.output + ".tiles" : options_.tile_folder,
+          pieces_->points(), kBytesPerPointInTiles);
+      folder.begin(fmt::format("the points of {}, without the classes {}{}\n", cloud_sha256_,
+                               fmt::join(options_.reading.left_out_classes, ","),
+                               options_.reading.skip_invalid ? " and invalid points" : ""));
+      folder_ = std::move(folder);  // it is this command's from now on
+      wanted.folder = folder_->path();
+    }
+    tiled_.emplace(*pieces_, given_, std::move(wanted));
   }
 
   void set_bound(const ToleratedMesh& bound) {
     output_ = bound.output;
-    epsilon_ = bound.tolerance.in_units(scan_.width);
+    epsilon_ = bound.tolerance.in_units(scan().width);
     settings_.decimation.epsilon = epsilon_;
     settings_.decimation.epsilon_back = back_.value_or(epsilon_);
   }
@@ -168,10 +231,10 @@ class DecimateCommand {
 
   int run_once() {
     find_planes();
-    progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
+    progress_.begin("assigning the points", joining_seconds(pieces_->points()));
     settings_.early = [this](const CertifiedDecimation& made) { write_early(made); };
-    result_ = decimate_scan(reference_.surface.mesh, scan_, kept_, settings_,
-                            options_.tile_triangles, options_.machines.tiles.get());
+    result_ = tiled_ ? tiled_->decimate(reference_.surface.mesh, settings_)
+                     : decimate_scan(reference_.surface.mesh, scan(), kept_, settings_);
     judge();
     progress_.finish();
     feasible_ ? print_result(facts_) : refuse(facts_);
@@ -206,7 +269,7 @@ class DecimateCommand {
       find_planes();
       progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
       result_ = decimate_certified(
-          reference_.surface.mesh, kept_.points, settings_,
+          reference_.surface.mesh, ProvenPoints(kept_.points), settings_,
           [&](const DecimationSettings& settings) { return sequence.cut(settings); });
       judge();
       progress_.finish();
@@ -264,12 +327,13 @@ class DecimateCommand {
 
   // Proves the decimator's result, and writes it if it keeps the bounds.
   void judge() {
-    progress_.begin("certifying the result", certifying_seconds(kept_.points.size()));
+    progress_.begin("certifying the result", certifying_seconds(pieces_->points()));
     prove_and_write();
   }
 
   void prove_and_write() {
-    proven_ = proofs_of(result_, scan_);
+    proven_ = tiled_ ? tiled_->prove(result_, file_ ? &reference_.surface.mesh : nullptr)
+                     : proofs_of(result_, scan());
     if (settings_.decimation.planes) {
       const double moved = storage_displacement(reference_.surface.mesh, settings_.storage);
       regions_ =
@@ -284,12 +348,12 @@ class DecimateCommand {
     return feasible && reference_.all_closed() ? kExitOk : kExitNo;
   }
 
-  double far() const { return options_.tile_triangles > 0 ? kFarInTiles : kFar; }
+  const Scan& scan() const { return pieces_->scan(); }
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
-  std::size_t excludable() const { return excludable_points(share_, scan_.cloud.points.size()); }
+  std::size_t excludable() const { return excludable_points(share_, pieces_->points()); }
   // Vertices of removed triangles are not part of the remaining surface.
   bool may_leave_out_own_vertices() const { return own_cloud_ && reference_.surface.dropped > 0; }
-  double percent(double length) const { return 100 * length / scan_.width; }
+  double percent(double length) const { return 100 * length / scan().width; }
 
   std::filesystem::path reference_file() const {
     if (reference_.is_as_given()) return options_.mesh;
@@ -306,15 +370,14 @@ class DecimateCommand {
       facts.add("not kept", "{}: the result holds vertices and triangles alone",
                 fmt::join(lost_attributes_, ", "));
     }
-    facts.add("points", "{}: {}{}, width {}", scan_.path.string(),
-              grouped(scan_.cloud.points.size()), own_cloud_ ? " vertices" : "",
-              length_text(scan_.width, scan_.unit));
-    print_left_out(facts, scan_.cloud);
-    print_doubtful_unit(facts, scan_.width, scan_.unit);
+    facts.add("points", "{}: {}{}, width {}", scan().path.string(), grouped(pieces_->points()),
+              own_cloud_ ? " vertices" : "", length_text(scan().width, scan().unit));
+    print_left_out(facts, scan().cloud);
+    print_doubtful_unit(facts, scan().width, scan().unit);
     std::string tolerances;
     for (const ToleratedMesh& bound : bounds_) {
       if (bounds_.size() == 1) {
-        tolerances = to_text(bound.tolerance, scan_.width, scan_.unit);
+        tolerances = to_text(bound.tolerance, scan().width, scan().unit);
       } else {
         tolerances += (tolerances.empty() ? "" : ", ") + bound.text;
       }
@@ -332,14 +395,15 @@ class DecimateCommand {
 
   void write() {
     if (file_) {
-      proven_.reference = bound_of(result_, epsilon_back(), *file_);
+      proven_.reference = bound_of(result_, epsilon_back(), *file_, proven_.points_to_reference);
       proven_.reference_path = file_->path();
     }
     written_ = write_result(output_, result(), file_ ? &*file_ : nullptr);
   }
 
   CertifiedResult result() const {
-    return {.cloud = {scan_, cloud_sha256_, options_.reading, own_cloud_},
+    return {.cloud = {scan(), cloud_sha256_, options_.reading, own_cloud_,
+                      pieces_->is_in_memory() ? nullptr : &*pieces_},
             .epsilon = epsilon_,
             .mesh = result_.mesh,
             .proven = proven_,
@@ -360,7 +424,7 @@ class DecimateCommand {
               result_.points.e_max_upper, epsilon_, percent(result_.points.e_max_upper));
     if (regions_) print(facts, *regions_, *settings_.decimation.planes);
     if (proven_.reference)
-      print(facts, *proven_.reference, epsilon_, scan_.width, reference_file());
+      print(facts, *proven_.reference, epsilon_, scan().width, reference_file());
     if (!may_leave_out_own_vertices()) {
       print_excluded(facts, result_.points, excludable());
     } else if (!result_.points.excluded.empty()) {
@@ -381,8 +445,8 @@ class DecimateCommand {
         "result",
         "infeasible: {1} of {2} points are farther than {0:.9g} from the mesh, and no triangle "
         "could be added to reach them; the farthest is at {3:.9g} (point {4}); nothing is written",
-        epsilon_, grouped(points.excluded.size()), grouped(scan_.cloud.points.size()), farthest,
-        scan_.cloud.index_in_file(points.excluded[static_cast<std::size_t>(
+        epsilon_, grouped(points.excluded.size()), grouped(pieces_->points()), farthest,
+        scan().cloud.index_in_file(points.excluded[static_cast<std::size_t>(
             std::ranges::max_element(points.excluded_distances) -
             points.excluded_distances.begin())]));
     facts.add("", "raise --max-error or exclude points with --exclude-outliers");
@@ -412,13 +476,19 @@ class DecimateCommand {
   const DecimateOptions& options_;
   Facts facts_;
   bool own_cloud_;
+  std::uint64_t memory_;  // bytes
   double share_;
   std::vector<ToleratedMesh> bounds_;  // ascending
   std::filesystem::path output_;       // for the present tolerance
   std::optional<double> back_;         // --back-error, if it is given
   TriangleMesh given_;
   std::vector<std::string> lost_attributes_;
-  Scan scan_;
+  Scan vertices_ = {};  // of the mesh, where they are the cloud
+  std::optional<ScanPieces> pieces_;
+  std::size_t tile_triangles_ = 0;    // 0: the mesh is decimated as a whole
+  std::optional<TileFolder> folder_;  // of tiles whose points are not in memory
+  std::optional<TiledScan> tiled_;
+  bool has_begun_ = false;
   std::string mesh_sha256_, cloud_sha256_;
   double epsilon_ = 0;
   CertifiedDecimationSettings settings_;

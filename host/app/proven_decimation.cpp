@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "host/parameters/registry.h"
-#include "host/tiles/tiled_decimation.h"
 #include "sw_model/base/parallel.h"
 
 namespace emax {
@@ -52,25 +51,14 @@ KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::siz
 
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,
                                   const KeptPoints& kept,
-                                  const CertifiedDecimationSettings& settings, std::size_t tile,
-                                  TileRunner* runner) {
-  const auto in_tiles = [&](const DecimationSettings& bounded) {
-    return TiledDecimator(reference, kept.points, tile, *runner).run(bounded);
-  };
-  const auto of_scan = [&](CertifiedDecimation made) {
-    if (kept.outliers.empty()) return made;
-    std::vector<std::uint32_t> excluded = kept.outliers;
-    for (const std::uint32_t i : made.points.excluded) excluded.push_back(kept.index[i]);
-    std::ranges::sort(excluded);
-    made.points = certify(scan.cloud.points, made.mesh.view(), excluded);
-    return made;
-  };
-  if (tile == 0) return of_scan(decimate_certified(reference, kept.points, settings));
-  CertifiedDecimationSettings tiled = settings;
-  if (settings.early) {
-    tiled.early = [&](const CertifiedDecimation& made) { settings.early(of_scan(made)); };
-  }
-  return of_scan(decimate_certified(reference, kept.points, tiled, in_tiles));
+                                  const CertifiedDecimationSettings& settings) {
+  CertifiedDecimation made = decimate_certified(reference, kept.points, settings);
+  if (kept.outliers.empty()) return made;
+  std::vector<std::uint32_t> excluded = kept.outliers;
+  for (const std::uint32_t i : made.points.excluded) excluded.push_back(kept.index[i]);
+  std::ranges::sort(excluded);
+  made.points = certify(scan.cloud.points, made.mesh.view(), excluded);
+  return made;
 }
 
 ProvenMesh proofs_of(const CertifiedDecimation& made, const Scan& scan) {
@@ -82,12 +70,17 @@ ProvenMesh proofs_of(const CertifiedDecimation& made, const Scan& scan) {
   return proven;
 }
 
-ReferenceBound bound_of(const CertifiedDecimation& made, double epsilon_back, ReferenceFile& file) {
+ReferenceBound bound_of(const CertifiedDecimation& made, double epsilon_back, ReferenceFile& file,
+                        const std::optional<double>& points_to_reference) {
   ReferenceBound bound;
   bound.epsilon_back = epsilon_back;
   bound.mesh_to_reference = made.mesh_to_reference->upper;
   bound.reference_to_mesh = made.reference_to_mesh->upper;
-  file.describe(bound, made.points.excluded);
+  if (points_to_reference) {
+    file.describe(bound, *points_to_reference);
+  } else {
+    file.describe(bound, made.points.excluded);
+  }
   return bound;
 }
 

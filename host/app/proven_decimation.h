@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/app/certified_result.h"
 #include "host/decimate/certified_decimation.h"
-#include "host/tiles/tile.h"
 
 namespace emax {
 
@@ -23,17 +22,17 @@ KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::siz
                        std::size_t threads = 1);
 
 // Decimates the reference under the bounds of `settings`, and certifies every point of the scan.
-// `tile`: in tiles of so many triangles by `runner`; 0: as a whole.
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,
                                   const KeptPoints& kept,
-                                  const CertifiedDecimationSettings& settings, std::size_t tile = 0,
-                                  TileRunner* runner = nullptr);
+                                  const CertifiedDecimationSettings& settings);
 
 // The decimator's proofs in the form of the certificate, without those for the reference.
 ProvenMesh proofs_of(const CertifiedDecimation& made, const Scan& scan);
 
-// The proofs for the reference of a two-sided bound, whose file is `file`.
-ReferenceBound bound_of(const CertifiedDecimation& made, double epsilon_back, ReferenceFile& file);
+// The proofs for the reference of a two-sided bound, whose file is `file`. `points_to_reference`:
+// the greatest distance of a kept point from it, where it is known.
+ReferenceBound bound_of(const CertifiedDecimation& made, double epsilon_back, ReferenceFile& file,
+                        const std::optional<double>& points_to_reference = {});
 
 // What the certificate says of how the mesh was found.
 ChainSettings chain_of(const DecimationSettings& settings);

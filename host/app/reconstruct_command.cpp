@@ -36,6 +36,7 @@ namespace {
 
 // What a point takes while it is reconstructed, of a tile also for what is around it.
 constexpr std::uint64_t kBytesOfPoint = 2000, kBytesPerPointOfTile = 3000;
+constexpr std::uint64_t kBytesPerPointInFiles = 300;  // of all files of all tiles
 constexpr std::uint64_t kLeastOfTile = 1 << 12;
 
 class ReconstructCommand {
@@ -198,7 +199,7 @@ class ReconstructCommand {
     for (const std::string& text : options_.parameters) set(text);  // before any file is made
     folder_.emplace(
         options_.tile_folder.empty() ? options_.output + ".tiles" : options_.tile_folder,
-        pieces_->points());
+        pieces_->points(), kBytesPerPointInFiles);
     folder_->begin(identity(most));
     if (folder_->is_continued()) {
       facts_.add("continued", "from the tiles in {}", folder_->path().string());

@@ -28,11 +28,15 @@ void ReferenceFile::describe(ReferenceBound& bound, const std::vector<std::uint3
   if (!points_to_reference_ || points_to_reference_->excluded != excluded) {
     points_to_reference_ = certify(points_, mesh_.view(), excluded, processor_threads());
   }
+  describe(bound, points_to_reference_->e_max_upper);
+}
+
+void ReferenceFile::describe(ReferenceBound& bound, double points_to_reference) const {
   bound.file = path().filename().string();
   bound.sha256 = sha256_;
   bound.triangles = mesh_.triangles.size();
   bound.topology = topology_;
-  bound.points_to_reference = points_to_reference_->e_max_upper;
+  bound.points_to_reference = points_to_reference;
 }
 
 }  // namespace emax

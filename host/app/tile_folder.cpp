@@ -12,7 +12,6 @@
 namespace emax {
 namespace {
 
-constexpr std::uint64_t kBytesInFiles = 300;  // of all files of all tiles
 constexpr std::string_view kIdentity = "command.txt";
 
 std::string text_of(const std::filesystem::path& path) {
@@ -22,17 +21,19 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-TileFolder::TileFolder(const std::filesystem::path& path, std::uint64_t points) : path_(path) {
+TileFolder::TileFolder(const std::filesystem::path& path, std::uint64_t points,
+                       std::uint64_t bytes_of_point)
+    : path_(path) {
   if (exists(path)) return;  // some of it is there already
   const std::filesystem::path parent = absolute(path).parent_path();
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(parent, error);
   if (error) throw Error(fmt::format("{}: {}", parent.string(), error.message()));
-  if (space.available >= points * kBytesInFiles) return;
+  if (space.available >= points * bytes_of_point) return;
   throw Error(fmt::format(
       "{}: the tiles need about {:.3g} GB, and {:.3g} GB are free; name a folder on another disk "
       "with --tile-folder",
-      path.string(), static_cast<double>(points * kBytesInFiles) / 1e9,
+      path.string(), static_cast<double>(points * bytes_of_point) / 1e9,
       static_cast<double>(space.available) / 1e9));
 }
 

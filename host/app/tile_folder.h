@@ -11,7 +11,7 @@ namespace emax {
 class TileFolder {
  public:
   // Throws Error if the disk has too little room for the tiles of so many points.
-  TileFolder(const std::filesystem::path& path, std::uint64_t points);
+  TileFolder(const std::filesystem::path& path, std::uint64_t points, std::uint64_t bytes_of_point);
 
   // Makes the folder, or goes on with what is in it. `identity`: what the files depend on. Throws
   // Error if the folder holds something else, which stays as it is.

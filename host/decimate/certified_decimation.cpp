@@ -18,7 +18,7 @@ constexpr double kGrowth = 8;
 
 class Attempts {
  public:
-  Attempts(const TriangleMesh& reference, std::span<const Point> cloud,
+  Attempts(const TriangleMesh& reference, const ProvenCloud& cloud,
            const CertifiedDecimationSettings& settings, const Decimate& decimate)
       : reference_(reference),
         exact_reference_(reference.view()),
@@ -40,9 +40,7 @@ class Attempts {
       if (reduction > 0.5) break;
     }
     // A decimator that was interrupted did not list the points that it left out.
-    for (std::uint32_t p = 0; p < cloud_.size(); ++p) {
-      if (exact_reference_.distance(cloud_[p]).upper > epsilon_) left_out_.push_back(p);
-    }
+    left_out_ = cloud_.beyond(exact_reference_, epsilon_, {});
     if (!holds(reference_)) {
       if (rounding > 0) {
         throw Error(
@@ -81,7 +79,7 @@ class Attempts {
     const std::size_t threads = settings_.decimation.threads;
     std::vector<std::function<void()>> proofs = {
         [&] { result_.validity = check_mesh(view); },
-        [&] { result_.points = certify(cloud_, view, beyond_for_good(exact)); }};
+        [&] { result_.points = cloud_.certify(exact, beyond_for_good(exact)); }};
     if (settings_.decimation.two_sided) {
       proofs.emplace_back([&] {
         result_.mesh_to_reference = decided_distance(view, exact_reference_, epsilon_back_);
@@ -109,17 +107,14 @@ class Attempts {
   // The points left out at the start that are still too far by exact distances.
   std::vector<std::uint32_t> beyond_for_good(const ExactMesh& mesh) {
     sort_once(left_out_);
-    std::vector<std::uint32_t> beyond;
-    for (const std::uint32_t p : left_out_) {
-      if (mesh.distance(cloud_[p]).upper > epsilon_) beyond.push_back(p);
-    }
-    return beyond;
+    if (left_out_.empty()) return {};
+    return cloud_.beyond(mesh, epsilon_, left_out_);
   }
 
   const TriangleMesh& reference_;
   const ExactMesh exact_reference_;
   const MeshValidity own_validity_;
-  std::span<const Point> cloud_;
+  const ProvenCloud& cloud_;
   const CertifiedDecimationSettings& settings_;
   const Decimate& decimate_;
   double epsilon_, epsilon_back_;
@@ -129,14 +124,35 @@ class Attempts {
 
 }  // namespace
 
-CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
-                                       const CertifiedDecimationSettings& settings) {
-  return decimate_certified(reference, cloud, settings, [&](const DecimationSettings& bounded) {
-    return BoundedDecimator(reference, cloud).run(bounded);
-  });
+CertifiedError ProvenPoints::certify(const ExactMesh& mesh,
+                                     std::span<const std::uint32_t> excluded) const {
+  return emax::certify(points_, mesh, excluded);
+}
+
+std::vector<std::uint32_t> ProvenPoints::beyond(
+    const ExactMesh& mesh, double epsilon,
+    std::optional<std::span<const std::uint32_t>> points) const {
+  std::vector<std::uint32_t> beyond;
+  const auto look_at = [&](std::uint32_t p) {
+    if (mesh.distance(points_[p]).upper > epsilon) beyond.push_back(p);
+  };
+  if (points) {
+    std::ranges::for_each(*points, look_at);
+  } else {
+    for (std::uint32_t p = 0; p < points_.size(); ++p) look_at(p);
+  }
+  return beyond;
 }
 
 CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
+                                       const CertifiedDecimationSettings& settings) {
+  return decimate_certified(reference, ProvenPoints(cloud), settings,
+                            [&](const DecimationSettings& bounded) {
+                              return BoundedDecimator(reference, cloud).run(bounded);
+                            });
+}
+
+CertifiedDecimation decimate_certified(const TriangleMesh& reference, const ProvenCloud& cloud,
                                        const CertifiedDecimationSettings& settings,
                                        const Decimate& decimate) {
   return Attempts(reference, cloud, settings, decimate).run();

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host/decimate/bounded_decimation.h"
 #include "host/geometry/mesh_validity.h"
@@ -21,6 +23,36 @@ struct CertifiedDecimation {
   std::optional<SurfaceDistance> reference_to_mesh;  // if two-sided
   bool interrupted = false;
   int repairs = 0;  // how often a result missed a bound and was made again
+};
+
+// The points that a decimation is proven for, wherever they are, by their numbers.
+class ProvenCloud {
+ public:
+  virtual ~ProvenCloud() = default;
+
+  // The certificate of the points, which names them by their numbers. `excluded` ascends.
+  virtual CertifiedError certify(const ExactMesh& mesh,
+                                 std::span<const std::uint32_t> excluded) const = 0;
+  // Of these points, which ascend, those farther than `epsilon` from the mesh; of all where none
+  // are named.
+  virtual std::vector<std::uint32_t> beyond(
+      const ExactMesh& mesh, double epsilon,
+      std::optional<std::span<const std::uint32_t>> points) const = 0;
+};
+
+// Of a cloud in memory, which must outlive this, by the indices in it.
+class ProvenPoints final : public ProvenCloud {
+ public:
+  explicit ProvenPoints(std::span<const Point> points) : points_(points) {}
+
+  CertifiedError certify(const ExactMesh& mesh,
+                         std::span<const std::uint32_t> excluded) const override;
+  std::vector<std::uint32_t> beyond(
+      const ExactMesh& mesh, double epsilon,
+      std::optional<std::span<const std::uint32_t>> points) const override;
+
+ private:
+  std::span<const Point> points_;
 };
 
 struct CertifiedDecimationSettings {
@@ -42,7 +74,7 @@ CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<
 
 // The same with another decimator of that reference and cloud, such as DecimationSequence::cut.
 using Decimate = std::function<DecimatedMesh(const DecimationSettings&)>;
-CertifiedDecimation decimate_certified(const TriangleMesh& reference, std::span<const Point> cloud,
+CertifiedDecimation decimate_certified(const TriangleMesh& reference, const ProvenCloud& cloud,
                                        const CertifiedDecimationSettings& settings,
                                        const Decimate& decimate);
 

@@ -137,12 +137,17 @@ std::filesystem::path CloudPartition::file_of(std::size_t part) const {
   return folder_ / fmt::format("points-{}.bin", part);
 }
 
+void CloudPartition::for_each(
+    std::size_t part, const std::function<void(std::span<const NumberedPoint>)>& take) const {
+  read_records<NumberedPoint>(file_of(part), take);
+}
+
 std::vector<NumberedPoint> CloudPartition::read(std::size_t part, double halo) const {
   const SpacePartition::Part& wanted = parts()[part];
   std::vector<NumberedPoint> found;
   for (std::size_t other = 0; other < parts().size(); ++other) {
     if (!are_within(wanted, parts()[other], halo)) continue;
-    read_records<NumberedPoint>(file_of(other), [&](std::span<const NumberedPoint> piece) {
+    for_each(other, [&](std::span<const NumberedPoint> piece) {
       for (const NumberedPoint& p : piece) {
         const Eigen::Vector3d at = rounded(normalization_, p.position).cast<double>();
         if (other == part || squared_distance_from(wanted, at) <= halo * halo) found.push_back(p);

@@ -57,6 +57,9 @@ class CloudPartition {
   // The points of a part, and those around it whose normalised distance from its cells is at most
   // `halo`, in the order of their numbers.
   std::vector<NumberedPoint> read(std::size_t part, double halo) const;
+  // Gives the points of a part alone to `take`, in pieces, in the order in which they were written.
+  void for_each(std::size_t part,
+                const std::function<void(std::span<const NumberedPoint>)>& take) const;
 
  private:
   std::filesystem::path file_of(std::size_t part) const;

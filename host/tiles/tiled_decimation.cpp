@@ -38,7 +38,7 @@ class TiledDecimator::Run {
         reach_(std::max(settings.epsilon,
                         settings.epsilon_back > 0 ? settings.epsilon_back : settings.epsilon)),
         mesh_(whole.reference_),
-        seen_(whole.cloud_.size()) {}
+        seen_(whole.points_.end()) {}
 
   DecimatedMesh run() {
     for (std::size_t round = 0; round < kFirstCuts.size() && !stopped_; ++round) {
@@ -53,9 +53,9 @@ class TiledDecimator::Run {
  private:
   DecimatedMesh reached() const {
     DecimatedMesh result{compact(), left_out_, stopped_, 0};
-    for (std::uint32_t p = 0; p < seen_.size(); ++p) {
-      if (seen_[p] == 0) result.left_out.push_back(p);  // near no tile
-    }
+    if (points_seen_ == whole_.points_.count()) return result;
+    const std::vector<std::uint32_t> near_no_tile = whole_.points_.unseen(seen_);
+    result.left_out.insert(result.left_out.end(), near_no_tile.begin(), near_no_tile.end());
     sort_once(result.left_out);
     return result;
   }
@@ -195,7 +195,10 @@ class TiledDecimator::Run {
     plant(patch);
     patch.done = true;
     stopped_ = stopped_ || result.interrupted;
-    for (const std::uint32_t point : origin.points) seen_[point] = 1;
+    for (const std::uint32_t point : origin.points) {
+      if (!seen_[point]) ++points_seen_;
+      seen_[point] = true;
+    }
     left_out_.insert(left_out_.end(), result.left_out.begin(), result.left_out.end());
   }
 
@@ -266,14 +269,11 @@ class TiledDecimator::Run {
       if (taken[r] == 0) reference.push_back(whole_.reference_.triangles[r]);
     }
     tile.reference = part_of(whole_.reference_.vertices, reference, nullptr);
-    for (const Triangle& t : patch.triangles) {
-      whole_.cloud_tree_.for_each(inflated(box_of(t), reach_), [&](std::uint32_t point) {
-        tile.point_numbers.push_back(point);
-      });
-    }
-    sort_once(tile.point_numbers);
-    for (const std::uint32_t point : tile.point_numbers) {
-      tile.points.push_back(whole_.cloud_[point]);
+    std::vector<Bounds> boxes;
+    for (const Triangle& t : patch.triangles) boxes.push_back(inflated(box_of(t), reach_));
+    for (const NumberedPoint& point : whole_.points_.within(boxes)) {
+      tile.point_numbers.push_back(static_cast<std::uint32_t>(point.number));
+      tile.points.push_back(point.position);
     }
     return tile;
   }
@@ -310,25 +310,24 @@ class TiledDecimator::Run {
   const double reach_;
   TriangleMesh mesh_;  // vertices; the triangles are the patches'
   std::vector<Patch> patches_;
-  std::vector<char> seen_;  // the points that a tile was given
+  std::vector<bool> seen_;  // the points that a tile was given
+  std::uint64_t points_seen_ = 0;
   std::vector<std::uint32_t> left_out_;
   std::size_t triangles_ = 0;
   bool stopped_ = false;
 };
 
-TiledDecimator::TiledDecimator(const TriangleMesh& reference, std::span<const Point> cloud,
+TiledDecimator::TiledDecimator(const TriangleMesh& reference, const TilePoints& points,
                                std::size_t triangles_of_a_tile, TileRunner& runner)
     : reference_(reference),
-      cloud_(cloud),
-      extent_(extent_of(reference, reference, cloud)),
+      points_(points),
+      extent_(extent_of(reference, reference,
+                        std::array{points.bounds().lower, points.bounds().upper})),
       runner_(runner),
       tile_(std::max<std::size_t>(triangles_of_a_tile, 1)),
       reference_tree_(
           static_cast<std::uint32_t>(reference.triangles.size()),
-          [&reference](std::uint32_t t) { return bounds_of(reference.view().corners(t)); }),
-      cloud_tree_(static_cast<std::uint32_t>(cloud.size()), [cloud](std::uint32_t p) {
-        return Bounds{cloud[p], cloud[p]};
-      }) {}
+          [&reference](std::uint32_t t) { return bounds_of(reference.view().corners(t)); }) {}
 
 DecimatedMesh TiledDecimator::run(const DecimationSettings& settings) const {
   return Run(*this, settings).run();

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <span>
-
 #include "host/decimate/bounded_decimation.h"
 #include "host/tiles/box_tree.h"
 #include "host/tiles/tile.h"
+#include "host/tiles/tile_points.h"
 
 namespace emax {
 
@@ -17,25 +16,26 @@ namespace emax {
 // threads.
 //
 // Time is that of the tiles, and O(n log n) to find what is near them. Memory is about 100 bytes a
-// triangle of the reference, and for each thread what the decimation of a tile takes.
+// triangle of the reference, a bit a point, and for each thread what the decimation of a tile
+// takes.
 class TiledDecimator {
  public:
-  // `reference` is as reference_surface() gives it. It, the cloud and the runner must outlive the
+  // `reference` is as reference_surface() gives it. It, the points and the runner must outlive the
   // decimator.
-  TiledDecimator(const TriangleMesh& reference, std::span<const Point> cloud,
+  TiledDecimator(const TriangleMesh& reference, const TilePoints& points,
                  std::size_t triangles_of_a_tile, TileRunner& runner);
 
-  // Throws as BoundedDecimator::run().
+  // Points that are left out are given by their numbers. Throws as BoundedDecimator::run().
   DecimatedMesh run(const DecimationSettings& settings) const;
 
  private:
   class Run;
   const TriangleMesh& reference_;
-  std::span<const Point> cloud_;
+  const TilePoints& points_;
   DataExtent extent_;
   TileRunner& runner_;
   std::size_t tile_;
-  BoxTree reference_tree_, cloud_tree_;
+  BoxTree reference_tree_;
 };
 
 }  // namespace emax

@@ -23,6 +23,7 @@ enum class Fault {
   kForgetsPlanes,       // vertices do not stay on the planes that the mesh follows
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change
+  kTrustsJoined,        // points that a joined one moved the mesh away from are not looked for
   // In the search for planes, cylinders and spheres.
   kCurvedIsPlane,    // a strip of a curved surface counts as a plane
   kFitsEveryNormal,  // a plane takes points whose neighbourhoods do not fit it

@@ -266,6 +266,49 @@ TEST_F(DecimateCommand, InTilesKeepsAllBoundsForAnyNumberOfThreads) {
   EXPECT_EQ(test::file_text(folder_ / "one.ply"), test::file_text(folder_ / "two.ply"));
 }
 
+// With invalid points, which have numbers in the file alone.
+TEST_F(DecimateCommand, PointsThatAreNotInMemoryGiveTheSameBytes) {
+  std::ofstream(folder_ / "more.xyz")
+      << "nan 0 0\n"
+      << test::file_text(folder_ / "scan.xyz") << "1 nan 1\n0.3 0.2 2.5\n";
+  std::vector<std::string> arguments = {"--cloud", "more.xyz", "--skip-invalid",
+                                        "--tiles", "1000",     "--exclude-outliers",
+                                        "2%",      "--effort", "quick"};
+  const ProgramRun whole = decimate("out.ply", arguments);
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  const std::string mesh = test::file_text(folder_ / "out.ply");
+  const std::string claims = test::file_text(folder_ / "out.ply.certificate.json");
+  const std::vector<std::string> files = test::files_in(folder_.path());
+  arguments.insert(arguments.end(), {"--memory", "90KB"});
+  const ProgramRun pieces = decimate("out.ply", arguments);
+  ASSERT_EQ(pieces.exit_code, 0) << pieces.errors;
+  EXPECT_EQ(test::file_text(folder_ / "out.ply"), mesh);
+  EXPECT_EQ(test::file_text(folder_ / "out.ply.certificate.json"), claims);
+  EXPECT_EQ(test::files_in(folder_.path()), files) << "files of tiles are left";
+  EXPECT_EQ(verify("out.ply"), 0);
+}
+
+TEST_F(DecimateCommand, PointsThatAreNotInMemoryNeedTilesAndAFolder) {
+  const std::vector<std::string> pieces = {"--cloud", "scan.xyz",           "--memory",
+                                           "90KB",    "--exclude-outliers", "2%"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), pieces.begin(), pieces.end());
+    return decimate("out.ply", more);
+  };
+  EXPECT_NE(with({"--report", "r.html"}).errors.find("--report"), std::string::npos);
+  EXPECT_NE(with({"--objective", "hoppe"}).errors.find("--memory"), std::string::npos);
+  std::filesystem::create_directory(folder_ / "own");
+  std::ofstream(folder_ / "own" / "letter.txt") << "keep me";
+  const ProgramRun refused = with({"--tile-folder", "own"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("--tile-folder"), std::string::npos) << refused.errors;
+  EXPECT_EQ(test::file_text(folder_ / "own" / "letter.txt"), "keep me");
+  EXPECT_FALSE(exists(folder_ / "out.ply"));
+  const ProgramRun made = with({"--tile-folder", "new"});
+  EXPECT_EQ(made.exit_code, 0) << made.output << made.errors;
+  EXPECT_FALSE(exists(folder_ / "new"));
+}
+
 TEST_F(DecimateCommand, SameInputSameBytes) {
   ASSERT_EQ(decimate("one.ply").exit_code, 0);
   ASSERT_EQ(decimate("two.ply").exit_code, 0);
@@ -558,7 +601,8 @@ TEST_F(DecimateCommand, RefusesInOneLineAndWritesNothing) {
   refused(decimate("out.ply", {"--bound", "both"}), "two-sided");
   refused(decimate("out.ply", {"--tiles", "1000", "--feature-angle", "40"}), "--feature-angle");
   refused(decimate("out.ply", {"--tiles", "1000", "--objective", "hoppe"}), "--objective");
-  refused(decimate("out.ply", {"--tiles", "1000"}, "surface.off", "1%,2%"), "one --max-error");
+  refused(decimate("out.ply", {"--tiles", "1000"}, "surface.off", "1%,2%"),
+          "more than one --max-error");
   refused(decimate("out.ply", {"--tiles", "10"}), "--tiles");
 }
 

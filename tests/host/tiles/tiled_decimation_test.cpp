@@ -34,9 +34,10 @@ std::vector<TriangleMesh> surfaces() {
 TEST(TiledDecimator, KeepsAllBoundsAndTheTopology) {
   for (const TriangleMesh& mesh : surfaces()) {
     const MeshTopology before = topology_of(mesh.view());
+    const PointsInMemory points(mesh.vertices);
     for (const double epsilon : {0.005, 0.03}) {
       for (const std::size_t tile : {150u, 700u}) {
-        const TiledDecimator decimator(mesh, mesh.vertices, tile, local);
+        const TiledDecimator decimator(mesh, points, tile, local);
         const DecimatedMesh result = decimator.run(with(epsilon));
         EXPECT_TRUE(certify(mesh.vertices, result.mesh.view()).within(epsilon));
         EXPECT_TRUE(within(result.mesh.view(), mesh.view(), epsilon));
@@ -63,7 +64,8 @@ TEST(TiledDecimator, KeepsPointsBetweenAndBesideTheVerticesNear) {
   cloud.push_back({0.5, 0.5, 5});  // too far
   DecimationSettings settings = with(0.03);
   settings.two_sided = false;
-  const DecimatedMesh result = TiledDecimator(mesh, cloud, 400, local).run(settings);
+  const DecimatedMesh result =
+      TiledDecimator(mesh, PointsInMemory(cloud), 400, local).run(settings);
   EXPECT_EQ(result.left_out,
             std::vector<std::uint32_t>{static_cast<std::uint32_t>(cloud.size() - 1)});
   EXPECT_TRUE(certify(cloud, result.mesh.view(), result.left_out).within(0.03));
@@ -73,7 +75,8 @@ TEST(TiledDecimator, KeepsPointsBetweenAndBesideTheVerticesNear) {
 TEST(TiledDecimator, GivesTheSameBytesForAnyNumberOfThreads) {
   const TriangleMesh mesh = bumpy(40, 60);
   DecimationSettings settings = with(0.01);
-  const TiledDecimator decimator(mesh, mesh.vertices, 600, local);
+  const PointsInMemory points(mesh.vertices);
+  const TiledDecimator decimator(mesh, points, 600, local);
   const DecimatedMesh one = decimator.run(settings);
   for (const std::size_t threads : {2u, 5u}) {
     settings.threads = threads;
@@ -85,7 +88,8 @@ TEST(TiledDecimator, IsTheDecimatorWhereOneTileHoldsAll) {
   const TriangleMesh mesh = bumpy(24, 40);
   const DecimationSettings settings = with(0.02);
   const DecimatedMesh whole = BoundedDecimator(mesh, mesh.vertices).run(settings);
-  const DecimatedMesh tiled = TiledDecimator(mesh, mesh.vertices, 1u << 20, local).run(settings);
+  const DecimatedMesh tiled =
+      TiledDecimator(mesh, PointsInMemory(mesh.vertices), 1u << 20, local).run(settings);
   EXPECT_EQ(tiled.mesh.triangles.size(), whole.mesh.triangles.size());
 }
 
@@ -97,7 +101,8 @@ TEST(TiledDecimator, GivesAMeshWithinAllBoundsBeforeTheSeamsAreDecimated) {
   std::vector<DecimatedMesh> early;
   DecimationSettings settings = with(0.02);
   settings.early = [&early](DecimatedMesh made) { early.push_back(std::move(made)); };
-  const DecimatedMesh result = TiledDecimator(mesh, cloud, 600, local).run(settings);
+  const DecimatedMesh result =
+      TiledDecimator(mesh, PointsInMemory(cloud), 600, local).run(settings);
   ASSERT_EQ(early.size(), 1u);
   const TriangleMesh& made = early[0].mesh;
   EXPECT_LT(result.mesh.triangles.size(), made.triangles.size());
@@ -116,7 +121,8 @@ TEST(TiledDecimator, AnInterruptLeavesAMeshWithinAllBounds) {
     std::atomic<int> left = polls;
     DecimationSettings settings = with(0.02);
     settings.interrupted = [&left] { return --left < 0; };
-    const DecimatedMesh result = TiledDecimator(mesh, mesh.vertices, 600, local).run(settings);
+    const DecimatedMesh result =
+        TiledDecimator(mesh, PointsInMemory(mesh.vertices), 600, local).run(settings);
     EXPECT_TRUE(result.interrupted);
     EXPECT_TRUE(check_mesh(result.mesh.view()).valid());
     EXPECT_TRUE(within(result.mesh.view(), mesh.view(), 0.02));
@@ -134,7 +140,7 @@ TEST(TiledDecimator, TellsAShareThatGrows) {
     EXPECT_GT(triangles, 0u);
     last = share;
   };
-  TiledDecimator(mesh, mesh.vertices, 600, local).run(settings);
+  TiledDecimator(mesh, PointsInMemory(mesh.vertices), 600, local).run(settings);
   EXPECT_GT(last, 0.5);
 }
 
