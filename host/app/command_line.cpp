@@ -87,13 +87,14 @@ void add_level(CLI::App& command, int& level) {
       ->check(CLI::IsMember({20, 30, 40, 50}));
 }
 
-void add_memory(CLI::App& command, std::optional<std::uint64_t>& memory) {
-  command
-      .add_option("--memory", memory,
-                  "a cloud that needs more memory than this is not kept but read in pieces, with "
-                  "the same result: bytes, or N MB, N GB (default: half of what is free)")
-      ->transform(CLI::AsSizeValue(false))
-      ->transform(not_negative());  // CLI11 runs this one first
+CLI::Option& add_memory(CLI::App& command, std::optional<std::uint64_t>& memory) {
+  return *command
+              .add_option("--memory", memory,
+                          "a cloud that needs more memory than this is not kept but read in "
+                          "pieces, with the same result: bytes, or N MB, N GB (default: half of "
+                          "what is free)")
+              ->transform(CLI::AsSizeValue(false))
+              ->transform(not_negative());  // CLI11 runs this one first
 }
 
 void add_points_and_json(CLI::App& command, std::string& excluded_share, CloudReadOptions& reading,
@@ -250,6 +251,7 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                        "suits most machines")
            ->check(CLI::Range(std::size_t{1000}, std::size_t{1} << 32));
   add_thin(command, optimize.thin, "with --tiles half of the tolerance").needs(&tiles);
+  add_memory(command, optimize.memory).needs(&tiles);
   for (CLI::Option* of_search : {&budget, &target, &stagnation, &resume, &config, &polish}) {
     tiles.excludes(of_search);
   }

@@ -34,9 +34,10 @@ struct OptimizeOptions {
   std::string resume;  // the run's folder; empty: <output>.run, removed when the run has ended
   std::optional<std::uint64_t> target_triangles, stagnation;
   bool polish = true;
-  bool closed = false;             // every hole of the surface is closed
-  std::size_t tile_triangles = 0;  // 0: not in tiles
-  std::optional<Tolerance> thin;   // of tiles; nothing: half of max_error
+  bool closed = false;                  // every hole of the surface is closed
+  std::size_t tile_triangles = 0;       // 0: not in tiles
+  std::optional<Tolerance> thin;        // of tiles; nothing: half of max_error
+  std::optional<std::uint64_t> memory;  // of tiles, bytes; nothing: half of what is free
   std::optional<double> evaluation_seconds;
   std::optional<std::uint64_t> evaluation_memory;  // bytes
 };

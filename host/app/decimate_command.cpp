@@ -35,7 +35,7 @@ using Effort = DecimationSettings::Effort;
 
 // Points of the cloud farther than this from the mesh, as a share of the tolerance, are joined to
 // it. In tiles, whose surfaces average noise away, nearer ones are mostly noise.
-constexpr double kFar = 0.5, kFarInTiles = 0.999;
+constexpr double kFar = 0.5, kFarInTiles = 0.99;
 // Where tiles are needed and not asked for.
 constexpr std::size_t kTileTriangles = 250'000;
 // The points of a cloud in parts, and of the tiles that are worked at.
@@ -191,7 +191,9 @@ class DecimateCommand {
   void begin_tiles() {
     TiledScanSettings wanted;
     wanted.epsilon = epsilon_;
-    wanted.far = kFarInTiles * epsilon_;
+    // The decimation keeps a distance from the tolerance that allows for what the file rounds.
+    const double rounding = storage_displacement(given_, settings_.storage);
+    wanted.far = std::max(kFarInTiles * epsilon_ - 4 * rounding, kFar * epsilon_);
     wanted.excludable = excludable();
     wanted.triangles_of_a_tile = tile_triangles_;
     wanted.threads = settings_.decimation.threads;

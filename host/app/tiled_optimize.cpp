@@ -54,6 +54,7 @@ ReconstructOptions reconstruction(const OptimizeOptions& options) {
   }
   made.simplify = made.tolerance;
   made.simplify->value *= kSimplified;
+  made.memory = options.memory;
   made.tile_points = kTilePoints;
   made.tile_folder = tile_folder(options);
   made.keep_tiles = true;  // until the mesh is there
@@ -77,7 +78,9 @@ DecimateOptions decimation(const OptimizeOptions& options) {
   made.report = options.common.report;
   made.excluded_share = options.common.excluded_share;
   made.threads = options.jobs;
+  made.memory = options.memory;
   made.tile_triangles = options.tile_triangles;
+  made.tile_folder = tile_folder(options) + "/points";
   made.machines = options.machines;
   made.two_sided = options.bound != "one-sided";
   made.closed = options.closed;

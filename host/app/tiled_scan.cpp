@@ -23,6 +23,8 @@ namespace {
 constexpr std::uint64_t kLeastOfPart = 1 << 16, kMostParts = 4096;
 constexpr std::uint64_t kSample = 1 << 12;  // points that stand for all
 constexpr int kLooks = 8;                   // for points that the mesh was moved away from
+constexpr double kAround = 4;               // times `far`, and twice that with each look
+constexpr int kChoices = 4;                 // of the points that are excluded, but for the first
 constexpr std::uint64_t kBytesPerFarPoint = 128;
 
 bool has(std::span<const std::uint32_t> ascending, std::uint32_t number) {
@@ -102,33 +104,29 @@ class ProvenScan final : public ProvenCloud {
 
 }  // namespace
 
-// What is found of the points far from the given mesh.
-struct TiledScan::FarFromMesh {
-  std::vector<std::pair<double, std::uint32_t>> beyond;  // farther than epsilon: -distance, number
-  std::vector<NumberedPoint> points;
-};
-
 TiledScan::TiledScan(const ScanPieces& scan, const TriangleMesh& given, TiledScanSettings settings)
     : scan_(scan), given_(given), settings_(std::move(settings)) {
   const ExactMesh mesh(given.view());
-  FarFromMesh all;
   std::mutex mutex;
   scan_.for_each(settings_.threads, [&](const ScanPieces::Piece& piece) {
     const FarFromMesh found = far_in(piece, mesh);
     const std::lock_guard lock(mutex);
-    all.beyond.insert(all.beyond.end(), found.beyond.begin(), found.beyond.end());
-    all.points.insert(all.points.end(), found.points.begin(), found.points.end());
-    require_room(all.points.size());
+    far_.beyond.insert(far_.beyond.end(), found.beyond.begin(), found.beyond.end());
+    far_.points.insert(far_.points.end(), found.points.begin(), found.points.end());
+    require_room(far_.points.size());
   });
-  std::ranges::sort(all.beyond);
-  all.beyond.resize(std::min(all.beyond.size(), settings_.excludable));
-  for (const auto& [distance, number] : all.beyond) outliers_.push_back(number);
+  std::ranges::sort(far_.beyond);
+  std::ranges::sort(far_.points, {}, &NumberedPoint::number);
+  exclude_farthest(settings_.excludable);
+}
+
+void TiledScan::exclude_farthest(std::size_t count) {
+  outliers_.clear();
+  for (const auto& [distance, number] :
+       std::span(far_.beyond).first(std::min(count, far_.beyond.size()))) {
+    outliers_.push_back(number);
+  }
   std::ranges::sort(outliers_);
-  far_ = std::move(all.points);
-  std::erase_if(far_, [&](const NumberedPoint& far) {
-    return has(outliers_, static_cast<std::uint32_t>(far.number));
-  });
-  std::ranges::sort(far_, {}, &NumberedPoint::number);
 }
 
 TiledScan::FarFromMesh TiledScan::far_in(const ScanPieces::Piece& piece,
@@ -177,31 +175,67 @@ std::vector<NumberedPoint> TiledScan::chosen(const Choice& choice) const {
 // The far points and a sample of all, which shows whether the scan belongs to the mesh.
 std::vector<NumberedPoint> TiledScan::with_far_points() const {
   const auto every = static_cast<std::uint32_t>(1 + scan_.points() / kSample);
-  return chosen(
-      [&](const Point&, std::uint32_t number) { return number % every == 0 || has(far_, number); });
+  return chosen([&](const Point&, std::uint32_t number) {
+    return number % every == 0 || has(far_.points, number);
+  });
+}
+
+// Where the farthest points take all that may be excluded, and others cannot be joined, the nearest
+// of the former make room: most of them can be joined.
+GivenReference TiledScan::make_reference(const ReferenceWishes& wishes) {
+  for (int choice = 0;; ++choice) {
+    Joined joined = join(wishes);
+    const std::size_t excluded = outliers_.size() + joined.missed;
+    const std::size_t over = excluded - std::min(excluded, settings_.excludable);
+    const std::size_t released = 2 * over;  // as some of these cannot be joined either
+    if (over == 0 || released > outliers_.size() || choice == kChoices) return joined.reference;
+    exclude_farthest(outliers_.size() - released);
+  }
 }
 
 // Joining a point bends the mesh, which may move it away from others: those are looked for, and
 // hold it back when all begins anew.
-GivenReference TiledScan::make_reference(const ReferenceWishes& wishes) const {
+TiledScan::Joined TiledScan::join(const ReferenceWishes& wishes) const {
   std::vector<NumberedPoint> kept = with_far_points();
+  double reach = kAround * settings_.far;
   for (int look = 0;; ++look) {
     std::vector<Point> positions;
     positions.reserve(kept.size());
     for (const NumberedPoint& point : kept) positions.push_back(point.position);
-    GivenReference made =
-        emax::make_reference(given_, positions, settings_.far, wishes, settings_.interrupted);
-    if (look == kLooks || made.is_as_given() || EMAX_FAULT(kTrustsJoined)) return made;
-    if (settings_.interrupted && settings_.interrupted()) return made;
-    const ExactMesh reference(made.surface.mesh.view());
-    const std::vector<NumberedPoint> missed = chosen([&](const Point& p, std::uint32_t number) {
-      return !has(kept, number) &&
-             reference.nearest(p, settings_.far).distance.upper > settings_.far;
-    });
-    if (missed.empty()) return made;
-    kept.insert(kept.end(), missed.begin(), missed.end());
-    std::ranges::sort(kept, {}, &NumberedPoint::number);
+    Joined made = {
+        emax::make_reference(given_, positions, settings_.far, wishes, settings_.interrupted), 0};
+    if (settings_.interrupted && settings_.interrupted()) throw Interrupted{};
+    const ExactMesh reference(made.reference.surface.mesh.view());
+    const auto is_far = [&](const Point& p) {
+      return reference.nearest(p, settings_.far).distance.upper > settings_.far;
+    };
+    made.missed = static_cast<std::size_t>(std::ranges::count_if(positions, is_far));
+    if (made.reference.is_as_given() || EMAX_FAULT(kTrustsJoined)) return made;
+    const std::vector<NumberedPoint> lost = chosen(
+        [&](const Point& p, std::uint32_t number) { return !has(kept, number) && is_far(p); });
+    if (lost.empty()) return made;
+    if (look == kLooks) {
+      made.missed += lost.size();
+      return made;
+    }
+    reach *= 2;
+    add_around(lost, reach, kept);
   }
+}
+
+// Those around will be lost next.
+void TiledScan::add_around(const std::vector<NumberedPoint>& lost, double reach,
+                           std::vector<NumberedPoint>& kept) const {
+  const BoxTree around(static_cast<std::uint32_t>(lost.size()), [&](std::uint32_t i) {
+    return inflated({lost[i].position, lost[i].position}, reach);
+  });
+  const std::vector<NumberedPoint> more = chosen([&](const Point& p, std::uint32_t number) {
+    bool is_near = false;
+    around.for_each({p, p}, [&is_near](std::uint32_t) { is_near = true; });
+    return is_near && !has(kept, number);
+  });
+  kept.insert(kept.end(), more.begin(), more.end());
+  std::ranges::sort(kept, {}, &NumberedPoint::number);
 }
 
 CertifiedDecimation TiledScan::decimate(const TriangleMesh& reference,

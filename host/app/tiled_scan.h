@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "host/app/certified_result.h"
@@ -39,7 +39,7 @@ class TiledScan {
   TiledScan(const ScanPieces& scan, const TriangleMesh& given, TiledScanSettings settings);
 
   // The given mesh as a reference, with the far points joined. Throws as emax::make_reference().
-  GivenReference make_reference(const ReferenceWishes& wishes) const;
+  GivenReference make_reference(const ReferenceWishes& wishes);
 
   // Decimates the reference under the bounds of `settings`, and certifies every point of the scan.
   // Points that are excluded are given by their indices in the cloud, or by their numbers in the
@@ -52,11 +52,23 @@ class TiledScan {
   ProvenMesh prove(const CertifiedDecimation& made, const TriangleMesh* reference) const;
 
  private:
-  struct FarFromMesh;
+  // What is found of the points that are far from the given mesh.
+  struct FarFromMesh {
+    std::vector<std::pair<double, std::uint32_t>> beyond;  // epsilon: -distance, number in the file
+    std::vector<NumberedPoint> points;                     // beyond `far`
+  };
+  struct Joined {
+    GivenReference reference;
+    std::size_t missed;  // kept points that are farther than `far` from it
+  };
   using Choice = std::function<bool(const Point&, std::uint32_t)>;
 
   FarFromMesh far_in(const ScanPieces::Piece& piece, const ExactMesh& mesh) const;
   void require_room(std::size_t far) const;
+  void exclude_farthest(std::size_t count);
+  Joined join(const ReferenceWishes& wishes) const;
+  void add_around(const std::vector<NumberedPoint>& lost, double reach,
+                  std::vector<NumberedPoint>& kept) const;
   // The points that are not excluded and for which the choice holds, in the order of their numbers.
   std::vector<NumberedPoint> chosen(const Choice& choice) const;
   std::vector<NumberedPoint> with_far_points() const;
@@ -69,8 +81,8 @@ class TiledScan {
   const ScanPieces& scan_;
   const TriangleMesh& given_;
   TiledScanSettings settings_;
+  FarFromMesh far_;                      // ascending
   std::vector<std::uint32_t> outliers_;  // numbers in the file, ascending
-  std::vector<NumberedPoint> far_;       // not excluded, in the order of their numbers
 };
 
 }  // namespace emax

@@ -48,7 +48,7 @@ TiledScanSettings settings() {
 std::pair<std::size_t, std::size_t> lost_and_joined() {
   const SpikedSheet sheet(400);
   const ScanPieces pieces(sheet.scan);
-  const TiledScan tiled(pieces, sheet.mesh, settings());
+  TiledScan tiled(pieces, sheet.mesh, settings());
   const GivenReference made = tiled.make_reference({});
   const ExactMesh before(sheet.mesh.view()), after(made.surface.mesh.view());
   const auto lost = std::ranges::count_if(sheet.scan.cloud.points, [&](const Point& p) {
@@ -75,7 +75,7 @@ TEST(TiledScan, ExcludesTheFarthestPoints) {
   wanted.excludable = 8;  // all spikes
   LocalTiles local;
   wanted.runner = &local;
-  const TiledScan tiled(pieces, sheet.mesh, wanted);
+  TiledScan tiled(pieces, sheet.mesh, wanted);
   const GivenReference made = tiled.make_reference({});
   CertifiedDecimationSettings bounds;
   bounds.decimation.epsilon = kTolerance;
@@ -99,6 +99,22 @@ TEST(TiledScan, ExcludesTheFarthestPoints) {
             kernel_error(sheet.scan, result.mesh.view(), farthest).worst_point);
   EXPECT_EQ(*proven.points_to_reference,
             certify(sheet.scan.cloud.points, made.surface.mesh.view(), farthest).e_max_upper);
+}
+
+// Of the spikes that may be excluded, the lowest can be joined in place of some that cannot.
+TEST(TiledScan, ExcludesWhatCannotBeJoined) {
+  SpikedSheet sheet(2500);
+  std::vector<Point>& points = sheet.scan.cloud.points;
+  for (int i = 0; i < 3; ++i) points.push_back({0.5, 0.5, 0.5 + 0.1 * i});  // one over the other
+  const ScanPieces pieces(sheet.scan);
+  TiledScanSettings wanted = settings();
+  wanted.excludable = 8;
+  TiledScan tiled(pieces, sheet.mesh, wanted);
+  const GivenReference made = tiled.make_reference({});
+  const ExactMesh reference(made.surface.mesh.view());
+  const auto beyond = std::ranges::count_if(
+      points, [&](const Point& p) { return reference.distance(p).upper > kTolerance; });
+  EXPECT_LE(beyond, 8);
 }
 
 TEST(TiledScan, SaysWhereTooManyPointsAreFar) {
