@@ -8,6 +8,14 @@
 //                                                           d^2, its index in the block
 //   kCounters      opcode, 0         -                      header, kAnswerCounters words or none
 //
+// A filtering core (filter_words.h) takes these in place of the three that make a block:
+//
+//   kFilterPoints  opcode, n         n x point (2 words)    -
+//   kFilterRecords opcode, m         m x record (11 words)  -
+//   kFilterReduce  opcode, options   -                      header[, result of each point],
+//   greatest
+//                                                           result, its index in the block
+//
 // A header is the opcode in the upper 8 bits and a count or options in the lower 24. Loading points
 // begins a block: every point's running minimum becomes infinity. Each record then meets every
 // point of the block; kReduce sends the answer and ends the block. An answer's header repeats the
@@ -21,6 +29,7 @@
 namespace emax {
 
 constexpr Word kKernelVersion = 1;  // raised whenever the kernel's bits change
+constexpr Word kFilterVersion = 1;  // raised whenever the filter's bits change
 
 enum Opcode : Word {
   kIdentify = 1,
@@ -28,6 +37,9 @@ enum Opcode : Word {
   kRecords = 3,
   kReduce = 4,
   kCounters = 5,
+  kFilterPoints = 6,
+  kFilterRecords = 7,
+  kFilterReduce = 8,
   kError = 0xff
 };
 
@@ -42,7 +54,7 @@ constexpr Word kReduceListsPoints = 1;  // option of kReduce: also the d^2 of ev
 
 constexpr Word kMaxBlockPoints = 1024;
 constexpr Word kPointWords = 3;
-// Kernel version, kMaxBlockPoints, kRecordWords, elements, clock in kHz (0: not known).
+// Kernel version, kMaxBlockPoints, words of a record, elements, clock in kHz (0: not known).
 constexpr Word kAnswerIdentity = 5;
 constexpr Word kAnswerCounters = 6;  // cycles busy, stalled, idle: each its low and its high word
 constexpr Word kAnswerWorst = 2;     // squared distance, index

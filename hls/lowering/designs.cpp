@@ -4,12 +4,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hls/kernel/filter_words.h"
 #include "hls/kernel/forms/barycentric.h"
+#include "hls/kernel/forms/guarded_edge.h"
 #include "hls/kernel/forms/three_edge.h"
 #include "hls/kernel/point_triangle.h"
 #include "hls/kernel/reduce.h"
 #include "hls/lowering/identifiers.h"
 #include "hls/lowering/kernel_sources.h"
+#include "hls/lowering/recorded_fixed.h"
 #include "hls/lowering/recorded_value.h"
 
 namespace emax {
@@ -27,6 +30,8 @@ constexpr FormInfo kFormInfo[] = {
      "emax_distance_barycentric", kBarycentricWords},
     {"minimum", "minimum", "hls/kernel/reduce.h", "emax_minimum", 0},
     {"maximum", "maximum", "hls/kernel/reduce.h", "emax_maximum", 0},
+    {"filter", "squared_distance_below_one", "hls/kernel/forms/guarded_edge.h", "emax_filter",
+     kFilterRecordWords, "emax::FilterNumber"},
 };
 
 // Inputs are named by their path in the arguments. Those of a record are in the order of its words.
@@ -63,6 +68,39 @@ class Inputs {
  private:
   DataflowGraph& graph_;
   std::uint32_t words_ = 0;
+};
+
+// Numbers of the filter; a record's are packed as its words hold them.
+class FilterInputs {
+ public:
+  using Number = RecordedScalar<FilterNumber>::Type;
+
+  explicit FilterInputs(DataflowGraph& graph) : graph_(graph) {}
+
+  Vector3<Number> point(const std::string& name) {
+    const auto sample = [&](const char* axis) {
+      return Number::of(graph_.add_input(name + axis, Number::type(), Arrival::kSample));
+    };
+    const Number x = sample("_x"), y = sample("_y"), z = sample("_z");
+    return {x, y, z};
+  }
+  TriangleRecord<Number> record(const std::string& name, RecordedCondition& segment) {
+    TriangleRecord<Number> t{};
+    std::uint32_t field = 0;
+    for_each_scalar(
+        [&](Number& scalar) {
+          scalar = Number::of(graph_.add_input(name + "_" + kRecordWordNames[field], Number::type(),
+                                               Arrival::kMemory, kFilterNumberBits * field));
+          ++field;
+        },
+        t);
+    segment = RecordedCondition(
+        graph_.add_input("segment", ValueKind::kCondition, Arrival::kMemory, kFilterSegmentBit));
+    return t;
+  }
+
+ private:
+  DataflowGraph& graph_;
 };
 
 // Calls the functions that `squared_distance` calls once more, to name their results: the graph
@@ -118,6 +156,14 @@ void record(Form form, DataflowGraph& graph, Labels& labels) {
       const WorstPoint<RecordedWord> result = maximum(so_far, next);
       graph.add_output("result_squared_distance", result.squared_distance.node());
       graph.add_output("result_index", result.index.node());
+      break;
+    }
+    case Form::kFilter: {
+      FilterInputs filter(graph);
+      const auto p = filter.point("p");
+      RecordedCondition segment;
+      const auto t = filter.record("t", segment);
+      graph.add_output("squared_distance", squared_distance_below_one(t, segment, p).node());
       break;
     }
   }

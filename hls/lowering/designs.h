@@ -11,9 +11,9 @@
 
 namespace emax {
 
-enum class Form { kVisibleEdge, kThreeEdge, kBarycentric, kMinimum, kMaximum };
-constexpr Form kForms[] = {Form::kVisibleEdge, Form::kThreeEdge, Form::kBarycentric, Form::kMinimum,
-                           Form::kMaximum};
+enum class Form { kVisibleEdge, kThreeEdge, kBarycentric, kMinimum, kMaximum, kFilter };
+constexpr Form kForms[] = {Form::kVisibleEdge, Form::kThreeEdge, Form::kBarycentric,
+                           Form::kMinimum,     Form::kMaximum,   Form::kFilter};
 
 constexpr std::string_view kModelScalar = "emax::FlushedFloat";
 

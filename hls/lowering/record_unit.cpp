@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
@@ -39,7 +40,7 @@ class RecordUnit {
     for (const Input& input : design_.graph.inputs()) {
       ports_.push_back("." + input.name);
       if (input.arrival == Arrival::kSample) {
-        samples_.push_back(input.name);
+        samples_.push_back(&input);
       } else {
         add_field(input);
       }
@@ -50,8 +51,7 @@ class RecordUnit {
   std::string text() {
     const std::string slot_delays = delay_slots();
     std::string text = head() + declarations("logic [SLOT_BITS-1:0] ", slot_names());
-    text += declarations("logic [31:0] ", reals_) + declarations("logic ", conditions_);
-    text += declarations("logic [31:0] ", late_reals_) + declarations("logic ", late_conditions_);
+    text += declarations_of(fields_) + declarations_of(late_fields_);
     text += declarations("logic ", {enables_.begin() + 1, enables_.end()});
     text += declarations("logic [SLOT_BITS-1:0] ", {write_slots_.begin() + 1, write_slots_.end()});
     text += "\n" + slot_delays + "\n" + late_writes() + memories_ + "\n" + datapath();
@@ -60,6 +60,17 @@ class RecordUnit {
   }
 
  private:
+  // Names by their bits, the widest first.
+  using Fields = std::map<int, std::vector<std::string>, std::greater<>>;
+
+  static std::string declarations_of(const Fields& fields) {
+    std::string text;
+    for (const auto& [bits, names] : fields) {
+      text += declarations("logic " + vector_type(bits), names);
+    }
+    return text;
+  }
+
   // The cycle in which the slot of a field is presented to its memory.
   int slot_cycle(const Input& input) const { return design_.schedule.start[input.node] - 1; }
 
@@ -83,7 +94,7 @@ class RecordUnit {
     const auto late = static_cast<std::size_t>(
         std::distance(late_cycles_.begin(), late_cycles_.upper_bound(cycle)));
     const int bits = design_.graph.node(input.node).type.width;
-    (bits == 1 ? conditions_ : reals_).push_back(input.name);
+    fields_[bits].push_back(input.name);
     for (int bit = 0; bit < bits; ++bit)
       used_[input.record_bit + static_cast<unsigned>(bit)] = true;
     memories_ +=
@@ -102,7 +113,7 @@ class RecordUnit {
     std::string data = "write_record[" + (bits == 1 ? "" : high) + low + "]";
     if (late == 0) return data;
     const std::string name = identifiers_.take(input.name + "_late");
-    (bits == 1 ? late_conditions_ : late_reals_).push_back(name);
+    late_fields_[bits].push_back(name);
     memories_ += instance(
         "delay_line #(.WIDTH(" + std::to_string(bits) + "), .DEPTH(" + std::to_string(late) + "))",
         identifiers_.take(name + "_delay"), ".clk, .d(" + data + "), .q(" + name + ")");
@@ -151,8 +162,10 @@ class RecordUnit {
 
   std::string head() const {
     std::string sample_ports, output_ports;
-    for (const std::string& name : samples_) {
-      sample_ports += "    input  logic [31:0] " + name + ",  // cycle 0\n";
+    for (const Input* input : samples_) {
+      sample_ports += "    input  logic " +
+                      vector_type(design_.graph.node(input->node).type.width) + input->name +
+                      ",  // cycle 0\n";
     }
     for (const Output& output : design_.graph.outputs()) {
       const bool is_last = &output == &design_.graph.outputs().back();
@@ -202,7 +215,8 @@ module )" + module_ +
   // and delayed by one more cycle for each of the late cycles.
   std::map<int, std::string> slot_at_ = {{0, "slot"}};
   std::vector<std::string> enables_ = {"write_enable"}, write_slots_ = {"write_slot"};
-  std::vector<std::string> reals_, conditions_, samples_, late_reals_, late_conditions_;
+  std::vector<const Input*> samples_;
+  Fields fields_, late_fields_;
   std::vector<std::string> ports_ = {".clk"};
   std::string memories_;
 };

@@ -104,7 +104,7 @@ CREDIT_FAULTS = (*mutants("CREDIT_NOT_TAKEN", "CREDIT_NOT_GIVEN"),
 RING_FAULTS = mutants("SLOT_FREED_EARLY", "RING_SKIPS_A_SLOT", "RING_OVERFILLED")
 DECODER_FAULTS = (*mutants("ONE_POINT_TOO_MANY", "REDUCE_LEAVES_BLOCK_OPEN"),
                   Fault("a record's words in the wrong order",
-                        patch=("command_decoder.sv", "{word, assembled[639:32]}", "{assembled[607:0], word}")),
+                        patch=("command_decoder.sv", "{word, assembled[32*RECORD_WORDS-1:32]}", "{assembled[32*RECORD_WORDS-33:0], word}")),
                   Fault("points are written while the block before is read",
                         patch=("command_decoder.sv", "sequencer_idle && !finish && !drop && !block", "!finish && !drop && !block")),
                   Fault("the first of the faults is answered",

@@ -56,6 +56,11 @@ package emax_mutation;
   localparam int STREAM_ALWAYS_READY = 141;  // stream/pipeline_stream: takes samples without room
   localparam int STREAM_LAST_LOST = 142;  // stream/pipeline_stream: no result is marked as the last
 
+  localparam int FILTER_AXES_SWAPPED = 151;  // filter/filter_element: y and z of a point change places
+  localparam int FILTER_SEGMENT_LOST = 152;  // filter/filter_element: no record is a segment
+  localparam int FILTER_FINAL_IGNORED = 153;  // filter/filter_element: every minimum comes out
+  localparam int FILTER_LAST_LOST = 154;  // filter/filter_element: the last beat of a block is not marked
+
   localparam int CREDIT_NOT_TAKEN = 101;  // credit_counter: a beat enters without taking its credit
   localparam int CREDIT_NOT_GIVEN = 102;  // credit_counter: credits do not come back
   localparam int FIFO_IGNORES_STALL = 103;  // ring_memory: the output moves on before its word is taken

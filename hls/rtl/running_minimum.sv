@@ -6,11 +6,12 @@
 //
 // A pair's index comes two cycles before its squared distance. Two pairs of one index must be at
 // least READ_MODIFY_WRITE cycles apart, unless the later one is the point's first: it does not read.
-// The memory is not reset; `first_pair` starts a point at infinity.
+// The memory is not reset; `first_pair` starts a point at NOT_MET.
 `include "mutation.svh"
 
 module running_minimum #(
-    parameter int POINT_BITS = 10
+    parameter int POINT_BITS = 10,
+    parameter logic [31:0] NOT_MET = 32'h7f800000  // of a point that has met no record: infinity
 ) (
     input  logic                  clk,
     input  logic [POINT_BITS-1:0] early_index,       // cycle -2
@@ -20,8 +21,6 @@ module running_minimum #(
     input  logic [31:0]           squared_distance,
     output logic [31:0]           minimum            // cycle 2
 );
-  localparam logic [31:0] INFINITY_WORD = 32'h7f800000;
-
   logic [31:0] stored, so_far, next, smaller;
   logic [POINT_BITS-1:0] index_1, write_index;
   logic valid_1, write_enable;
@@ -36,7 +35,7 @@ module running_minimum #(
 
   always_ff @(posedge clk) begin
     so_far <= `MUTATED(FIRST_IGNORED, first_pair, 1'b0)
-        ? `MUTATED(FIRST_WITHOUT_INFINITY, INFINITY_WORD, '1) : stored;
+        ? `MUTATED(FIRST_WITHOUT_INFINITY, NOT_MET, '1) : stored;
     next <= squared_distance;
     {valid_1, index_1} <= {valid, index};
     minimum <= smaller;

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "hls/kernel/filter_words.h"
 #include "hls/kernel/fixed.h"
 #include "hls/kernel/forms/guarded_edge.h"
 #include "hls/kernel/triangle_record.h"
@@ -28,6 +30,8 @@ constexpr int kFilterBits = 18;
 template <int kBits>
 using FilterScalar = Fixed<kBits, kBits - 2, Rounding::kHalfUp, Overflow::kSaturate>;
 constexpr int kLeastFilterBits = 14, kMostFilterBits = 18;  // for which the error is proven
+static_assert(std::is_same_v<FilterScalar<kFilterBits>, FilterNumber>,
+              "the filtering core computes with the filter's numbers");
 // Steps of filter_step(kBits) squared.
 template <int kBits>
 using FilterSquare = SumOfProducts<FilterScalar<kBits>>;

@@ -59,28 +59,59 @@ void append_reduce(std::vector<Word>& words, bool list_points) {
   append_header(words, kReduce, list_points ? kReduceListsPoints : 0);
 }
 
-std::size_t payload_words(Word header) {
-  const std::size_t count = header_count(header);
-  switch (header_opcode(header)) {
-    case kLoadPoints:
-      return count * kPointWords;
-    case kRecords:
-      return count * kRecordWords;
-    default:
-      return 0;
+void append_filter_points(std::vector<Word>& words, std::span<const Vector3<FilterNumber>> points) {
+  append_header(words, kFilterPoints, points.size());
+  std::size_t at = words.size();
+  words.resize(at + points.size() * kFilterPointWords);
+  for (const Vector3<FilterNumber>& point : points) {
+    pack_filter_point(point, &words[at]);
+    at += kFilterPointWords;
   }
 }
 
-bool is_answered(Word header) {
+void append_filter_records(std::vector<Word>& words,
+                           std::span<const TriangleRecord<FilterNumber>> records) {
+  while (records.size() > kMaxCount) {
+    append_filter_records(words, records.first(kMaxCount));
+    records = records.subspan(kMaxCount);
+  }
+  append_header(words, kFilterRecords, records.size());
+  std::size_t at = words.size();
+  words.resize(at + records.size() * kFilterRecordWords);
+  for (const TriangleRecord<FilterNumber>& record : records) {
+    pack_filter_record(record, &words[at]);
+    at += kFilterRecordWords;
+  }
+}
+
+void append_filter_reduce(std::vector<Word>& words, bool list_points) {
+  append_header(words, kFilterReduce, list_points ? kReduceListsPoints : 0);
+}
+
+std::size_t payload_words(Word header, CommandSet set) {
+  const bool filter = set == CommandSet::kFilter;
+  const std::size_t count = header_count(header);
   const Word opcode = header_opcode(header);
-  return opcode == kReduce || opcode == kIdentify || opcode == kCounters;
+  if (opcode == (filter ? kFilterPoints : kLoadPoints)) {
+    return count * (filter ? kFilterPointWords : kPointWords);
+  }
+  if (opcode == (filter ? kFilterRecords : kRecords)) {
+    return count * (filter ? kFilterRecordWords : kRecordWords);
+  }
+  return 0;
+}
+
+bool is_answered(Word header, CommandSet set) {
+  const Word opcode = header_opcode(header);
+  return opcode == (set == CommandSet::kFilter ? kFilterReduce : kReduce) || opcode == kIdentify ||
+         opcode == kCounters;
 }
 
 CommandCursor::Part CommandCursor::take(std::span<const Word>& words) {
   const bool begins = missing_ == 0;
   if (begins) {
     header_ = words[0];
-    missing_ = 1 + payload_words(header_);
+    missing_ = 1 + payload_words(header_, set_);
   }
   const auto part = words.first(std::min(missing_, words.size()));
   words = words.subspan(part.size());
@@ -88,7 +119,7 @@ CommandCursor::Part CommandCursor::take(std::span<const Word>& words) {
   return {part, header_, begins, missing_ == 0};
 }
 
-ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points) {
+ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points, Opcode question) {
   std::array<Word, 1> header;
   device.receive(header);
   if (header_opcode(header[0]) == kError) {
@@ -97,7 +128,7 @@ ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points
     refuse(device, reason(error[0]));
   }
   const std::size_t listed = list_points ? points : 0;
-  if (header[0] != command_header(kReduce, static_cast<Word>(kAnswerWorst + listed))) {
+  if (header[0] != command_header(question, static_cast<Word>(kAnswerWorst + listed))) {
     refuse(device, "an answer does not belong to its question");
   }
   std::vector<std::uint32_t> nearest(listed);
@@ -127,17 +158,29 @@ void ask_cycles(Device& device, DeviceCounters& counters) {
   counters.cycles = *counters.busy + *counters.stalled + *counters.idle;
 }
 
-void require_compatible(Device& device) {
+namespace {
+
+void require_identity(Device& device, Word version, Word record_words, const std::string& what) {
   device.send(std::array<Word, 1>{command_header(kIdentify, 0)});
   std::array<Word, 1 + kAnswerIdentity> answer;
   device.receive(answer);
   if (answer[0] != command_header(kIdentify, kAnswerIdentity)) {
     refuse(device, "it does not identify itself as an emax device");
   }
-  if (answer[1] != kKernelVersion || answer[2] != kMaxBlockPoints || answer[3] != kRecordWords) {
-    refuse(device, "it runs kernel version " + std::to_string(answer[1]) +
-                       ", this program needs version " + std::to_string(kKernelVersion));
-  }
+  if (answer[1] == version && answer[2] == kMaxBlockPoints && answer[3] == record_words) return;
+  refuse(device, "it runs " + what + " version " + std::to_string(answer[1]) + " with records of " +
+                     std::to_string(answer[3]) + " words, this program needs version " +
+                     std::to_string(version) + " with " + std::to_string(record_words));
+}
+
+}  // namespace
+
+void require_compatible(Device& device) {
+  require_identity(device, kKernelVersion, kRecordWords, "kernel");
+}
+
+void require_filter(Device& device) {
+  require_identity(device, kFilterVersion, kFilterRecordWords, "filter");
 }
 
 }  // namespace emax

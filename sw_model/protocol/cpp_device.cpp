@@ -4,7 +4,8 @@
 
 namespace emax {
 
-void CppDevice::send(std::span<const Word> words) {
+template <class Pair>
+void CppCore<Pair>::send(std::span<const Word> words) {
   while (!words.empty()) {
     const CommandCursor::Part part = cursor_.take(words);
     if (part.begins) account(part.header);
@@ -13,7 +14,8 @@ void CppDevice::send(std::span<const Word> words) {
   }
 }
 
-void CppDevice::receive(std::span<Word> words) {
+template <class Pair>
+void CppCore<Pair>::receive(std::span<Word> words) {
   if (answers_.size() < words.size()) {
     throw Error(
         "device sim: waiting for an answer that no command asked for; this is a defect of "
@@ -22,16 +24,17 @@ void CppDevice::receive(std::span<Word> words) {
   for (Word& word : words) word = answers_.read();
 }
 
-void CppDevice::account(Word header) {
+template <class Pair>
+void CppCore<Pair>::account(Word header) {
   const Word count = header_count(header);
   switch (header_opcode(header)) {
-    case kLoadPoints:
+    case Pair::kLoad:
       cycles_.load_points(count);
       break;
-    case kRecords:
+    case Pair::kMeet:
       cycles_.stream_records(count);
       break;
-    case kReduce:
+    case Pair::kAnswer:
       cycles_.reduce((count & kReduceListsPoints) != 0);
       break;
     case kIdentify:
@@ -45,12 +48,16 @@ void CppDevice::account(Word header) {
   }
 }
 
-DeviceCounters CppDevice::counters() const {
+template <class Pair>
+DeviceCounters CppCore<Pair>::counters() const {
   DeviceCounters counters;
   counters.cycles = cycles_.cycles();
   counters.busy = cycles_.busy();
   counters.stalled = cycles_.stalled();
   return counters;
 }
+
+template class CppCore<ExactPair<FlushedFloat>>;
+template class CppCore<FilterPair>;
 
 }  // namespace emax

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
 #include "hls/kernel/emax_kernel.h"
 #include "sw_model/model/flushed_float.h"
@@ -10,11 +11,14 @@
 
 namespace emax {
 
-// The `sim` device: the C++ top of the kernel on the flushing scalar, with the cycle model of a
-// core of the given number of elements.
-class CppDevice : public Device {
+// The `sim` device: a C++ top with the cycle model of a core of the given number of elements.
+// `Pair` is what a block's pairs are (hls/kernel/emax_kernel.h).
+template <class Pair>
+class CppCore : public Device {
  public:
-  explicit CppDevice(std::uint32_t elements = 1) : cycles_(elements) {}
+  explicit CppCore(std::uint32_t elements = 1)
+      : cursor_(kIsFilter ? CommandSet::kFilter : CommandSet::kExact),
+        cycles_(elements, kIsFilter ? kFilterCore : kExactCore) {}
 
   std::string name() const override { return "sim"; }
   // Takes the stream of words in parts of any length; serves a command once all its words are
@@ -24,12 +28,19 @@ class CppDevice : public Device {
   DeviceCounters counters() const override;
 
  private:
+  static constexpr bool kIsFilter = std::is_same_v<Pair, FilterPair>;
+
   void account(Word header);
 
-  EmaxKernel<FlushedFloat> kernel_;
+  BlockKernel<Pair> kernel_;
   Stream<Word> commands_, answers_;
   CommandCursor cursor_;
   CycleModel cycles_;
 };
+
+// The kernel on the flushing scalar.
+using CppDevice = CppCore<ExactPair<FlushedFloat>>;
+// A filtering core.
+using CppFilter = CppCore<FilterPair>;
 
 }  // namespace emax

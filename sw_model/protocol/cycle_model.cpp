@@ -10,15 +10,14 @@ namespace emax {
 namespace {
 
 // Cycles of the core's parts. Tests compare the totals that follow with the Verilated core.
-constexpr std::uint64_t kLeastRows = 5;                           // of a pass
-constexpr std::uint64_t kSlotAfterPass = kDistanceLastRead + 14;  // until its slot is free again
+constexpr std::uint64_t kLeastRows = 5;       // of a pass
+constexpr std::uint64_t kSlotAfterPass = 14;  // and the last read, until its slot is free again
 constexpr std::uint64_t kRecordHandover = 2;
 constexpr std::uint64_t kPassAfterRecord = 2;
 constexpr std::uint64_t kPassAfterReduce = 3;
-constexpr std::uint64_t kAnswerAfterPair = kDistanceLatency + 20;
+constexpr std::uint64_t kAnswerAfterPair = 20;  // and the latency
 constexpr std::uint64_t kWorstAfterPair = kAnswerAfterPair + 1;
-constexpr std::uint64_t kOutputRoom = 255;  // words in an element's output
-constexpr std::uint64_t kGather = 2;        // per element
+constexpr std::uint64_t kGather = 2;  // per element
 constexpr std::uint64_t kAnswerOverhead = 4;
 
 // ULX3S: a serial link of 3 Mbaud, ten bits a byte. The others: a 32-bit word a cycle, which is
@@ -49,17 +48,17 @@ void CycleModel::load_points(std::uint64_t points) {
   const bool fits = points <= kMaxBlockPoints;
   points_ = fits ? points : 0;
   rows_ = std::max((points_ + elements_ - 1) / elements_, kLeastRows);
-  next_word_ = std::max(next_word_, pass_end_) + 1 + points * kPointWords;
+  next_word_ = std::max(next_word_, pass_end_) + 1 + points * core_.point_words;
 }
 
 void CycleModel::stream_records(std::uint64_t records) {
   ++next_word_;
   if (points_ == 0) {
-    next_word_ += records * kRecordWords;
+    next_word_ += records * core_.record_words;
     return;
   }
   for (std::uint64_t i = 0; i < records; ++i) {
-    next_word_ = std::max(next_word_, record_moved_) + kRecordWords;
+    next_word_ = std::max(next_word_, record_moved_) + core_.record_words;
     record_moved_ = std::max(next_word_, record_gone_ + 1);
     record_gone_ = std::max(record_moved_ + kRecordHandover, slot_free_[records_ % kSlots]);
     ++records_;
@@ -70,7 +69,7 @@ void CycleModel::stream_records(std::uint64_t records) {
 
 void CycleModel::pass(std::uint64_t from) {
   pass_end_ = std::max(pass_end_, from) + rows_;
-  slot_free_[passes_ % kSlots] = pass_end_ + kSlotAfterPass;
+  slot_free_[passes_ % kSlots] = pass_end_ + core_.last_read + kSlotAfterPass;
   ++passes_;
   busy_ += rows_;
 }
@@ -84,10 +83,10 @@ void CycleModel::reduce(bool list_points) {
     const std::uint64_t begin = std::max(pass_end_, next_word_ + kPassAfterReduce);
     pass(begin);
     // Listing takes a cycle a word; the elements wait while their output has no room.
-    const std::uint64_t first = std::max(begin + kAnswerAfterPair, answer_end_);
-    const std::uint64_t room = elements_ * kOutputRoom;
+    const std::uint64_t first = std::max(begin + core_.latency + kAnswerAfterPair, answer_end_);
+    const std::uint64_t room = elements_ * core_.output_room;
     if (listed > room) pass_end_ = std::max(pass_end_, first + listed - room);
-    ready = std::max(first + listed, pass_end_ + kWorstAfterPair) +
+    ready = std::max(first + listed, pass_end_ + core_.latency + kWorstAfterPair) +
             kGather * std::min(elements_, points_);
     record_waits_ = false;
   } else {

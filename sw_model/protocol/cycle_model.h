@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hls/kernel/command_words.h"
+#include "hls/kernel/filter_words.h"
 
 namespace emax {
 
@@ -13,6 +14,17 @@ namespace emax {
 // and to the last read of its record.
 inline constexpr std::uint64_t kDistanceLatency = 142;
 inline constexpr std::uint64_t kDistanceLastRead = 98;
+
+// What tells cores of one structure apart: the words of their commands, and their elements.
+struct CoreFigures {
+  std::uint64_t point_words, record_words;
+  std::uint64_t latency, last_read;  // of the pipeline
+  std::uint64_t output_room;         // words behind the sequencer, in each element's FIFOs
+};
+inline constexpr CoreFigures kExactCore = {kPointWords, kRecordWords, kDistanceLatency,
+                                           kDistanceLastRead, 255};
+// Its pipeline is in hls/rtl/filter/generated.
+inline constexpr CoreFigures kFilterCore = {kFilterPointWords, kFilterRecordWords, 40, 22, 90};
 
 // A board as the model sees it. All figures here are estimates until a board has been measured.
 struct BoardModel {
@@ -28,13 +40,14 @@ std::span<const BoardModel> board_models();
 // Throws Error naming the known boards.
 const BoardModel& board_model(std::string_view name);
 
-// Counts the cycles that commands take on the core (hls/rtl/core), where command words are offered
-// and answer words taken without pause. The core takes a word a cycle and a row of pairs a cycle. A
-// record's pass begins once the next record is there, and there are never more records than the
-// elements' rings hold. Constant time per record.
+// Counts the cycles that commands take on a core (hls/rtl/core, hls/rtl/filter), where command
+// words are offered and answer words taken without pause. The core takes a word a cycle and a row
+// of pairs a cycle. A record's pass begins once the next record is there, and there are never more
+// records than the elements' rings hold. Constant time per record.
 class CycleModel {
  public:
-  explicit CycleModel(std::uint32_t elements) : elements_(elements) {}
+  explicit CycleModel(std::uint32_t elements, const CoreFigures& core = kExactCore)
+      : core_(core), elements_(elements) {}
 
   void load_points(std::uint64_t points);
   void stream_records(std::uint64_t records);
@@ -52,6 +65,7 @@ class CycleModel {
   // The pass of the oldest waiting record over the points; it may begin at `from`.
   void pass(std::uint64_t from);
 
+  CoreFigures core_;
   std::uint64_t elements_;
   std::uint64_t points_ = 0, rows_ = 0;  // of the block; rows of a pass
   std::uint64_t next_word_ = 0;          // when the decoder can take one

@@ -45,14 +45,27 @@ std::vector<Word> run_core(CoreSimulation& core, std::span<const Word> words,
   }
 }
 
-std::vector<Word> answers_of_kernel(std::span<const Word> words) {
-  const auto kernel = std::make_unique<EmaxKernel<FlushedFloat>>();
+namespace {
+
+template <class Kernel>
+std::vector<Word> answers_of(std::span<const Word> words) {
+  const auto kernel = std::make_unique<Kernel>();
   Stream<Word> commands, answers;
   for (const Word word : words) commands.write(word);
   while (!commands.empty()) kernel->serve(commands, answers);
   std::vector<Word> answered;
   while (!answers.empty()) answered.push_back(answers.read());
   return answered;
+}
+
+}  // namespace
+
+std::vector<Word> answers_of_kernel(std::span<const Word> words) {
+  return answers_of<EmaxKernel<FlushedFloat>>(words);
+}
+
+std::vector<Word> answers_of_filter(std::span<const Word> words) {
+  return answers_of<FilterKernel>(words);
 }
 
 }  // namespace emax

@@ -21,7 +21,8 @@ struct CorePatterns {
 std::vector<Word> run_core(CoreSimulation& core, std::span<const Word> words,
                            const CorePatterns& patterns = {}, std::uint64_t* cycles = nullptr);
 
-// The answers of the C++ top to whole commands.
+// The answers of the C++ top to whole commands, and those of its twin with the filter.
 std::vector<Word> answers_of_kernel(std::span<const Word> words);
+std::vector<Word> answers_of_filter(std::span<const Word> words);
 
 }  // namespace emax

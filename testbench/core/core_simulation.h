@@ -1,5 +1,5 @@
-// The two streams of words of the core (hls/rtl/core/emax_core.sv), one clock cycle at a time, for
-// any Verilated variant of it.
+// The two streams of words of a core (hls/rtl/core/emax_core.sv, hls/rtl/filter/filter_core.sv),
+// one clock cycle at a time, for any Verilated variant of it.
 #pragma once
 
 #include <cstdint>
@@ -37,5 +37,7 @@ class CoreSimulation {
 
 // The mutation build, of two elements. In the library emax_mutated_core.
 std::unique_ptr<CoreSimulation> make_mutated_core();
+// The same of the filtering core.
+std::unique_ptr<CoreSimulation> make_mutated_filter();
 
 }  // namespace emax

@@ -1,6 +1,8 @@
 #include <Vemax_core_1.h>
 #include <Vemax_core_2.h>
 #include <Vemax_core_4.h>
+#include <Vemax_filter_1.h>
+#include <Vemax_filter_4.h>
 
 #include <array>
 #include <string>
@@ -13,6 +15,7 @@ namespace emax {
 namespace {
 
 constexpr std::array<std::uint32_t, 3> kElementCounts = {1, 2, 4};
+constexpr std::array<std::uint32_t, 2> kFilterCounts = {1, 4};
 
 }  // namespace
 
@@ -34,6 +37,24 @@ std::unique_ptr<CoreSimulation> make_core(std::uint32_t elements) {
 
 std::unique_ptr<Device> make_rtl_device(std::uint32_t elements) {
   return std::make_unique<RtlDevice>(make_core(elements));
+}
+
+std::span<const std::uint32_t> rtl_filter_counts() { return kFilterCounts; }
+
+std::unique_ptr<CoreSimulation> make_filter(std::uint32_t elements) {
+  switch (elements) {
+    case 1:
+      return std::make_unique<VerilatedCore<Vemax_filter_1, 1>>();
+    case 4:
+      return std::make_unique<VerilatedCore<Vemax_filter_4, 4>>();
+    default:
+      throw Error("device rtl: no filtering core of " + std::to_string(elements) +
+                  " elements is built; use 1 or 4");
+  }
+}
+
+std::unique_ptr<Device> make_rtl_filter(std::uint32_t elements) {
+  return std::make_unique<RtlDevice>(make_filter(elements));
 }
 
 }  // namespace emax

@@ -9,7 +9,7 @@
 
 namespace emax {
 
-// The `rtl` device: the Verilated core. It is clocked while words go in and while an answer is
+// The `rtl` device: a Verilated core. It is clocked while words go in and while an answer is
 // awaited. Its cycles are those that the core counts (kCounters).
 class RtlDevice : public Device {
  public:
@@ -33,5 +33,10 @@ std::span<const std::uint32_t> rtl_element_counts();
 // Throws Error for any other number of elements, naming those that are built.
 std::unique_ptr<CoreSimulation> make_core(std::uint32_t elements);
 std::unique_ptr<Device> make_rtl_device(std::uint32_t elements = 1);
+
+// The same of filtering cores.
+std::span<const std::uint32_t> rtl_filter_counts();
+std::unique_ptr<CoreSimulation> make_filter(std::uint32_t elements);
+std::unique_ptr<Device> make_rtl_filter(std::uint32_t elements);
 
 }  // namespace emax

@@ -22,9 +22,10 @@ namespace {
 constexpr std::uint64_t kOperatorPairs = 2'000'000;
 
 // The test for a mutant that is not in the simulated element: of a family's multipliers, of
-// operators for lowered functions, of the core or of the link. Empty for a mutant of the element.
+// operators for lowered functions, of a core or of the link. Empty for a mutant of the element.
 std::string other_test(const Mutant& mutant) {
   if (mutant.module.starts_with("core/")) return "core_test";
+  if (mutant.module.starts_with("filter/")) return "filter_core_test";
   if (mutant.module.find('/') != std::string::npos) return "operators_test";
   if (mutant.name.starts_with("LINK_")) return "link_rtl_test";
   return {};

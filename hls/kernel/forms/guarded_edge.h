@@ -36,6 +36,21 @@ struct SumOfProductsOf<Number<kWidth, kFraction, kRounding, kOverflow>> {
 template <class Scalar>
 using SumOfProducts = typename SumOfProductsOf<Scalar>::Type;
 
+// Holds squares below 1 exactly; every greater one is its greatest number, which says that the
+// distance is too great to be of use. Of scalars that are not fixed-point numbers it is Scalar
+// itself.
+template <class Scalar>
+struct SquareBelowOneOf {
+  using Type = Scalar;
+};
+template <template <int, int, Rounding, Overflow> class Number, int kWidth, int kFraction,
+          Rounding kRounding, Overflow kOverflow>
+struct SquareBelowOneOf<Number<kWidth, kFraction, kRounding, kOverflow>> {
+  using Type = Number<2 * kFraction + 1, 2 * kFraction, Rounding::kDown, Overflow::kSaturate>;
+};
+template <class Scalar>
+using SquareBelowOne = typename SquareBelowOneOf<Scalar>::Type;
+
 template <class Scalar>
 Scalar rounded_dot(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
   using Wide = SumOfProducts<Scalar>;
@@ -81,6 +96,14 @@ SumOfProducts<Scalar> squared_distance_guarded(const TriangleRecord<Scalar>& t,
   const Wide in_plane = product<Wide>(nearest.across, nearest.across) +
                         product<Wide>(nearest.residual, nearest.residual);
   return off_plane + select(nearest.outside, in_plane, no_square);
+}
+
+// The filtering core's number of a pair, which orders pairs as their distances below 1.
+template <class Scalar, class Condition>
+SquareBelowOne<Scalar> squared_distance_below_one(const TriangleRecord<Scalar>& t,
+                                                  const Condition& segment,
+                                                  const Vector3<Scalar>& p) {
+  return SquareBelowOne<Scalar>(squared_distance_guarded(t, segment, p));
 }
 
 }  // namespace emax

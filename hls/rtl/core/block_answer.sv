@@ -7,7 +7,11 @@
 module block_answer #(
     parameter int NUM_PE = 1,
     parameter int CLOCK_KHZ = 0,
-    parameter int MAX_POINTS = 1024
+    parameter int MAX_POINTS = 1024,
+    parameter logic [7:0] REDUCE = 8'd4,  // the command that asks for a result
+    parameter logic [31:0] VERSION = 32'd1,
+    parameter logic [31:0] RECORD_WORDS = 32'd20,
+    parameter logic [31:0] NOT_MET = 32'h7f800000  // of a point that has met no record
 ) (
     input  logic                   clk,
     input  logic                   aresetn,
@@ -31,9 +35,8 @@ module block_answer #(
     input  logic                   word_ready,
     output logic                   under_way
 );
-  localparam logic [7:0] IDENTIFY = 8'd1, REDUCE = 8'd4, COUNTERS = 8'd5, ERROR = 8'hff;
+  localparam logic [7:0] IDENTIFY = 8'd1, COUNTERS = 8'd5, ERROR = 8'hff;
   localparam logic [1:0] ASK_IDENTITY = 2'd0, ASK_RESULT = 2'd1, ASK_COUNTERS = 2'd2;
-  localparam logic [31:0] KERNEL_VERSION = 32'd1, RECORD_WORDS = 32'd20, INFINITY_WORD = 32'h7f800000;
   localparam int QUEUE_BITS = 2;
   localparam int REQUEST = 15;
 
@@ -93,7 +96,7 @@ module block_answer #(
       FIXED: word_valid = 1'b1;
       UNMET: begin
         word_valid = 1'b1;
-        word = INFINITY_WORD;
+        word = NOT_MET;
       end
       LIST: begin
         word_valid = nearest_here;
@@ -132,7 +135,7 @@ module block_answer #(
           default: header <= {ERROR, 24'd1};
         endcase
         left <= count;
-        squared_distance <= INFINITY_WORD;
+        squared_distance <= NOT_MET;
         index <= '0;
         if (queued != '0) state <= HEADER;
       end
@@ -140,7 +143,7 @@ module block_answer #(
         element <= NUM_PE'(1);
         done <= ~has_points;
         if (kind == ASK_IDENTITY) begin
-          fixed <= {32'd0, 32'(CLOCK_KHZ), 32'(NUM_PE), RECORD_WORDS, 32'(MAX_POINTS), KERNEL_VERSION};
+          fixed <= {32'd0, 32'(CLOCK_KHZ), 32'(NUM_PE), RECORD_WORDS, 32'(MAX_POINTS), VERSION};
           left <= 11'd5;
         end else if (kind == ASK_COUNTERS) begin
           fixed <= counters;

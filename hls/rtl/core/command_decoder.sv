@@ -9,19 +9,24 @@
 module command_decoder #(
     parameter int NUM_PE = 1,
     parameter int ROW_BITS = 10,
-    parameter int MAX_POINTS = 1024
+    parameter int MAX_POINTS = 1024,
+    parameter logic [7:0] LOAD_POINTS = 8'd2,
+    parameter logic [7:0] RECORDS = 8'd3,
+    parameter logic [7:0] REDUCE = 8'd4,
+    parameter int POINT_WORDS = 3,
+    parameter int RECORD_WORDS = 20
 ) (
     input  logic                clk,
     input  logic                aresetn,
     input  logic [31:0]         word,
     input  logic                word_valid,
     output logic                take,
-    // To the point memories: x, y, z of a point.
+    // To the point memories: the words of a point, the first lowest.
     output logic [NUM_PE-1:0]   point_write,
     output logic [ROW_BITS-1:0] point_row,
-    output logic [95:0]         point,
+    output logic [32*POINT_WORDS-1:0] point,
     // To the elements: a record is there from record_valid on until the cycle after record_taken.
-    output logic [639:0]        record,
+    output logic [32*RECORD_WORDS-1:0] record,
     output logic                record_valid,
     input  logic                record_taken,
     // To the sequencer.
@@ -39,8 +44,8 @@ module command_decoder #(
     output logic [10:0]         request_count,  // the block's points, or the fault
     output logic                under_way
 );
-  localparam logic [7:0] IDENTIFY = 8'd1, LOAD_POINTS = 8'd2, RECORDS = 8'd3, REDUCE = 8'd4,
-      COUNTERS = 8'd5;
+  localparam logic [7:0] IDENTIFY = 8'd1, COUNTERS = 8'd5;
+  localparam logic [4:0] AFTER_POINT = 5'(POINT_WORDS - 1), AFTER_RECORD = 5'(RECORD_WORDS - 1);
   localparam logic [1:0] UNKNOWN_COMMAND = 2'd1, TOO_MANY_POINTS = 2'd2, NO_POINTS = 2'd3;
   localparam logic [1:0] ASK_IDENTITY = 2'd0, ASK_RESULT = 2'd1, ASK_COUNTERS = 2'd2, ASK_FAULT = 2'd3;
   localparam logic [1:0] HEADER = 2'd0, POINTS = 2'd1, RECORD = 2'd2, SKIP = 2'd3;
@@ -51,7 +56,7 @@ module command_decoder #(
   logic [10:0] points;  // of the block
   logic [23:0] items;   // of the payload that are still to come
   logic [4:0] left;     // words of the present item after this one
-  logic [639:0] assembled;  // the next record, word by word
+  logic [32*RECORD_WORDS-1:0] assembled;  // the next record, word by word
   logic assembled_full, move;
   logic [NUM_PE-1:0] to_element;
   logic [ROW_BITS-1:0] next_row;
@@ -70,7 +75,7 @@ module command_decoder #(
       : asks ? request_ready : 1'b1;
   assign last_word = left == '0;
 
-  // A process of its own, so that only registers beside it enable the 640 bits of a record.
+  // A process of its own, so that only registers beside it enable the bits of a record.
   assign take_record = word_valid && state == RECORD && (!assembled_full || move);
   assign take_header = word_valid && state == HEADER && may_begin;
   assign take = take_record || take_header || (word_valid && (state == POINTS || state == SKIP));
@@ -100,7 +105,7 @@ module command_decoder #(
     // to take it reaches few registers.
     if (state == HEADER) begin
       items <= count - 1'b1;
-      left  <= opcode == RECORDS ? 5'd19 : 5'd2;
+      left  <= opcode == RECORDS ? AFTER_RECORD : AFTER_POINT;
       to_element <= NUM_PE'(1);
       next_row <= '0;
       skips_records <= opcode == RECORDS;
@@ -135,14 +140,14 @@ module command_decoder #(
     end else if (take) begin
       left <= left - 1'b1;
       if (last_word) begin
-        left  <= state == RECORD || skips_records ? 5'd19 : 5'd2;
+        left  <= state == RECORD || skips_records ? AFTER_RECORD : AFTER_POINT;
         items <= items - 1'b1;
         if (items == '0) state <= HEADER;
       end
     end
 
     if (take && state == POINTS) begin
-      point <= {word, point[95:32]};
+      point <= {word, point[32*POINT_WORDS-1:32]};
       if (last_word) begin
         point_write <= to_element;
         point_row   <= next_row;
@@ -153,7 +158,7 @@ module command_decoder #(
       end
     end
     if (take_record) begin
-      assembled <= {word, assembled[639:32]};
+      assembled <= {word, assembled[32*RECORD_WORDS-1:32]};
       if (last_word) assembled_full <= 1'b1;
       met <= 1'b1;
     end

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "hls/kernel/emax_kernel.h"
 #include "hls/lowering/evaluate.h"
 #include "hls/lowering/function_subject.h"
 #include "hls/lowering/recorded_fixed.h"
@@ -46,10 +47,12 @@ std::vector<Bits> filter_inputs(const Vector3<FilterNumber>& p,
 }
 
 struct Compared {
-  long pairs = 0, different = 0;
+  long pairs = 0, different = 0, far = 0;
 };
 
-Compared compare_filter(const DataflowGraph& graph, std::uint64_t seed) {
+// `result` is the twin's of a point and a record, as the output's bits.
+template <class Result>
+Compared compare_filter(const DataflowGraph& graph, const Result& result, std::uint64_t seed) {
   Compared compared;
   for (const test::Stimulus& s : test::all_stimuli(seed)) {
     const Normalization normalization = normalization_of(s.cloud);
@@ -63,8 +66,9 @@ Compared compare_filter(const DataflowGraph& graph, std::uint64_t seed) {
         const Vector3<FilterNumber> p = filter_point<18>(points[i], exponent);
         const std::vector<Bits> values =
             evaluate<FlushedFloat, Bits>(graph, filter_inputs(p, *record));
-        const Bits expected = low_bits(filter_squared_distance<18>(p, *record).raw(), 37);
+        const Bits expected = result(p, *record);
         ++compared.pairs;
+        compared.far += expected == kFilterFar;
         compared.different += values[graph.outputs()[0].node] != expected;
       }
     }
@@ -76,9 +80,29 @@ TEST(FilterLowering, GraphGivesTheFiltersNumbersOfMeshes) {
   const LoweredDesign design = filter_design();
   ASSERT_EQ(design.graph.outputs().size(), 1u);
   EXPECT_EQ(design.graph.node(design.graph.outputs()[0].node).type.width, 37);
-  const Compared compared = compare_filter(design.graph, 51);
+  const Compared compared = compare_filter(
+      design.graph,
+      [](const auto& p, const auto& t) {
+        return low_bits(filter_squared_distance<18>(p, t).raw(), 37);
+      },
+      51);
   EXPECT_EQ(compared.different, 0) << "of " << compared.pairs << ", seed 51";
   EXPECT_GT(compared.pairs, 5000);
+}
+
+TEST(FilterLowering, CoresGraphGivesTheSaturatedNumbers) {
+  const LoweredDesign design = lower(Form::kFilter, {});
+  ASSERT_EQ(design.graph.outputs().size(), 1u);
+  EXPECT_EQ(design.graph.node(design.graph.outputs()[0].node).type.width, 33);
+  const Compared compared = compare_filter(
+      design.graph,
+      [](const auto& p, const auto& t) {
+        return FilterPair::result(t, (t.tag & kSegmentFlag) != 0, p);
+      },
+      52);
+  EXPECT_EQ(compared.different, 0) << "of " << compared.pairs << ", seed 52";
+  EXPECT_GT(compared.pairs, 5000);
+  EXPECT_GT(compared.far, 10);
 }
 
 TEST(FilterLowering, HasTwentyProductsOf18Bits) {

@@ -10,8 +10,8 @@ namespace emax::test {
 namespace {
 
 // Ports through which the modules of hls/rtl give their results.
-const std::set<std::string> kResults = {"quotient", "root",   "q",    "sum",
-                                        "product",  "square", "less", "read_data"};
+const std::set<std::string> kResults = {"quotient", "root", "q",         "sum",    "product",
+                                        "square",   "less", "read_data", "fitted", "opposite"};
 
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern, int group) {
   std::vector<std::string> found;

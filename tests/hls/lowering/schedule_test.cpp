@@ -154,6 +154,9 @@ TEST(Schedule, IsTheOneThatTheCycleModelCounts) {
   const LoweredDesign& design = emax_distance_design();
   EXPECT_EQ(static_cast<std::uint64_t>(design.schedule.latency), kDistanceLatency);
   EXPECT_EQ(static_cast<std::uint64_t>(design.last_read()), kDistanceLastRead);
+  const LoweredDesign filter = lower(Form::kFilter, {});
+  EXPECT_EQ(static_cast<std::uint64_t>(filter.schedule.latency), kFilterCore.latency);
+  EXPECT_EQ(static_cast<std::uint64_t>(filter.last_read()), kFilterCore.last_read);
 }
 
 TEST(Schedule, CheckSeesAConsumerOneCycleEarly) {
