@@ -16,6 +16,11 @@ std::string describe_counters(const std::optional<DeviceCounters>& counted) {
   const DeviceCounters& counters = *counted;
   std::string text =
       fmt::format("{} blocks, {} pairs", grouped(counters.blocks), grouped(counters.pairs));
+  if (counters.filtered_pairs) {
+    text += fmt::format(", {} pairs in the filter, which left {} of {} points",
+                        grouped(*counters.filtered_pairs), grouped(*counters.points_left),
+                        grouped(*counters.filtered_points));
+  }
   if (counters.words_in > 0) {
     text += fmt::format(", {} words in, {} out", grouped(counters.words_in),
                         grouped(counters.words_out));

@@ -18,7 +18,9 @@ struct Block {
 };
 
 struct BlockAnswer {
-  EmaxResult worst;                         // lowest cloud index that attains the block's maximum
+  // The lowest cloud index that attains the block's maximum. A filter may give the greatest answer
+  // since begin() in its place, where no point of the block is as far.
+  EmaxResult worst;
   std::vector<std::uint32_t> squared_bits;  // of every point, if the caller asked for them
 };
 

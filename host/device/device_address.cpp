@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "host/device/device_evaluator.h"
+#include "host/device/filtering_evaluator.h"
 #include "host/device/link_device.h"
 #include "host/device/opencl_device.h"
 #include "host/device/queued_device.h"
@@ -23,11 +24,14 @@ constexpr Form kForms[] = {
     {"cpu", "this processor"},
     {"sim", "the device in C++"},
     {"sim:board=NAME", "the same, with a prediction of the time that a board would take"},
+    {"sim:filter", "the same behind the fixed-point filter"},
     {"rtl[:pes=N]", "the Verilated core of N elements"},
+    {"rtl:filter", "the core of one element behind the Verilated filter"},
     {"opencl[:N]", "a GPU by OpenCL, or a processor"},
     {"tty:PATH[@BAUD]", "a board on a serial port"},
     {"xrt:XCLBIN[@INDEX]", "an Alveo card; not tested on a card"},
 };
+constexpr std::uint32_t kFilterElements = 4;  // of the filter before a core
 constexpr std::uint32_t kLeastBaud = 1200, kMostBaud = 12000000;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& remedy) {
@@ -51,7 +55,7 @@ DeviceAddress parse_rtl(std::string_view text, std::string_view options) {
     for (const std::uint32_t count : counts) {
       accepted += (accepted.empty() ? "rtl:pes=" : ", rtl:pes=") + std::to_string(count);
     }
-    refuse(text, "use rtl or one of " + accepted);
+    refuse(text, "use rtl, rtl:filter or one of " + accepted);
   }
   return {.kind = "rtl", .elements = *elements};
 }
@@ -95,6 +99,11 @@ std::unique_ptr<Device> make_device(const DeviceAddress& address) {
   return std::make_unique<CppDevice>(address.elements);
 }
 
+std::unique_ptr<Device> make_filter_device(const DeviceAddress& address) {
+  if (address.kind == "rtl") return make_rtl_filter(address.filter_elements);
+  return std::make_unique<CppFilter>(address.filter_elements);
+}
+
 }  // namespace
 
 DeviceAddress DeviceAddress::parse(std::string_view text) {
@@ -107,6 +116,9 @@ DeviceAddress DeviceAddress::parse(std::string_view text) {
   if (kind == "sim" && rest.starts_with(kBoard)) {
     const BoardModel board = board_model(rest.substr(kBoard.size()));
     return {.kind = "sim", .board = board, .elements = board.elements};
+  }
+  if ((kind == "sim" || kind == "rtl") && rest == "filter") {
+    return {.kind = std::string(kind), .filter_elements = kFilterElements};
   }
   if (kind == "rtl" && colon != text.npos) return parse_rtl(text, rest);
   if (kind == "opencl" && colon != text.npos) return parse_opencl(text, rest);
@@ -132,7 +144,12 @@ std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address) {
     return std::make_unique<DeviceEvaluator>(
         std::make_unique<XrtDevice>(open_xrt_card(address.place)));
   }
-  return std::make_unique<DeviceEvaluator>(std::make_unique<QueuedDevice>(make_device(address)));
+  auto exact =
+      std::make_unique<DeviceEvaluator>(std::make_unique<QueuedDevice>(make_device(address)));
+  if (address.filter_elements == 0) return exact;
+  auto filter = std::make_unique<QueuedDevice>(make_filter_device(address),
+                                               QueuedDevice::kMostWords, CommandSet::kFilter);
+  return std::make_unique<FilteringEvaluator>(std::move(filter), std::move(exact));
 }
 
 }  // namespace emax

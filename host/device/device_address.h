@@ -17,6 +17,7 @@ struct DeviceAddress {
   std::string kind = "cpu";              // the part before the colon
   std::optional<BoardModel> board = {};  // of sim: the board whose time is predicted
   std::uint32_t elements = 1;            // of sim and rtl
+  std::uint32_t filter_elements = 0;     // of sim and rtl: of the filter before it; 0 for none
   std::uint32_t number = 0;              // of opencl
   std::string place = {};                // of tty and xrt
   std::uint32_t baud = kDefaultBaud;

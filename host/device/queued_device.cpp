@@ -11,8 +11,10 @@ constexpr std::size_t kWordsAtATime = 8192;
 
 }  // namespace
 
-QueuedDevice::QueuedDevice(std::unique_ptr<Device> device, std::size_t most_words)
-    : device_(std::move(device)), most_words_(most_words), thread_([this] { work(); }) {}
+QueuedDevice::QueuedDevice(std::unique_ptr<Device> device, std::size_t most_words, CommandSet set)
+    : device_(std::move(device)), most_words_(most_words), set_(set), cursor_(set), thread_([this] {
+        work();
+      }) {}
 
 QueuedDevice::~QueuedDevice() {
   {
@@ -114,7 +116,7 @@ std::size_t QueuedDevice::questions_in(std::span<const Word> words) {
   std::size_t questions = 0;
   while (!words.empty()) {
     const CommandCursor::Part part = cursor_.take(words);
-    if (part.ends && is_answered(part.header)) ++questions;
+    if (part.ends && is_answered(part.header, set_)) ++questions;
   }
   return questions;
 }

@@ -25,7 +25,8 @@ class QueuedDevice : public Device {
  public:
   static constexpr std::size_t kMostWords = std::size_t{1} << 22;
 
-  explicit QueuedDevice(std::unique_ptr<Device> device, std::size_t most_words = kMostWords);
+  explicit QueuedDevice(std::unique_ptr<Device> device, std::size_t most_words = kMostWords,
+                        CommandSet set = CommandSet::kExact);
   ~QueuedDevice() override;
   QueuedDevice(const QueuedDevice&) = delete;
   QueuedDevice& operator=(const QueuedDevice&) = delete;
@@ -56,6 +57,7 @@ class QueuedDevice : public Device {
   bool ending_ = false;
   std::exception_ptr failure_;
 
+  const CommandSet set_;
   CommandCursor cursor_;  // in the sent words
   std::thread thread_;    // the last member: it uses all of the above
 };

@@ -11,6 +11,7 @@ enum class Fault {
   // In the fixed-point filter.
   kFilterWithoutMargin,    // the filter's distance is taken as exact
   kFilterTrustsSaturated,  // a distance is trusted although its numbers may have left their range
+  kFilterKeepsOldGreatest,  // points meet the greatest minimum of a search before
   // In the distance between surfaces.
   kCutsWithoutMargin,    // the rounding of cuts is not added
   kNearestOfEachCorner,  // a bound is taken from each corner's own nearest triangle

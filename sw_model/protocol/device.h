@@ -15,6 +15,9 @@ struct DeviceCounters {
   std::uint64_t pairs = 0;
   std::uint64_t words_in = 0;   // to the device
   std::uint64_t words_out = 0;  // from the device
+  // Of a device with a filter: the pairs that the filter met, the points of their blocks, and those
+  // of them that it left to the kernel, whose pairs are `pairs`.
+  std::optional<std::uint64_t> filtered_pairs, filtered_points, points_left;
   std::optional<std::uint64_t> cycles, busy, stalled, idle, resends;
   bool began_again = false;  // the device lost its work once, and its earlier counts with it
 };

@@ -38,6 +38,12 @@ const std::vector<std::pair<const char*, Engine>> kEngines = {
     {"rtl searched", [](const auto& c, const auto& m) { return on<search_emax>("rtl", c, m); }},
     {"sim brute force",
      [](const auto& c, const auto& m) { return on<brute_force_emax>("sim", c, m); }},
+    {"sim filtered",
+     [](const auto& c, const auto& m) { return on<search_emax>("sim:filter", c, m); }},
+    {"sim filtered, all pairs",
+     [](const auto& c, const auto& m) { return on<brute_force_emax>("sim:filter", c, m); }},
+    {"rtl filtered",
+     [](const auto& c, const auto& m) { return on<search_emax>("rtl:filter", c, m); }},
     {"opencl searched",
      [](const auto& c, const auto& m) { return on<search_emax>("opencl", c, m); }},
     {"opencl brute force",
@@ -69,7 +75,7 @@ TEST(Engines, AgreePairwiseBitForBit) {
   }
   std::printf("inputs that differ, of %d:\n", inputs);
   for (std::size_t i = 0; i < kEngines.size(); ++i) {
-    std::printf("  %-18s", kEngines[i].first);
+    std::printf("  %-24s", kEngines[i].first);
     for (const int count : differing[i]) std::printf(" %4d", count);
     std::printf("\n");
   }
@@ -161,16 +167,26 @@ TEST(DeviceAddress, NamesWhatItAccepts) {
   EXPECT_EQ(DeviceAddress::parse("sim:board=ulx3s").board->name, "ulx3s");
   EXPECT_EQ(DeviceAddress::parse("xrt:a:b.xclbin@1").place, "a:b.xclbin@1");
   EXPECT_EQ(DeviceAddress::parse("rtl:pes=2").elements, 2u);
+  EXPECT_EQ(DeviceAddress::parse("rtl").filter_elements, 0u);
+  EXPECT_EQ(DeviceAddress::parse("rtl:filter").filter_elements, 4u);
+  EXPECT_EQ(DeviceAddress::parse("sim:filter").filter_elements, 4u);
   EXPECT_EQ(DeviceAddress::parse("opencl").number, 0u);
   EXPECT_EQ(DeviceAddress::parse("opencl:12").number, 12u);
   EXPECT_EQ(DeviceAddress::parse("tty:/dev/ttyUSB0").place, "/dev/ttyUSB0");
   EXPECT_EQ(DeviceAddress::parse("tty:/dev/ttyUSB0").baud, 3000000u);
   EXPECT_EQ(DeviceAddress::parse("tty:/dev/a:b@115200").place, "/dev/a:b");
   EXPECT_EQ(DeviceAddress::parse("tty:/dev/a:b@115200").baud, 115200u);
-  for (const char* bad :
-       {"gpu", "sim:", "sim:board=", "sim:board=x", "cpu:1", "", "rtl:", "rtl:pes=3", "rtl:pes=2x",
-        "opencl:", "opencl:x", "opencl:-1", "tty", "tty:", "tty:@9600", "tty:/dev/x@",
-        "tty:/dev/x@fast", "tty:/dev/x@1", "xrt:"}) {
+  for (const char* bad : {"gpu",           "sim:",
+                          "sim:board=",    "sim:board=x",
+                          "cpu:1",         "",
+                          "rtl:",          "rtl:pes=3",
+                          "rtl:filters",   "sim:filter=",
+                          "opencl:filter", "rtl:pes=2x",
+                          "opencl:",       "opencl:x",
+                          "opencl:-1",     "tty",
+                          "tty:",          "tty:@9600",
+                          "tty:/dev/x@",   "tty:/dev/x@fast",
+                          "tty:/dev/x@1",  "xrt:"}) {
     try {
       DeviceAddress::parse(bad);
       ADD_FAILURE() << bad;

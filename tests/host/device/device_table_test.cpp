@@ -68,6 +68,38 @@ Row run(const char* cloud_name, const std::string& device, const PreparedCloud& 
   return row;
 }
 
+// With the filter: the answer of `exact` from the same blocks, with fewer pairs of the kernel's,
+// and the same counts in C++ and in hardware.
+void expect_filter_agrees(const char* name, const PreparedCloud& cloud, const TriangleTree& tree,
+                          const Row& exact) {
+  const Row sim = run(name, "sim:filter", cloud, tree, false);
+  const Row rtl = run(name, "rtl:filter", cloud, tree, false);
+  for (const Row& row : {sim, rtl}) {
+    EXPECT_EQ(row.result, exact.result);
+    EXPECT_EQ(row.counters.blocks, exact.counters.blocks);
+    EXPECT_LT(row.counters.pairs, exact.counters.pairs);
+  }
+  EXPECT_EQ(rtl.counters.pairs, sim.counters.pairs);
+  EXPECT_EQ(rtl.counters.filtered_pairs, sim.counters.filtered_pairs);
+  EXPECT_EQ(rtl.counters.points_left, sim.counters.points_left);
+  EXPECT_EQ(rtl.counters.words_in, sim.counters.words_in);
+  EXPECT_EQ(rtl.counters.words_out, sim.counters.words_out);
+  EXPECT_EQ(rtl.counters.busy, sim.counters.busy);
+  const auto counted = static_cast<double>(*rtl.counters.busy + *rtl.counters.stalled);
+  EXPECT_NEAR(static_cast<double>(*sim.counters.cycles) / counted, 1.0, 0.02);
+  std::printf("  %llu pairs in the filter, %llu of %llu points left\n",
+              static_cast<unsigned long long>(*sim.counters.filtered_pairs),
+              static_cast<unsigned long long>(*sim.counters.points_left),
+              static_cast<unsigned long long>(*sim.counters.filtered_points));
+}
+
+// All pairs of a sample, through the Verilated filter.
+EmaxResult filtered_sample(const std::vector<Point>& points, const TriangleMesh& mesh) {
+  const PreparedCloud cloud(points);
+  const TriangleTree tree(mesh.view(), cloud.normalization());
+  return run("  sample, all pairs", "rtl:filter", cloud, tree, true).result;
+}
+
 // One cloud, every device: equal bits, worst points and counts. `serial_step` thins the cloud for
 // the simulated board, whose serial line takes eighty cycles a word.
 void expect_devices_agree(const char* name, const std::vector<Point>& scan, std::size_t mesh_step,
@@ -93,6 +125,7 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
       EXPECT_NEAR(predicted / counted, 1.0, 0.02);
       EXPECT_EQ(sim.counters.busy, rtl.counters.busy);
     }
+    expect_filter_agrees(name, cloud, tree, sim);
   }
   const auto thin = [&](const char* what, std::size_t step, const std::vector<std::string>& devices,
                         bool all_pairs) {
@@ -115,8 +148,10 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
   // Every pair of a sample: what the search must give.
   const std::size_t sample = scan.size() / 100;
   const EmaxResult all = thin("  sample, all pairs", sample, {"rtl", "rtl:pes=4", "opencl"}, true);
+  const EmaxResult filtered = filtered_sample(every(scan, sample), mesh);
   const EmaxResult searched = thin("  sample", sample, {"rtl", "tty:" + board}, false);
   EXPECT_EQ(all, searched);
+  EXPECT_EQ(all, filtered);
   // Every point's own bits.
   const PreparedCloud cloud(every(scan, sample));
   const TriangleTree tree(mesh.view(), cloud.normalization());

@@ -34,7 +34,7 @@ TEST_F(RealScan, AllEnginesAgreeOnASample) {
   const PreparedCloud cloud(every(150));
   const TriangleTree tree(mesh_.view(), cloud.normalization());
   const EmaxResult expected = emax_model(cloud.points(), tree.records());
-  for (const char* device : {"cpu", "sim"}) {
+  for (const char* device : {"cpu", "sim", "sim:filter"}) {
     const auto evaluator = test::evaluator_of(device);
     EXPECT_EQ(search_emax(cloud, tree, *evaluator), expected) << device;
     EXPECT_EQ(brute_force_emax(cloud, tree, *evaluator), expected) << device;
@@ -55,7 +55,9 @@ TEST_F(RealScan, DeviceEqualsCpuOnTheWhole) {
   const TriangleTree tree(mesh_.view(), cloud.normalization());
   const auto cpu = test::evaluator_of("cpu");
   const auto sim = test::evaluator_of("sim");
-  EXPECT_EQ(search_emax(cloud, tree, *sim), search_emax(cloud, tree, *cpu));
+  const EmaxResult expected = search_emax(cloud, tree, *cpu);
+  EXPECT_EQ(search_emax(cloud, tree, *sim), expected);
+  EXPECT_EQ(search_emax(cloud, tree, *test::evaluator_of("sim:filter")), expected);
 }
 
 }  // namespace
