@@ -101,6 +101,7 @@ OPERATOR_PROOFS = [
 
 CREDIT_FAULTS = (*mutants("CREDIT_NOT_TAKEN", "CREDIT_NOT_GIVEN"),
                  Fault("the two credits that are kept back are lent too", patch=("credit_counter.sv", "credits > 2", "credits > 0")))
+FILTER_WORDS = {"LOAD": 6, "MEET": 7, "ASK": 8, "POINT_WORDS": 2, "RECORD_WORDS": 11}
 RING_FAULTS = mutants("SLOT_FREED_EARLY", "RING_SKIPS_A_SLOT", "RING_OVERFILLED")
 DECODER_FAULTS = (*mutants("ONE_POINT_TOO_MANY", "REDUCE_LEAVES_BLOCK_OPEN"),
                   Fault("a record's words in the wrong order",
@@ -128,6 +129,10 @@ STREAM_PROOFS = [
            RING_FAULTS, reach=14),
     stream("record_ring_of_element", "record_ring with the sizes of emax_element: 16 slots, a last read after 98 cycles", 2,
            mutants("SLOT_FREED_EARLY"), {"SLOT_BITS": 4, "LAST_READ": 98}, harness="record_ring", reach=24, quick=False),
+    stream("credits_of_filter", "credits with the sizes of filter_element: 64 credits, a line of 42", 2,
+           mutants("CREDIT_NOT_TAKEN"), {"DEPTH_BITS": 6, "LINE": 42}, harness="credits", reach=8),
+    stream("record_ring_of_filter", "record_ring with the sizes of filter_element: 16 slots, a last read after 22 cycles", 2,
+           mutants("SLOT_FREED_EARLY"), {"SLOT_BITS": 4, "LAST_READ": 22}, harness="record_ring", reach=24),
     stream("command_ring", "link_command_ring: words of committed frames leave in order, once; words of frames that are rolled back never leave; no word is written without room (8 words)", 2,
            (*mutants("LINK_NO_ROLLBACK", "LINK_COUNTS_BEFORE_CRC"),
             Fault("the room does not count the words that wait", patch=("link_command_ring.sv", "ALL + read_pointer - committed;", "ALL;"))),
@@ -145,6 +150,8 @@ STREAM_PROOFS = [
             Fault("a block is reduced before its last record is taken",
                   patch=("command_decoder.sv", "request_ready && !assembled_full && !record_valid && !finish", "request_ready && !finish"))),
            {"NUM_PE": 3, "ROW_BITS": 9}, harness="command_decoder", reach=34, quick=False),
+    stream("command_decoder_of_filter", "command_decoder for the words of the filtering core", 1, DECODER_FAULTS, FILTER_WORDS,
+           harness="command_decoder", reach=34),
     stream("pair_sequencer", "pair_sequencer: each record meets each row of its block once, in order; the last record alone gives a final pair for each point", 1,
            (*mutants("PASS_NOT_PADDED", "PADDING_IS_FINAL", "LAST_RECORD_NOT_HELD", "DROP_IGNORED"),
             Fault("every record is a block's first", patch=("pair_sequencer.sv", "final_pass || dropping_pass;", "1'b1;"))), reach=24,
@@ -157,6 +164,9 @@ STREAM_PROOFS = [
     stream("running_minimum", "running_minimum: each pair's minimum is the least of infinity and the distances that its point has met since its first pair (4 points)", 5,
            mutants("FIRST_IGNORED", "FIRST_WITHOUT_INFINITY", "MINIMUM_WRITTEN_ASIDE", "MINIMUM_NOT_KEPT"), reach=16, watch=WATCHED_MEMORY,
            assumes="emax_element keeps two pairs of one point at least five cycles apart and asserts it"),
+    stream("running_minimum_of_filter", "running_minimum of the filtering core, whose points start at all ones", 5,
+           mutants("FIRST_IGNORED", "MINIMUM_WRITTEN_ASIDE", "MINIMUM_NOT_KEPT"), {"NOT_MET": 0xffffffff}, harness="running_minimum",
+           reach=16, watch=WATCHED_MEMORY, assumes="pair_sequencer keeps two pairs of one point at least five cycles apart"),
     stream("worst_point", "worst_point: two cycles after a block's last value it gives the greatest value and the index of the first that has it", 1,
            mutants("WORST_NEVER_STARTS_ANEW", "WORST_TAKES_LAST_OF_EQUALS"), reach=12),
     stream("frames", "link_sender into link_receiver: a status frame or a notice arrives whole, with the fields it was sent with", 115,

@@ -4,7 +4,12 @@
 // request_ready is low in the cycle of a request.
 module prove_command_decoder #(
     parameter int NUM_PE = 1,
-    parameter int ROW_BITS = 10
+    parameter int ROW_BITS = 10,
+    parameter logic [7:0] LOAD = 8'd2,  // the commands that make a block, and the words of their items
+    parameter logic [7:0] MEET = 8'd3,
+    parameter logic [7:0] ASK = 8'd4,
+    parameter int POINT_WORDS = 3,
+    parameter int RECORD_WORDS = 20
 ) (
     input logic        clk,
     input logic        aresetn,
@@ -15,17 +20,19 @@ module prove_command_decoder #(
     input logic        request_ready
 );
   localparam logic [23:0] MAX_POINTS = 24'd1024;
+  localparam logic [4:0] WORDS_OF_POINT = 5'(POINT_WORDS), WORDS_OF_RECORD = 5'(RECORD_WORDS);
   localparam logic [1:0] NOTHING = 2'd0, POINTS = 2'd1, RECORDS = 2'd2, SKIPPED = 2'd3;
   logic reset, clear, silent, unknown, take, record_valid, finish, drop, request_valid, under_way;
   logic request_list, request_empty;
   logic [NUM_PE-1:0] point_write, last_row_in;
   logic [ROW_BITS-1:0] point_row, last_row;
-  logic [95:0] point;
-  logic [639:0] record;
+  logic [32*POINT_WORDS-1:0] point;
+  logic [32*RECORD_WORDS-1:0] record;
   logic [1:0] request_kind;
   logic [10:0] request_count;
   check_reset resets (.clk, .aresetn, .reset, .clear, .silent);
-  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS)) dut (
+  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .LOAD_POINTS(LOAD), .RECORDS(MEET), .REDUCE(ASK),
+      .POINT_WORDS(POINT_WORDS), .RECORD_WORDS(RECORD_WORDS)) dut (
       .clk, .aresetn, .word, .word_valid, .take, .point_write, .point_row, .point, .record,
       .record_valid, .record_taken, .last_row, .last_row_in, .finish, .drop, .sequencer_idle,
       .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
@@ -36,12 +43,13 @@ module prove_command_decoder #(
   logic [1:0] payload, fault;
   logic [4:0] position, item_words;  // position in the present item; words of an item
   logic [10:0] points, place;  // points of the block; index of the next point
-  logic block, met, complete, header, counts, result, item_ends;
+  logic block, met, complete, header, known, counts, result, item_ends;
   logic [7:0] opcode;
   logic [23:0] count;
   assign {opcode, count} = word;
   assign header = take && payload == NOTHING;
-  assign counts = opcode == 8'd2 && count <= MAX_POINTS;
+  assign known = opcode == 8'd1 || opcode == 8'd5 || opcode == LOAD || opcode == MEET || opcode == ASK;
+  assign counts = opcode == LOAD && count <= MAX_POINTS;
   assign result = block && fault == 2'd0;
   assign item_ends = take && payload != NOTHING && position == item_words - 1'b1;
 
@@ -49,15 +57,15 @@ module prove_command_decoder #(
     if (header) begin
       position <= '0;
       items <= count;
-      if (opcode == 8'd2 && count != '0) begin
+      if (opcode == LOAD && count != '0) begin
         payload <= counts ? POINTS : SKIPPED;
-        item_words <= 5'd3;
+        item_words <= WORDS_OF_POINT;
       end
-      if (opcode == 8'd3 && count != '0) begin
+      if (opcode == MEET && count != '0) begin
         payload <= block ? RECORDS : SKIPPED;
-        item_words <= 5'd20;
+        item_words <= WORDS_OF_RECORD;
       end
-      if (opcode == 8'd2) begin
+      if (opcode == LOAD) begin
         block <= counts && count != '0;
         met <= 1'b0;
         points <= count[10:0];
@@ -65,8 +73,8 @@ module prove_command_decoder #(
         complete <= 1'b0;
         if (!counts) fault <= 2'd2;
       end
-      if (opcode == 8'd4) {block, met, fault} <= '0;
-      if (opcode == 8'd0 || opcode > 8'd5) fault <= 2'd1;
+      if (opcode == ASK) {block, met, fault} <= '0;
+      if (!known) fault <= 2'd1;
     end else if (take) begin
       position <= item_ends ? '0 : position + 1'b1;
       if (item_ends) items <= items - 1'b1;
@@ -77,7 +85,7 @@ module prove_command_decoder #(
     end
     if (!aresetn) begin
       {payload, fault, position, block, met, complete} <= '0;
-      item_words <= 5'd3;
+      item_words <= WORDS_OF_POINT;
     end
   end
 
@@ -85,17 +93,17 @@ module prove_command_decoder #(
   logic asked, list, empty, point_due, finish_due, drop_due;
   logic [1:0] kind;
   logic [10:0] number, point_place;
-  logic [95:0] point_words;
+  logic [32*POINT_WORDS-1:0] point_words;
   always_ff @(posedge clk) begin
-    asked <= aresetn && header && (opcode == 8'd1 || opcode == 8'd4 || opcode == 8'd5);
+    asked <= aresetn && header && (opcode == 8'd1 || opcode == ASK || opcode == 8'd5);
     kind <= opcode == 8'd1 ? 2'd0 : opcode == 8'd5 ? 2'd2 : result ? 2'd1 : 2'd3;
     {list, empty} <= {count[0], !met};
     number <= result ? points : fault == 2'd0 ? 11'd3 : 11'(fault);
-    finish_due <= aresetn && header && opcode == 8'd4 && result && met;
-    drop_due <= aresetn && header && opcode == 8'd4 && fault != 2'd0 && met;
+    finish_due <= aresetn && header && opcode == ASK && result && met;
+    drop_due <= aresetn && header && opcode == ASK && fault != 2'd0 && met;
     point_due <= aresetn && item_ends && payload == POINTS;
     point_place <= place;
-    if (take) point_words <= {word, point_words[95:32]};
+    if (take) point_words <= {word, point_words[32*POINT_WORDS-1:32]};
   end
 
   // A row and the element's place in it give the index of a point.
@@ -109,7 +117,7 @@ module prove_command_decoder #(
     end
   end
 
-  // One word of every record stands for all twenty; the solver chooses which.
+  // One word of every record stands for all; the solver chooses which.
   (* keep *) logic [4:0] lane;
   assign lane = $anyconst;
   logic [31:0] lane_word, kept, leaving;
@@ -119,7 +127,7 @@ module prove_command_decoder #(
   assign leaving = 32'(record >> {lane, 5'd0});
   always_ff @(posedge clk) if (take && position == lane) lane_word <= word;
   check_order #(.WIDTH(32), .COUNT_BITS(3)) order (
-      .clk, .clear(!aresetn || unknown), .enters, .entering(lane == 5'd19 ? word : lane_word),
+      .clk, .clear(!aresetn || unknown), .enters, .entering(lane == WORDS_OF_RECORD - 1'b1 ? word : lane_word),
       .leaves(record_taken && aresetn), .leaving, .inside, .watching, .ahead, .kept);
 
   (* hierconn *) wire [1:0] \dut.state , \dut.fault ;
@@ -127,7 +135,7 @@ module prove_command_decoder #(
   (* hierconn *) wire [10:0] \dut.points ;
   (* hierconn *) wire [23:0] \dut.items ;
   (* hierconn *) wire [4:0] \dut.left ;
-  (* hierconn *) wire [639:0] \dut.assembled ;
+  (* hierconn *) wire [32*RECORD_WORDS-1:0] \dut.assembled ;
   (* hierconn *) wire [NUM_PE-1:0] \dut.to_element ;
   (* hierconn *) wire [ROW_BITS-1:0] \dut.next_row ;
   logic held, open, gives_up, skips_records;
@@ -143,9 +151,9 @@ module prove_command_decoder #(
     // Cycles for which a word waits although no neighbour holds it.
     waited <= aresetn && word_valid && !take && sequencer_idle && request_ready
         && (!record_valid || record_taken) ? waited + 1'b1 : '0;
-    if (header) skips_records <= opcode == 8'd3;
+    if (header) skips_records <= opcode == MEET;
   end
-  assign gives_up = block && held && was[31:24] == 8'd2;
+  assign gives_up = block && held && was[31:24] == LOAD;
 
   // Steps that a header may wait for: records leave, the block is given up, `drop` goes out.
   logic [2:0] steps_done;
@@ -162,7 +170,7 @@ module prove_command_decoder #(
   end
 
   always_comb begin
-    assume (lane < 5'd20);
+    assume (lane < WORDS_OF_RECORD);
     if (held) assume (word_valid && word == was);
     assume (!record_taken || record_valid);
     assume (!request_ready || !request_valid);
@@ -171,7 +179,7 @@ module prove_command_decoder #(
       asks_the_right_thing: assert (!asked || request_kind == kind);
       right_list: assert (!asked || kind != 2'd1 || (request_list == list && request_empty == empty));
       right_number: assert (!asked || !kind[0] || request_count == number);
-      asks_where_there_is_room: assert (!(header && (opcode == 8'd1 || opcode == 8'd4 || opcode == 8'd5))
+      asks_where_there_is_room: assert (!(header && (opcode == 8'd1 || opcode == ASK || opcode == 8'd5))
           || request_ready);
       finishes_once: assert (finish == finish_due);
       drops_once: assert (!drop || drop_due || gives_up);
@@ -179,7 +187,7 @@ module prove_command_decoder #(
       ends_the_block: assert (!(finish || drop) || !\dut.block );
       ends_what_is_open: assert (!(finish || drop) || open);
       records_before_the_end: assert (!(finish || drop) || (inside == '0 && !record_valid));
-      new_block_after_the_old: assert (!(header && opcode == 8'd2)
+      new_block_after_the_old: assert (!(header && opcode == LOAD)
           || (sequencer_idle && !open && !finish && !drop && inside == '0));
       writes_each_point: assert ((point_write != '0) == point_due);
       right_place: assert (!point_due || (written_place == point_place && point == point_words
@@ -192,7 +200,7 @@ module prove_command_decoder #(
       // The values of the module's registers.
       payload_counted: assert (payload == NOTHING || (items != '0 && \dut.items == items - 1'b1));
       position_follows: assert (payload == NOTHING || position + \dut.left + 1'b1 == item_words);
-      items_are: assert (payload == NOTHING || item_words == (skips_records ? 5'd20 : 5'd3));
+      items_are: assert (payload == NOTHING || item_words == (skips_records ? WORDS_OF_RECORD : WORDS_OF_POINT));
       positions_are: assert (position < item_words && (payload != NOTHING || position == '0));
       same_state: assert (\dut.state == payload && (payload != POINTS || !skips_records)
           && (payload != RECORDS || skips_records) && (payload == NOTHING || \dut.skips_records == skips_records));
@@ -216,14 +224,16 @@ module prove_command_decoder #(
       records_met: assert (inside == '0 || (met && \dut.block ));
       records_inside: assert (inside == 3'(record_valid) + 3'(\dut.assembled_full ));
       assembling: assert (payload != RECORDS || position <= lane
-          || 32'(\dut.assembled >> {5'd20 - position + lane, 5'd0}) == lane_word);
+          || 32'(\dut.assembled >> {WORDS_OF_RECORD - position + lane, 5'd0}) == lane_word);
       started_met: assert (payload != RECORDS || position == '0 || met);
       shifts_when_moved: assert (!(\dut.assembled_full && position != '0 && payload == RECORDS));
       first_out: assert (!(watching && ahead == '0 && record_valid && leaving != kept));
       then_assembled: assert (!(watching && ahead == 3'(record_valid) && \dut.assembled_full
           && 32'(\dut.assembled >> {lane, 5'd0}) != kept));
-      words_of_point: assert (payload != POINTS || position == '0 || point[95:64] == point_words[95:64]);
-      words_of_point_2: assert (payload != POINTS || position != 5'd2 || point[63:32] == point_words[63:32]);
+      words_of_point: assert (payload != POINTS || position == '0 || point[32*POINT_WORDS-1-:32] == point_words[32*POINT_WORDS-1-:32]);
+      if (POINT_WORDS > 2) begin
+        words_of_point_2: assert (payload != POINTS || position != 5'd2 || point[63:32] == point_words[63:32]);
+      end
     end
   end
   (* keep *) logic cover_block_is_answered, cover_block_is_given_up, cover_fault, cover_skips;
@@ -231,7 +241,7 @@ module prove_command_decoder #(
   assign cover_block_is_answered = !clear && request_valid && request_kind == 2'd1;
   assign cover_block_is_given_up = !clear && gives_up && !\dut.block ;
   assign cover_fault = !clear && request_valid && request_kind == 2'd3 && request_count == 11'd1;
-  assign cover_skips = !clear && payload == SKIPPED && !skips_records && position == 5'd2;
+  assign cover_skips = !clear && payload == SKIPPED && !skips_records && position == WORDS_OF_POINT - 1'b1;
   assign cover_two_points = !clear && complete && points == 11'd2;
   assign cover_waits = !clear && waited == 3'd2;
 endmodule

@@ -1,9 +1,10 @@
-// running_minimum: each pair's minimum is the least of infinity and the squared distances that its point
+// running_minimum: each pair's minimum is the least of NOT_MET and the squared distances that its point
 // has met since its first pair. One point stands for all; the solver chooses it. Assumed of emax_element:
 // an index comes two cycles before its distance, and two pairs of one point are at least five cycles
 // apart unless the later one is the point's first.
 module prove_running_minimum #(
-    parameter int POINT_BITS = 2
+    parameter int POINT_BITS = 2,
+    parameter logic [31:0] NOT_MET = 32'h7f800000
 ) (
     input logic                  clk,
     input logic                  aresetn,
@@ -12,7 +13,6 @@ module prove_running_minimum #(
     input logic [POINT_BITS-1:0] early_index,
     input logic [31:0]           squared_distance
 );
-  localparam logic [31:0] INFINITY_WORD = 32'h7f800000;
   logic reset, clear, silent, valid, valid_middle, first_pair, first_middle;
   logic [POINT_BITS-1:0] index, middle_index;
   logic [31:0] minimum;
@@ -21,7 +21,7 @@ module prove_running_minimum #(
     {valid_middle, first_middle, middle_index} <= {enters && aresetn, enters_first, early_index};
     {valid, first_pair, index} <= {valid_middle && aresetn, first_middle, middle_index};
   end
-  running_minimum #(.POINT_BITS(POINT_BITS)) dut (
+  running_minimum #(.POINT_BITS(POINT_BITS), .NOT_MET(NOT_MET)) dut (
       .clk, .early_index, .valid, .first_pair, .index, .squared_distance, .minimum);
 
   // The minimum by the rule for the watched point, known from its first pair on. `least` is ahead of the
@@ -32,7 +32,7 @@ module prove_running_minimum #(
   logic [31:0] least, least_1, before;
   logic [3:0] recent;  // the watched point's pairs of the last four cycles
   assign here = valid && index == watched;
-  assign before = first_pair ? INFINITY_WORD : least;
+  assign before = first_pair ? NOT_MET : least;
   always_ff @(posedge clk) begin
     if (here) begin
       known <= first_pair || known;
