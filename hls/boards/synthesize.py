@@ -1,4 +1,4 @@
-"""`./dev synth`: synthesizes operators, the element and the forms of the distance with open tools.
+"""`./dev synth`: synthesizes operators, the element, the filter and the forms of the distance with open tools.
 
 Yosys and nextpnr place and route for ECP5-85F; for 7-series and UltraScale+ Yosys maps and counts alone.
 Writes docs/synthesis.md and compares with the checked-in baseline.
@@ -12,7 +12,7 @@ from pathlib import Path
 from synthesis import baseline, comparison, contracts, designs, document, lowered, netlists
 from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
-SECTIONS = ["element", "forms", "operators", "xilinx"]  # the longest first
+SECTIONS = ["element", "forms", "operators", "filter", "xilinx"]  # the longest first
 FORM_FIGURES = ["multiplications", "additions", "latency", "delay_bits"]
 DATAPATH = designs.GENERATED / "emax_distance.sv"
 BASELINE = Path("hls/boards/synthesis_baseline.json")
@@ -20,8 +20,9 @@ DOCUMENT = Path("docs/synthesis.md")
 TARGET = 175.0  # MHz, of the element and the forms
 OPERATOR_TARGET = 200.0  # in a crowded element an operator loses up to a seventh of its speed
 # Minutes of one core for a section at one seed, from a run on a 2-core machine.
-EXPECTED = {"element": 9, "forms": 36, "operators": 5, "xilinx": 6}
+EXPECTED = {"element": 9, "forms": 36, "operators": 5, "filter": 5, "xilinx": 6}
 SEED_MINUTES = 6
+FILTER_ELEMENTS = [1, 4]
 NEXTPNR = []
 
 
@@ -116,6 +117,10 @@ def measure(runner, options):
     if "operators" in options.only:
         for operator in operators:
             start("operators", operator.name, Ecp5(runner, operator, 1, 1).run)
+    if "filter" in options.only:
+        for elements in FILTER_ELEMENTS:
+            core = designs.filter_core(elements, options.target)
+            start("filter", core.name, Ecp5(runner, core, 1, 1).run)
     if "xilinx" in options.only:
         for family in netlists.FAMILIES:
             for design in [lowered.xilinx_element(options.target), *operators]:
@@ -137,6 +142,10 @@ def drive(runner, options):
         wanted["element_ecp5"] = [(netlists.ecp5(runner, element)[-1], element.top)]
     if "operators" in options.only:
         wanted["operators_ecp5"] = [(netlists.ecp5(runner, o)[-1], f"{o.top}_netlist") for o in operators]
+    if "filter" in options.only:
+        for elements in FILTER_ELEMENTS:
+            core = designs.filter_core(elements, options.target)
+            wanted[f"filter{elements}_ecp5"] = [(netlists.ecp5(runner, core)[-1], core.top)]
     if "xilinx" in options.only:
         for family in netlists.FAMILIES:
             wanted[f"operators_{family}"] = [(netlists.xilinx(runner, o, family)[-1], f"{o.top}_netlist")

@@ -7,10 +7,10 @@ from . import designs
 from .tools import Failure
 
 
-def board():
-    """A design that contains every module with an assertion."""
+def all_designs():
+    """Designs that together contain every module with an assertion."""
     more = [path for folder in ("core", "link") for path in sorted((designs.RTL / folder).glob("*.sv"))]
-    return designs.Design("assertions", "emax_board", 0, more=more)
+    return [designs.Design("board", "emax_board", 0, more=more), designs.filter_core(1, 0)]
 
 
 def script(design):
@@ -25,10 +25,11 @@ def written(sources):
     return {path: count for path, count in counts.items() if count}
 
 
-def read(netlist):
-    """{path: number of its places that have an assertion in Yosys's netlist}."""
+def read(*netlists):
+    """{path: number of its places that have an assertion in one of Yosys's netlists}."""
     places = set()
-    for module in json.loads(netlist.read_text())["modules"].values():
+    modules = [module for netlist in netlists for module in json.loads(netlist.read_text())["modules"].values()]
+    for module in modules:
         for cell in module["cells"].values():
             if cell["type"] == "$assert" or cell["parameters"].get("FLAVOR", "").strip() == "assert":
                 places.add(cell["attributes"]["src"])
@@ -38,10 +39,13 @@ def read(netlist):
 
 def check(runner):
     """Raises Failure where Yosys does not see each assertion."""
-    design = board()
-    (netlist,) = runner.step("yosys", "the assertions of hls/rtl, read as properties", "assertions",
-                             ["-q", "-p", script(design)], design.inputs("behavioural"), ["assertions.json"])
-    compare(written(design.sources("behavioural")), read(netlist))
+    netlists, sources = [], set()
+    for design in all_designs():
+        netlists += runner.step("yosys", f"the assertions of the {design.top}, read as properties",
+                                f"assertions/{design.top}", ["-q", "-p", script(design)],
+                                design.inputs("behavioural"), ["assertions.json"])
+        sources.update(design.sources("behavioural"))
+    compare(written(sources), read(*netlists))
 
 
 def compare(texts, properties):

@@ -9,6 +9,7 @@ from .tools import Failure
 
 RTL = Path("hls/rtl")
 GENERATED = RTL / "generated"
+FILTER = [RTL / "filter", RTL / "filter/generated", RTL / "fixed"]
 ULX3S = Path("hls/boards/ulx3s")
 
 
@@ -31,7 +32,8 @@ class Design:
         return [self.replaced.get(path, path) for path in sources]
 
     def inputs(self, family):
-        return [*self.sources(family), *sorted(RTL.glob("*.svh")), *sorted(GENERATED.glob("*.svh"))]
+        headers = [path for folder in (RTL, GENERATED, *FILTER) for path in sorted(folder.glob("*.svh"))]
+        return [*self.sources(family), *headers]
 
 
 def _write_verilog(select=""):
@@ -79,6 +81,13 @@ def element(target, generated=None):
 def core(elements):
     return Design(f"emax_core, elements: {elements}", "emax_core", 0, {"NUM_PE": elements},
                   more=sorted((RTL / "core").glob("*.sv")))
+
+
+def filter_core(elements, target):
+    """The core of the fixed-point filter, its memories and FIFOs included."""
+    core_parts = [RTL / "core" / f"{name}.sv" for name in ("axis_register", "block_answer", "command_decoder", "pair_sequencer")]
+    more = [*core_parts, *(path for folder in FILTER for path in sorted(folder.glob("*.sv")))]
+    return Design(f"filter_core, elements: {elements}", "filter_core", target, {"NUM_PE": elements}, more=more)
 
 
 def ulx3s(elements, target):

@@ -31,6 +31,8 @@ SECTIONS = {
     "operators": ("Operators on ECP5-85F, speed 6", "Binary32, at the latencies of the generated datapath; one seed."),
     "forms": ("Forms of the distance on ECP5-85F, speed 6",
               "Datapath and record memory of each form alone, with the same lowering and the same operators; one seed."),
+    "filter": ("The filtering core on ECP5-85F, speed 6",
+               "filter_core: decoder, memories of 1,024 points, elements with 16 record slots, answers; one seed."),
     "xilinx": ("7-series and UltraScale+, counted by Yosys",
                "\"product\" counts the DSP blocks in which Yosys placed a register behind the multiplier (MREG or PREG),"
                " \"inputs\" those with registers at both inputs (AREG and BREG). The other registers are outside the block."),

@@ -4,104 +4,15 @@
 #include <set>
 
 #include "sw_model/base/error.h"
-#include "sw_model/model/fixed_filter.h"
 #include "sw_model/protocol/commands.h"
 #include "sw_model/protocol/cycle_model.h"
 #include "testbench/core/core_driver.h"
-#include "testbench/core/core_stimuli.h"
+#include "testbench/core/filter_stimuli.h"
 #include "testbench/core/rtl_device.h"
 #include "testbench/operators/mutant_list.h"
 
 namespace emax::test {
 namespace {
-
-using FilterPoint = Vector3<FilterNumber>;
-using FilterRecord = TriangleRecord<FilterNumber>;
-
-struct FilterMaterial {
-  std::vector<FilterPoint> points;
-  std::vector<FilterRecord> records;
-};
-
-FilterMaterial of_meshes(std::uint64_t seed) {
-  FilterMaterial all;
-  for (const Material& m : materials(seed)) {
-    const int exponent = filter_exponent(m.points, m.records, kFilterBits);
-    for (const auto& p : m.points) {
-      all.points.push_back(filter_point<kFilterBits>(p, exponent));
-    }
-    for (const auto& r : m.records) {
-      if (const auto fixed = filter_record<kFilterBits>(r, exponent)) all.records.push_back(*fixed);
-    }
-  }
-  return all;
-}
-
-// Numbers at the ends of the range, about 0 and 1, small ones and any, in points and records that
-// belong to no triangle.
-FilterMaterial of_edges(std::uint64_t seed) {
-  Random random(seed);
-  const auto number = [&random] {
-    constexpr std::int64_t kEnds[] = {-131072, -131071, 131071, 65536, 65535, -65536, 0, 1, -1};
-    if (random.one_in(6)) return FilterNumber::from_raw(kEnds[random.below(std::size(kEnds))]);
-    const std::uint32_t most = random.one_in(3) ? 1u << 18 : 1u << 14;
-    return FilterNumber::from_raw(std::int64_t{random.below(most)} - most / 2);
-  };
-  FilterMaterial all;
-  for (int i = 0; i < 300; ++i) {
-    const FilterNumber x = number(), y = number(), z = number();
-    all.points.push_back({x, y, z});
-    FilterRecord record{};
-    for_each_scalar([&](FilterNumber& scalar) { scalar = number(); }, record);
-    record.tag = random.one_in(3) ? kSegmentFlag : 0;
-    all.records.push_back(record);
-  }
-  return all;
-}
-
-std::vector<Word> filter_block(const FilterMaterial& m, std::size_t points, std::size_t records,
-                               bool list_points, Random& random) {
-  std::vector<Word> words;
-  append_filter_points(words, any_of(m.points, points, random));
-  append_filter_records(words, any_of(m.records, records, random));
-  append_filter_reduce(words, list_points);
-  return words;
-}
-
-void append_any_filter_command(std::vector<Word>& words, const FilterMaterial& m, Random& random) {
-  switch (random.below(10)) {
-    case 0:
-    case 1:
-      return append_filter_points(words, any_of(m.points, random.below(9), random));
-    case 2:
-      return append_filter_points(words, any_of(m.points, random.below(100), random));
-    case 3:
-      if (!random.one_in(12)) return;
-      return append_filter_points(words,
-                                  any_of(m.points, kMaxBlockPoints + random.below(3), random));
-    case 4:
-    case 5:
-    case 6:
-      return append_filter_records(words, any_of(m.records, random.below(12), random));
-    case 7:
-    case 8:
-      return append_filter_reduce(words, random.one_in(2));
-    default:
-      if (random.one_in(3)) words.push_back(command_header(kIdentify, random.below(3)));
-      // An exact core's question is unknown here.
-      if (random.one_in(8)) words.push_back(command_header(kReduce, 0));
-  }
-}
-
-std::vector<Word> any_filter_commands(const std::vector<FilterMaterial>& all, std::size_t count,
-                                      Random& random) {
-  std::vector<Word> words;
-  for (std::size_t i = 0; i < count; ++i) {
-    append_any_filter_command(words, all[random.below(all.size())], random);
-  }
-  append_filter_reduce(words, false);  // nothing stays open
-  return words;
-}
 
 class FilterCore : public testing::TestWithParam<std::uint32_t> {
  protected:
@@ -117,7 +28,7 @@ class FilterCore : public testing::TestWithParam<std::uint32_t> {
 };
 
 TEST_P(FilterCore, AnswersAnyCommandsAsTheTop) {
-  const std::vector<FilterMaterial> all = {of_meshes(5), of_edges(5)};
+  const std::vector<FilterMaterial> all = {filter_material(5), filter_edges(5)};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -127,7 +38,7 @@ TEST_P(FilterCore, AnswersAnyCommandsAsTheTop) {
 }
 
 TEST_P(FilterCore, IdleCyclesAndBackPressureChangeNoWord) {
-  const std::vector<FilterMaterial> all = {of_meshes(6), of_edges(6)};
+  const std::vector<FilterMaterial> all = {filter_material(6), filter_edges(6)};
   for (std::uint32_t in = 0; in < kPatterns; ++in) {
     for (std::uint32_t out = 0; out < kPatterns; ++out) {
       const CorePatterns patterns = {static_cast<Pattern>(in), static_cast<Pattern>(out),
@@ -144,7 +55,7 @@ TEST_P(FilterCore, IdleCyclesAndBackPressureChangeNoWord) {
 }
 
 TEST_P(FilterCore, EveryBlockSizeAroundTheNumberOfElements) {
-  const FilterMaterial m = of_meshes(7);
+  const FilterMaterial m = filter_material(7);
   Random random(7);
   std::vector<Word> words;
   for (std::size_t points = 1; points <= 24; ++points) {
@@ -157,7 +68,7 @@ TEST_P(FilterCore, EveryBlockSizeAroundTheNumberOfElements) {
 }
 
 TEST_P(FilterCore, ResetInMidStreamLeavesNothingBehind) {
-  const FilterMaterial m = of_meshes(8);
+  const FilterMaterial m = filter_material(8);
   Random random(8);
   for (int i = 0; i < 40; ++i) {
     const auto broken =
@@ -179,7 +90,7 @@ TEST_P(FilterCore, ResetInMidStreamLeavesNothingBehind) {
 
 // 1024 points in 1000 records: a row of pairs in nine cycles of ten or more.
 TEST_P(FilterCore, ElementsAreBusyOnADenseBlock) {
-  const FilterMaterial m = of_meshes(6);
+  const FilterMaterial m = filter_material(6);
   Random random(10);
   const std::size_t records = 1000;
   const auto words = filter_block(m, kMaxBlockPoints, records, false, random);
@@ -210,7 +121,7 @@ TEST_P(FilterCore, CyclesAreThoseOfTheModel) {
       {"tiny blocks", std::vector<FilterWork>(60, {7, 30, false})},
       {"blocks without records", std::vector<FilterWork>(5, {512, 0, true})},
       {"any blocks, seed 3", any}};
-  const FilterMaterial m = of_meshes(9);
+  const FilterMaterial m = filter_material(9);
   for (const auto& [name, blocks] : cases) {
     CycleModel model(GetParam(), kFilterCore);
     std::vector<Word> words;
@@ -246,7 +157,7 @@ TEST(FilterCores, AreToldFromExactOnes) {
 
 // Blocks that end, are given up, are reduced twice, are too large; few points and many; ties.
 std::vector<Word> every_kind_of_filter_block() {
-  const FilterMaterial m = of_meshes(3), edges = of_edges(3);
+  const FilterMaterial m = filter_material(3), edges = filter_edges(3);
   Random random(3);
   std::vector<Word> words;
   for (const std::size_t count : {1, 2, 3, 7, 40, 200}) {
