@@ -1,6 +1,18 @@
 #include "hls/lowering/graph_json.h"
 
 namespace emax {
+namespace {
+
+// Of a fixed-point number: how results are fitted to it.
+std::string format_of(const ValueType& type) {
+  if (type.kind != ValueKind::kFixed) return "";
+  const auto boolean = [](bool value) { return std::string(value ? "true" : "false"); };
+  return ", \"fraction\": " + std::to_string(type.fraction) +
+         ", \"half_up\": " + boolean(type.rounding == Rounding::kHalfUp) +
+         ", \"saturate\": " + boolean(type.overflow == Overflow::kSaturate);
+}
+
+}  // namespace
 
 std::string graph_json(const LoweredDesign& design) {
   const DataflowGraph& graph = design.graph;
@@ -18,7 +30,8 @@ std::string graph_json(const LoweredDesign& design) {
             ", \"name\": " + quoted(node.name) + ", \"width\": " + std::to_string(node.type.width) +
             ", \"operands\": [" + operands + "], \"word\": " + std::to_string(node.word) +
             ", \"start\": " + std::to_string(design.schedule.start[id]) +
-            ", \"ready\": " + std::to_string(design.schedule.ready[id]) + "}";
+            ", \"ready\": " + std::to_string(design.schedule.ready[id]) + format_of(node.type) +
+            "}";
   }
   text += "],\n\"outputs\": [";
   for (const Output& output : graph.outputs()) {

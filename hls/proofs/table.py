@@ -7,9 +7,11 @@ from proving.proof import Fault, Graph, Parts, Proof, Words
 from synthesis import designs
 
 DATAPATH = Path("hls/rtl/generated/emax_distance.sv")
+FILTER = Path("hls/rtl/filter/generated/emax_filter.sv")
 CHECKS = ("checks/check_order.sv", "checks/check_stream.sv", "checks/check_reset.sv")
 MANTISSAS = ("mantissas/mantissa_multiply.sv", "mantissas/mantissa_square.sv")
 OPERATORS = tuple(f"operators/{name}.sv" for name in ("fp_add", "fp_multiply", "fp_square", "fp_less", "delay_line"))
+FIXED_OPERATORS = tuple(f"operators/{name}.sv" for name in ("fixed_add", "fixed_fit", "fixed_less", "fixed_multiply", "fixed_negate", "delay_line"))
 PRODUCT = (("mantissas", "product", ("a", "b")),)
 ROUNDED_UP = "rounded up to the least normal number"
 # Shows the harness one word of a memory, at an address that the harness chooses.
@@ -181,7 +183,7 @@ STREAM_PROOFS = [
 
 def delay(kind, most, what, faults):
     """The proof of the lines of this kind in the generated modules, and of the shortest lines."""
-    text = "".join(path.read_text() for path in sorted(DATAPATH.parent.glob("*.sv")))
+    text = "".join(path.read_text() for file in (DATAPATH, FILTER) for path in sorted(file.parent.glob("*.sv")))
     used = {int(depth) for depth in re.findall(rf'\.DEPTH\((\d+)\), \.STYLE\("{kind}"\)', text)}
     return Proof(f"delay_line_{kind}", f"delay_line in {what} gives each word after as many edges as its depth says, whatever value its counter starts with",
                  "delays", "prove_delay_lines", most, faults,
@@ -209,6 +211,18 @@ DATAPATH_PROOFS = [
                                                           "prefer_upper ? y_at_106 : across_upper_at_106")),
            Fault("NaN counts as greater than zero", patch=(DATAPATH.name, "|z_from_v2[30:23] & ~(&z_from_v2[30:22])", "|z_from_v2[30:23]"))),
           files=OPERATORS, rule=Graph("visible_edge"), assumes="the proofs of the operators and of the delay lines"),
+    Proof("emax_filter", "the filter's generated datapath is the dataflow graph of its source for all inputs, with the operators and their parameters as unknown functions",
+          "graph", "emax_filter", 40,
+          (Fault("a delay is one edge short", patch=(FILTER.name, ".DEPTH(23), .STYLE(\"distributed_ram\")) rounded_dot_at_33",
+                                                    ".DEPTH(22), .STYLE(\"distributed_ram\")) rounded_dot_at_33")),
+           Fault("the operands of a difference change places",
+                 patch=(FILTER.name, ".a(across13_product), .b(across13_product_2)", ".a(across13_product_2), .b(across13_product)")),
+           Fault("a segment sees no edge", patch=(FILTER.name, "assign visible12 = visible12_negative | segment;", "assign visible12 = visible12_negative;")),
+           Fault("the result wraps around", patch=(FILTER.name, ".SHIFT(0), .WIDTH(33), .HALF_UP(1'b0), .SATURATE(1'b1)",
+                                                  ".SHIFT(0), .WIDTH(33), .HALF_UP(1'b0), .SATURATE(1'b0)")),
+           Fault("a sum in place of a difference", patch=(FILTER.name, ".SUBTRACT(1'b1), .LATENCY(FIXED_ADD_LATENCY)) z_from_v2",
+                                                         ".SUBTRACT(1'b0), .LATENCY(FIXED_ADD_LATENCY)) z_from_v2"))),
+          files=FIXED_OPERATORS, rule=Graph("filter"), assumes="the proofs of the delay lines; operators on fixed-point numbers have none"),
 ]
 
 PROOFS = [*OPERATOR_PROOFS, *DELAY_PROOFS, *DATAPATH_PROOFS, *STREAM_PROOFS]

@@ -39,7 +39,7 @@ those of `testbench/netlists/ecp5_blocks.sv`, written from the vendor's descript
 
 ## What is not proven
 
-- `emax_core`, `filter_core` and `emax_link` as a whole, `emax_element`, `filter_element`, the filter's datapath, and the
+- `emax_core`, `filter_core` and `emax_link` as a whole, `emax_element`, `filter_element`, and the
   memories of `emax_distance_unit` and `emax_filter_unit`. Co-simulation with its mutants covers them.
 - That the CRC finds all damage that it should find, data frames, and a serial line with different clocks at its two ends.
 - Operators at other latencies and in other formats than those in the table. At binary32 a multiplication has no proof in

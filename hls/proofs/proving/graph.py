@@ -18,6 +18,42 @@ lower_program = Path("build/kernel/bin/emax_lower")
 MODULES = {"add": ("addend", "a"), "multiply": ("a", "b"), "square": ("a",), "less": ("a", "b")}
 
 
+# Of fixed-point numbers, by the end of an instance's name: its module, and its operands in the harness. The last
+# operand is the module's parameters: SHIFT, HALF_UP, SATURATE, and SUBTRACT or MAGNITUDE.
+FIXED_MODULES = {"adder": ("fixed_add", ("a", "b", "options")), "multiplier": ("fixed_multiply", ("a", "b", "options")),
+                 "fitter": ("fixed_fit", ("a", "options")), "negator": ("fixed_negate", ("a", "options")),
+                 "comparator": ("fixed_less", ("a", "b", "options"))}
+# The graph's name of an operation: its module, and whether it is the other one of the two that the module has.
+FIXED_OPERATIONS = {"fixed_add": ("fixed_add", 0), "fixed_subtract": ("fixed_add", 1), "fixed_multiply": ("fixed_multiply", 0),
+                    "fixed_fit": ("fixed_fit", 0), "fixed_negate": ("fixed_negate", 0), "fixed_magnitude": ("fixed_negate", 1),
+                    "fixed_less": ("fixed_less", 0)}
+
+
+class FixedFunctions(dict):
+    """The unknown functions of operators on fixed-point numbers: one for each module and its widths."""
+
+    def __init__(self, terms, make):
+        super().__init__()
+        self.terms, self.make = terms, make
+
+    def of(self, module, operands, width):
+        key = (module, *operands, width)
+        if key not in self:
+            self[key] = self.make(self.terms, "_".join(map(str, key)), list(operands), width)
+        return self[key]
+
+    def apply(self, node, operands, nodes):
+        """The result of a node of the graph, with the parameters that the formats demand."""
+        t, (module, variant) = self.terms, FIXED_OPERATIONS[node["operation"]]
+        fits = module in ("fixed_multiply", "fixed_fit")
+        shift = sum(n["fraction"] for n in nodes) - node["fraction"] if fits else 0
+        half_up = fits and node["half_up"]
+        saturate = module != "fixed_less" and node["saturate"]
+        options = t.bv(16, (shift & 255) << 8 | half_up << 2 | saturate << 1 | variant)
+        widths = [n["width"] for n in nodes]
+        return self.of(module, (*widths, 16), node["width"]).apply(*operands, options)
+
+
 def read_graph(form):
     """The graph of a form of the distance, from the kernel's source through emax_lower."""
     lower = lower_program
@@ -32,11 +68,15 @@ def read_graph(form):
 class Meaning:
     """The term of a graph's node, given the terms of its operands."""
 
-    def __init__(self, terms, rules, functions):
-        self.t, self.rules, self.functions = terms, rules, functions
+    def __init__(self, terms, rules, functions, fixed):
+        self.t, self.rules, self.functions, self.fixed = terms, rules, functions, fixed
 
-    def node(self, node, operands):
+    def node(self, node, operands, nodes):
         t, rules, name = self.t, self.rules, node["operation"]
+        if name in FIXED_OPERATIONS:
+            return self.fixed.apply(node, operands, nodes)
+        if name == "fixed_negative":
+            return t.slice(operands[0], nodes[0]["width"] - 1, nodes[0]["width"] - 1)
         if name in ("add", "subtract"):
             a, b = operands
             if name == "subtract":
@@ -69,10 +109,20 @@ def graph(proof, system, refute=False):
         name: Function(terms, name, [32] * len(operands), 1 if name == "less" else 32,
                        None if name == "less" else lambda result, *_: rules.canonical(result))
         for name, operands in MODULES.items()}
+    fixed = FixedFunctions(terms, Function)
+    is_fixed = any(node["operation"] in FIXED_OPERATIONS for node in design["nodes"])
     replaced = {}
     for signal in system.names:
         instance, _, leaf = signal.rpartition(".")
         if leaf != "result" or "." in instance:
+            continue
+        if is_fixed:
+            if instance.rpartition("_")[2] not in FIXED_MODULES:
+                raise Failure(f"{instance} is an operator that the proof does not know")
+            name, operands = FIXED_MODULES[instance.rpartition("_")[2]]
+            widths = [system.width(f"{instance}.{operand}") for operand in operands]
+            replaced[system.named(signal)] = Instance(fixed.of(name, widths, system.width(signal)),
+                                                      [system.named(f"{instance}.{operand}") for operand in operands])
             continue
         module = next((m for m, last in (("add", "_adder"), ("multiply", "_multiplier"), ("square", "_squarer"),
                                          ("less", "_comparator")) if instance.endswith(last)), None)
@@ -80,19 +130,20 @@ def graph(proof, system, refute=False):
             raise Failure(f"{instance} is an operator that the proof does not know")
         result = system.named(signal)
         replaced[result] = Instance(functions[module], [system.named(f"{instance}.{o}") for o in MODULES[module]])
-    operations = sum(node["operation"] in ("add", "subtract", *MODULES) for node in design["nodes"])
+    operations = sum(node["operation"] in ("add", "subtract", *MODULES, *FIXED_OPERATIONS) for node in design["nodes"])
     if len(replaced) != operations or operations == 0:
         raise Failure(f"the datapath has {len(replaced)} operators and the graph {operations}")
 
     unrolling, values = Unrolling(system, terms, False, replaced), []
-    meaning = Meaning(terms, rules, functions)
+    meaning = Meaning(terms, rules, functions, fixed)
     for node in design["nodes"]:
         if node["operation"] == "input":
             values.append(unrolling.named(node["name"], node["start"]))
         elif node["operation"] == "constant":
             values.append(terms.bv(node["width"], node["word"]))
         else:
-            values.append(meaning.node(node, [values[i] for i in node["operands"]]))
+            values.append(meaning.node(node, [values[i] for i in node["operands"]],
+                                       [design["nodes"][i] for i in node["operands"]]))
     solver = Solver(terms, proof.limit)
     named, wrong = [], []
     for output in design["outputs"]:
@@ -100,7 +151,7 @@ def graph(proof, system, refute=False):
         wrong.append(terms.negated(terms.eq(got, values[output["node"]])))
     if proof.depth != design["latency"]:
         raise Failure(f"the datapath's latency is {design['latency']}, the table's {proof.depth}")
-    for function in functions.values():
+    for function in (*functions.values(), *fixed.values()):
         solver.assume(*function.known)
     if not wrong:
         raise Failure("the graph has no output")
