@@ -44,6 +44,14 @@ std::vector<std::uint32_t> merged(std::span<const std::uint32_t> a,
   return both;
 }
 
+// Both ascend.
+void add(const std::vector<NumberedPoint>& points, std::vector<NumberedPoint>& to) {
+  std::vector<NumberedPoint> all;
+  std::ranges::set_union(points, to, std::back_inserter(all), {}, &NumberedPoint::number,
+                         &NumberedPoint::number);
+  to = std::move(all);
+}
+
 // Runs of points whose numbers in the file follow each other.
 void give_runs(const ScanPieces::Piece& piece, const CloudSource::Take& take) {
   for (std::size_t first = 0, end; first < piece.points.size(); first = end) {
@@ -172,19 +180,29 @@ std::vector<NumberedPoint> TiledScan::chosen(const Choice& choice) const {
   return chosen;
 }
 
-// The far points and a sample of all, which shows whether the scan belongs to the mesh.
-std::vector<NumberedPoint> TiledScan::with_far_points() const {
+// A sample of all points, which shows whether the scan belongs to the mesh.
+std::vector<NumberedPoint> TiledScan::sample() const {
   const auto every = static_cast<std::uint32_t>(1 + scan_.points() / kSample);
-  return chosen([&](const Point&, std::uint32_t number) {
-    return number % every == 0 || has(far_.points, number);
-  });
+  return chosen([&](const Point&, std::uint32_t number) { return number % every == 0; });
+}
+
+std::vector<NumberedPoint> TiledScan::far_points() const {
+  std::vector<NumberedPoint> far;
+  for (const NumberedPoint& point : far_.points) {
+    if (!has(outliers_, static_cast<std::uint32_t>(point.number))) far.push_back(point);
+  }
+  return far;
 }
 
 // Where the farthest points take all that may be excluded, and others cannot be joined, the nearest
 // of the former make room: most of them can be joined.
 GivenReference TiledScan::make_reference(const ReferenceWishes& wishes) {
+  std::vector<NumberedPoint> kept = sample();
   for (int choice = 0;; ++choice) {
-    Joined joined = join(wishes);
+    const std::vector<NumberedPoint> far = far_points();
+    add(far, kept);
+    if (choice == 0) add_around(far, kAround * settings_.far, kept);
+    Joined joined = join(wishes, kept);
     const std::size_t excluded = outliers_.size() + joined.missed;
     const std::size_t over = excluded - std::min(excluded, settings_.excludable);
     const std::size_t released = 2 * over;  // as some of these cannot be joined either
@@ -195,8 +213,8 @@ GivenReference TiledScan::make_reference(const ReferenceWishes& wishes) {
 
 // Joining a point bends the mesh, which may move it away from others: those are looked for, and
 // hold it back when all begins anew.
-TiledScan::Joined TiledScan::join(const ReferenceWishes& wishes) const {
-  std::vector<NumberedPoint> kept = with_far_points();
+TiledScan::Joined TiledScan::join(const ReferenceWishes& wishes,
+                                  std::vector<NumberedPoint>& kept) const {
   double reach = kAround * settings_.far;
   for (int look = 0;; ++look) {
     std::vector<Point> positions;
@@ -234,8 +252,7 @@ void TiledScan::add_around(const std::vector<NumberedPoint>& lost, double reach,
     around.for_each({p, p}, [&is_near](std::uint32_t) { is_near = true; });
     return is_near && !has(kept, number);
   });
-  kept.insert(kept.end(), more.begin(), more.end());
-  std::ranges::sort(kept, {}, &NumberedPoint::number);
+  add(more, kept);
 }
 
 CertifiedDecimation TiledScan::decimate(const TriangleMesh& reference,

@@ -66,12 +66,14 @@ class TiledScan {
   FarFromMesh far_in(const ScanPieces::Piece& piece, const ExactMesh& mesh) const;
   void require_room(std::size_t far) const;
   void exclude_farthest(std::size_t count);
-  Joined join(const ReferenceWishes& wishes) const;
+  // Adds to `kept` the points that it had to look at.
+  Joined join(const ReferenceWishes& wishes, std::vector<NumberedPoint>& kept) const;
   void add_around(const std::vector<NumberedPoint>& lost, double reach,
                   std::vector<NumberedPoint>& kept) const;
   // The points that are not excluded and for which the choice holds, in the order of their numbers.
   std::vector<NumberedPoint> chosen(const Choice& choice) const;
-  std::vector<NumberedPoint> with_far_points() const;
+  std::vector<NumberedPoint> sample() const;
+  std::vector<NumberedPoint> far_points() const;
   CertifiedDecimation decimate(const TriangleMesh& reference,
                                const CertifiedDecimationSettings& settings,
                                const TilePoints& points) const;
