@@ -28,14 +28,14 @@ constexpr double kDecisionPrecision = 1e-9;
 // printed, or that may lie on the other side of the limit, is the exact one.
 class CloudMeasurement {
  public:
-  CloudMeasurement(const ScanPieces& scan, const TriangleMesh& mesh, const ErrorQuestion& question,
-                   std::optional<double> limit)
+  CloudMeasurement(const ScanPieces& scan, const TriangleMesh& mesh, const MeshExtent& extent,
+                   const ErrorQuestion& question, std::optional<double> limit)
       : scan_(scan),
         question_(question),
         limit_(limit),
         excludable_(excludable_points(question.excluded_share, scan.points())),
         meter_(mesh, nullptr, scan.normalization(), question.brute_force, processor_threads()),
-        margin_(limit ? point_distance_margin(meter_.normalization(), mesh.view(), *limit) : 0),
+        margin_(limit ? point_distance_margin(meter_.normalization(), extent, *limit) : 0),
         farthest_(excludable_),
         store_(scan.points(), question.memory / 4, scan.scan().path.string()) {}
 
@@ -229,11 +229,12 @@ ErrorFindings find_errors(
   auto of_mesh = std::async(std::launch::async, [&] {
     return MeshFindings{check_mesh(mesh.view()), topology_of(mesh.view())};
   });
-  CloudMeasurement cloud(scan, mesh, question, limit);
+  const MeshExtent extent(mesh.view(), f.transform);
+  CloudMeasurement cloud(scan, mesh, extent, question, limit);
   cloud.measure();
   f.excludable = cloud.excludable();
   // Without a tolerance the farthest points are excluded, whatever their distance.
-  f.measured = judge(mesh.view(), f.transform, limit.value_or(0), cloud.farthest());
+  f.measured = judge(extent, f.transform, limit.value_or(0), cloud.farthest());
   f.seconds = cloud.kernel_seconds();
   f.certified = cloud.certify(f.measured.excluded);
   if (scan.is_in_memory()) {

@@ -78,7 +78,8 @@ struct EngineTarget {
   // Raises the maximum by all points of a range of supergroups. Points that cannot raise it are
   // settled without their exact d^2.
   void (*search_supergroups)(const SearchJob& job, std::size_t first, std::size_t last);
-  // d^2 bits of every point of a range of supergroups, by point index.
+  // Lowers the d^2 bits of every point of a range of supergroups, by point index, to those of this
+  // mesh.
   void (*nearest)(const SearchJob& job, std::size_t first, std::size_t last,
                   std::span<std::uint32_t> squared_bits);
 };

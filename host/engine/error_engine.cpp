@@ -145,12 +145,17 @@ std::optional<EmaxResult> ErrorEngine::violation(const PreparedMesh& mesh,
 }
 
 std::vector<std::uint32_t> ErrorEngine::squared_distances(const PreparedMesh& mesh) {
+  std::vector<std::uint32_t> squared_bits(cloud_.points().size(), kNothingMet);
+  lower(mesh, squared_bits);
+  return squared_bits;
+}
+
+void ErrorEngine::lower(const PreparedMesh& mesh, std::span<std::uint32_t> squared_bits) {
   RunningMaximum unused;
-  std::vector<std::uint32_t> raised, squared_bits(cloud_.points().size());
+  std::vector<std::uint32_t> raised;
   in_supergroups([&](std::size_t, std::size_t first, std::size_t last) {
     target_.nearest(job(mesh, unused, kNeverEnough, raised), first, last, squared_bits);
   });
-  return squared_bits;
 }
 
 Quantile ErrorEngine::quantile(const PreparedMesh& mesh, double share) {

@@ -7,6 +7,7 @@
 
 #include "host/engine/prepared_cloud.h"
 #include "host/engine/prepared_mesh.h"
+#include "sw_model/base/float_bits.h"
 
 namespace emax {
 
@@ -17,6 +18,9 @@ struct EngineOptions {
   // Called from time to time by one thread; true ends the question with Interrupted.
   std::function<bool()> interrupted = nullptr;
 };
+
+// d^2 of a point that has met no triangle: infinity.
+inline constexpr std::uint32_t kNothingMet = kExponentMask;
 
 struct Quantile {
   std::uint32_t squared_bits;         // nearest rank: the share of points has at most this d^2
@@ -41,6 +45,9 @@ class ErrorEngine {
   std::optional<EmaxResult> violation(const PreparedMesh& mesh, std::uint32_t limit_bits);
   // d^2 of every point, in cloud order.
   std::vector<std::uint32_t> squared_distances(const PreparedMesh& mesh);
+  // Lowers the d^2 of every point to that of this mesh, where that is less: after all parts of a
+  // mesh they are those of the whole. Triangles that are farther are not looked at.
+  void lower(const PreparedMesh& mesh, std::span<std::uint32_t> squared_bits);
   // Throws std::invalid_argument unless 0 < share <= 1.
   Quantile quantile(const PreparedMesh& mesh, double share);
 

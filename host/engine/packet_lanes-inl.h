@@ -69,6 +69,10 @@ struct PacketLanes {
       nearest[v] = Floats(std::numeric_limits<float>::infinity());
     }
   }
+  // Begins with what each point has met before.
+  HWY_INLINE void load(const std::array<float, kPacketPoints>& met) {
+    for (std::size_t v = 0; v < kVectors; ++v) nearest[v] = Floats::load(&met[v * Floats::kCount]);
+  }
   HWY_INLINE void meet(const TriangleRecord<float>& record) {
     HWY_NAMESPACE::meet(record, at, nearest);
   }

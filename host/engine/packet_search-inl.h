@@ -383,6 +383,11 @@ class SupergroupCandidates {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const Packet& packet = job.cloud.packets[i];
       PacketLanes lanes(packet);
+      alignas(64) std::array<float, kPacketPoints> squared;
+      for (std::size_t k = 0; k < kPacketPoints; ++k) {
+        squared[k] = bits_float(squared_bits[packet.index[k]]);
+      }
+      lanes.load(squared);
       std::uint32_t open = kAll;
       lanes.meet(job.mesh.records[hint]);
       if (collected) {
@@ -392,7 +397,6 @@ class SupergroupCandidates {
       }
       std::size_t none = 0;
       search_tree(job.mesh, packet, lanes, open, kNoLimit, hint, unused, none);
-      alignas(64) std::array<float, kPacketPoints> squared;
       lanes.store(squared);
       greatest_squared = HWY_MAX(greatest_squared, greatest(squared, kAll));
       for (std::size_t k = 0; k < kPacketPoints; ++k) {

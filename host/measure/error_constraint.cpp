@@ -15,24 +15,17 @@ namespace {
 
 // The greatest kernel e_max^2 that proves epsilon; nothing if even 0 does not, because epsilon is
 // below the kernel's own error.
-std::optional<std::uint32_t> threshold(MeshView mesh, const Normalization& normalization,
+std::optional<std::uint32_t> threshold(const MeshExtent& mesh, const Normalization& normalization,
                                        double epsilon) {
-  double longest = 0, farthest = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto corners = mesh.corners(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
-      farthest = std::max(farthest, (corners[k] - normalization.origin).norm());
-    }
-  }
   const double limit = normalization.length(epsilon);
-  const double reach = limit + 2 * normalization.length(longest) + normalization.length(farthest);
+  const double reach =
+      limit + 2 * normalization.length(mesh.longest_edge) + normalization.length(mesh.farthest);
   return largest_feasible_bits(limit, reach);
 }
 
 }  // namespace
 
-MeasuredError judge(MeshView mesh, const Normalization& normalization, double epsilon,
+MeasuredError judge(const MeshExtent& mesh, const Normalization& normalization, double epsilon,
                     const FarthestPoints& points) {
   const std::optional<std::uint32_t> allowed = threshold(mesh, normalization, epsilon);
   FarthestPoints::Excluded found = points.exclude(allowed.value_or(0));
@@ -123,7 +116,8 @@ MeasuredError ErrorConstraint::judge(
   } else {
     points.add(nearest(), {});
   }
-  return emax::judge(mesh, cloud_.normalization(), epsilon_, points);
+  const MeshExtent extent(mesh, cloud_.normalization());
+  return emax::judge(extent, cloud_.normalization(), epsilon_, points);
 }
 
 }  // namespace emax

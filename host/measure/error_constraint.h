@@ -8,6 +8,7 @@
 #include "host/block_search/block_search.h"
 #include "host/engine/error_engine.h"
 #include "host/measure/farthest_points.h"
+#include "host/measure/mesh_extent.h"
 
 namespace emax {
 
@@ -24,7 +25,7 @@ struct MeasuredError {
 
 // What the kernel's distances of a cloud's points from a mesh say of the bound `epsilon`, which is
 // in the cloud's unit.
-MeasuredError judge(MeshView mesh, const Normalization& normalization, double epsilon,
+MeasuredError judge(const MeshExtent& mesh, const Normalization& normalization, double epsilon,
                     const FarthestPoints& points);
 
 // The number of points in a share of `points`; 0.7% of 1,000 is 7, whatever the roundings.

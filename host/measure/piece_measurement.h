@@ -12,7 +12,8 @@
 namespace emax {
 
 // Measures the points of a cloud piece by piece against one mesh, with the bits of the whole: all
-// that a point's distance depends on beside the mesh is the normalization of its cloud.
+// that a point's distance depends on beside the mesh is the normalization of its cloud. The mesh
+// may be a part of one, too.
 class PieceMeasurement {
  public:
   // `threads`: those that prepare the mesh. Throws as PreparedMesh does. The mesh must outlive
@@ -24,6 +25,9 @@ class PieceMeasurement {
   // Throws Interrupted when `interrupted` returns true. O(n log m) in practice.
   std::vector<std::uint32_t> squared_distances(
       std::span<const Point> piece, const std::function<bool()>& interrupted = nullptr) const;
+  // Lowers squared distances that the points have from other parts of a mesh (kNothingMet: none).
+  void lower(std::span<const Point> piece, std::span<std::uint32_t> squared_bits,
+             const std::function<bool()>& interrupted = nullptr) const;
 
   const Normalization& normalization() const { return normalization_; }
 

@@ -1,7 +1,5 @@
 #include "host/measure/point_distances.h"
 
-#include <Eigen/Geometry>
-
 #include "sw_model/model/error_bound.h"
 
 namespace emax {
@@ -27,19 +25,14 @@ std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& eng
   return distances;
 }
 
-double point_distance_margin(const Normalization& normalization, MeshView mesh, double distance) {
-  Eigen::AlignedBox3d box;
-  double farthest = 0;
-  for (const Point& vertex : mesh.vertices) {
-    box.extend(vertex);
-    farthest = std::max(farthest, (vertex - normalization.origin).norm());
-  }
+double point_distance_margin(const Normalization& normalization, const MeshExtent& mesh,
+                             double distance) {
   // No edge is longer than the diagonal. The margin is doubled for the rounding of the point
   // itself.
   return 2 *
          kernel_distance_margin(normalization.length(distance),
-                                2 * normalization.length(box.diagonal().norm()),
-                                normalization.length(farthest)) /
+                                2 * normalization.length((mesh.upper - mesh.lower).norm()),
+                                normalization.length(mesh.farthest)) /
          normalization.scale;
 }
 

@@ -6,6 +6,7 @@
 
 #include "host/engine/error_engine.h"
 #include "host/engine/prepared_cloud.h"
+#include "host/measure/mesh_extent.h"
 #include "sw_model/base/mesh_view.h"
 
 namespace emax {
@@ -25,7 +26,8 @@ std::vector<double> point_distances(const PreparedCloud& cloud, ErrorEngine& eng
                                     const PreparedMesh& mesh);
 
 // The greatest difference between such a distance of at most `distance` and the true one, in the
-// cloud's unit (docs/numerics.md). O(vertices).
-double point_distance_margin(const Normalization& normalization, MeshView mesh, double distance);
+// cloud's unit (docs/numerics.md).
+double point_distance_margin(const Normalization& normalization, const MeshExtent& mesh,
+                             double distance);
 
 }  // namespace emax

@@ -65,8 +65,9 @@ std::vector<double> ErrorMeter::distances(SurfaceSpan mesh) {
 }
 
 double ErrorMeter::margin(SurfaceSpan mesh, double distance) const {
-  return point_distance_margin(parts_->cloud.normalization(), checked_surface(mesh, "mesh").view(),
-                               distance);
+  const Normalization& normalization = parts_->cloud.normalization();
+  const MeshExtent extent(checked_surface(mesh, "mesh").view(), normalization);
+  return point_distance_margin(normalization, extent, distance);
 }
 
 std::vector<Measurement> e_max_of_each(Coordinates cloud, std::span<const SurfaceSpan> meshes,

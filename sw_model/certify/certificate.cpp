@@ -87,9 +87,9 @@ constexpr std::size_t kPiece = 4096;  // points
 }  // namespace
 
 struct PiecewiseCertificate::State {
-  explicit State(const ExactMesh& m) : mesh(m) {}
+  explicit State(const ExactMesh* m) : mesh(m) {}
 
-  const ExactMesh& mesh;
+  const ExactMesh* mesh;  // nullptr where the distances are known
   std::mutex mutex;
   Worst worst;
   std::size_t points = 0;
@@ -105,8 +105,8 @@ struct PiecewiseCertificate::State {
     std::optional<std::uint32_t> near;
     for (const std::uint32_t i : order) {
       const double enough = mine.enough(numbers[i]);
-      if (near && mesh.is_within(cloud[i], *near, enough)) continue;
-      const ExactMesh::Nearest nearest = mesh.nearest(cloud[i], enough, near.value_or(~0u));
+      if (near && mesh->is_within(cloud[i], *near, enough)) continue;
+      const ExactMesh::Nearest nearest = mesh->nearest(cloud[i], enough, near.value_or(~0u));
       near = nearest.triangle;
       if (nearest.distance.upper > enough) {
         mine.raise({nearest.distance.upper, numbers[i], cloud[i]});
@@ -118,7 +118,8 @@ struct PiecewiseCertificate::State {
 };
 
 PiecewiseCertificate::PiecewiseCertificate(const ExactMesh& mesh)
-    : state_(std::make_unique<State>(mesh)) {}
+    : state_(std::make_unique<State>(&mesh)) {}
+PiecewiseCertificate::PiecewiseCertificate() : state_(std::make_unique<State>(nullptr)) {}
 PiecewiseCertificate::~PiecewiseCertificate() = default;
 
 void PiecewiseCertificate::add(std::span<const Point> piece, const PointNumbers& numbers,
@@ -133,11 +134,32 @@ void PiecewiseCertificate::add(std::span<const Point> piece, const PointNumbers&
   });
   std::vector<std::pair<std::uint32_t, double>> left_out;
   for (const std::uint32_t i : excluded) {
-    left_out.emplace_back(numbers[i], state_->mesh.distance(piece[i]).upper);
+    left_out.emplace_back(numbers[i], state_->mesh->distance(piece[i]).upper);
   }
   const std::lock_guard lock(state_->mutex);
   state_->points += piece.size() - excluded.size();
   state_->excluded.insert(state_->excluded.end(), left_out.begin(), left_out.end());
+}
+
+void PiecewiseCertificate::add_known(std::span<const Point> piece, const PointNumbers& numbers,
+                                     std::span<const double> uppers,
+                                     std::span<const std::uint32_t> excluded) {
+  const std::vector<bool> is_excluded = marked(piece.size(), excluded);
+  require_finite(piece, numbers);
+  CertificatePart found;
+  Worst worst;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (is_excluded[i]) {
+      found.excluded.emplace_back(numbers[i], uppers[i]);
+    } else {
+      worst.raise({uppers[i], numbers[i], piece[i]});
+    }
+  }
+  found.upper = worst.upper;
+  found.worst_point = worst.point;
+  found.at = worst.at;
+  found.points = piece.size() - found.excluded.size();
+  add(found);
 }
 
 CertificatePart PiecewiseCertificate::part() const {
@@ -156,6 +178,12 @@ void PiecewiseCertificate::add(const CertificatePart& part) {
 }
 
 CertifiedError PiecewiseCertificate::finish() {
+  // Computed once more without a seed: the lower end depends on the triangles that a search met.
+  return finish([this](const Point& p, double) { return state_->mesh->distance(p).lower; });
+}
+
+CertifiedError PiecewiseCertificate::finish(
+    const std::function<double(const Point&, double)>& lower_end) {
   require_no_flush("the certificate");
   if (state_->points == 0) {
     throw Error("no point is left to certify: give a cloud, exclude less");
@@ -163,10 +191,8 @@ CertifiedError PiecewiseCertificate::finish() {
   CertifiedError result;
   result.points = state_->points;
   result.worst_point = state_->worst.point;
-  // Computed once more without a seed: the lower end depends on the triangles that a search met.
-  const DistanceBounds distance = state_->mesh.distance(state_->worst.at);
-  result.e_max_upper = distance.upper;
-  result.e_max_lower = distance.lower;
+  result.e_max_upper = state_->worst.upper;
+  result.e_max_lower = lower_end(state_->worst.at, result.e_max_upper);
   result.e_max_upper_all = result.e_max_upper;
   std::ranges::sort(state_->excluded);
   for (const auto& [index, upper] : state_->excluded) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -54,6 +55,7 @@ struct CertificatePart {
 // The same of a cloud that comes in pieces, in any order: certify() is one piece.
 class PiecewiseCertificate {
  public:
+  PiecewiseCertificate();  // of points whose distances are known
   // The mesh must outlive the certificate.
   explicit PiecewiseCertificate(const ExactMesh& mesh);
   ~PiecewiseCertificate();
@@ -64,6 +66,9 @@ class PiecewiseCertificate {
   // threads may add pieces at a time. Throws as certify(), which names points by their numbers.
   void add(std::span<const Point> piece, const PointNumbers& numbers,
            std::span<const std::uint32_t> excluded = {}, std::size_t threads = 1);
+  // The same of points of which these are the upper ends of the distances, one for each.
+  void add_known(std::span<const Point> piece, const PointNumbers& numbers,
+                 std::span<const double> uppers, std::span<const std::uint32_t> excluded = {});
   // What the pieces so far add, and the same of pieces that were added to another certificate of
   // this mesh, in another process perhaps.
   CertificatePart part() const;
@@ -71,6 +76,9 @@ class PiecewiseCertificate {
   // Once all pieces are there. Points are given by their numbers, the excluded ascending. Throws
   // Error where nothing is left to certify.
   CertifiedError finish();
+  // The same where the distances are known: `lower_end` gives that of the worst point, which is
+  // given with its upper end.
+  CertifiedError finish(const std::function<double(const Point&, double)>& lower_end);
 
  private:
   struct State;

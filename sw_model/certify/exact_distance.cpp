@@ -201,6 +201,20 @@ void require_measurable(MeshView mesh) {
   }
 }
 
+double lower_end(const Point& p, MeshView part, double upper) {
+  require_no_flush("the exact distance");
+  const double upper_squared = squared_up(upper);
+  double lower = upper;
+  for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+    const std::array<Point, 3> corners = part.corners(i);
+    const Point low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    const Point high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+    if (squared_distance_to_box(p, low, high) > upper_squared) continue;
+    if (!is_farther(p, corners, upper)) lower = std::min(lower, bounds(p, corners).lower);
+  }
+  return lower;
+}
+
 ExactMesh::ExactMesh(MeshView mesh) {
   require_no_flush("the exact distance");
   require_measurable(mesh);
@@ -393,11 +407,20 @@ bool ExactMesh::is_within(const Point& p, std::uint32_t triangle, double limit) 
 ExactMesh::Nearest ExactMesh::nearest(const Point& p, double enough, std::uint32_t seed) const {
   require_no_flush("the exact distance");
   Nearest best = {{kInfinity, kInfinity}, 0};
-  double best_squared = kInfinity;
-  if (seed < order_.size()) {
-    best = {bounds(p, corners_at(place_of_[seed])), seed};
-    best_squared = squared_up(best.distance.upper);
-  }
+  if (seed < order_.size()) best = {bounds(p, corners_at(place_of_[seed])), seed};
+  return search(p, enough, best);
+}
+
+void ExactMesh::lower(const Point& p, std::uint32_t first, Nearest& least) const {
+  require_no_flush("the exact distance");
+  const Nearest found = search(p, -kInfinity, least);
+  if (!(found.distance.upper < least.distance.upper)) return;
+  least.distance.upper = found.distance.upper;
+  least.triangle = first + found.triangle;
+}
+
+ExactMesh::Nearest ExactMesh::search(const Point& p, double enough, Nearest best) const {
+  double best_squared = squared_up(best.distance.upper);
   struct Pending {
     std::uint32_t node;
     double squared_distance;

@@ -30,6 +30,10 @@ DistanceBounds point_triangle_distance(const Point& p, const std::array<Point, 3
 // std::invalid_argument for an index out of range.
 void require_measurable(MeshView mesh);
 
+// The lower end of the distance from `p` to a mesh whose least upper end is `upper`, of the
+// triangles of a part of it. The least of all parts bounds the distance to the whole. O(triangles).
+double lower_end(const Point& p, MeshView part, double upper);
+
 // A mesh as the oracle searches it: a median-split box tree in binary64. Copies what it needs.
 class ExactMesh {
  public:
@@ -49,6 +53,11 @@ class ExactMesh {
                   std::uint32_t seed = ~0u) const;
 
   DistanceBounds distance(const Point& p) const { return nearest(p).distance; }
+
+  // What nearest() gives for a mesh of which this is a part, where `least` is what it gives for all
+  // parts before (of none: infinite): `upper` is the least of both, and the triangle, if it is of
+  // this part, is numbered from `first` on. `lower` is not changed.
+  void lower(const Point& p, std::uint32_t first, Nearest& least) const;
 
   std::array<Point, 3> corners(std::uint32_t triangle) const {
     return corners_at(place_of_[triangle]);
@@ -87,6 +96,7 @@ class ExactMesh {
     const Triangle& t = triangles_[place];
     return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
   }
+  Nearest search(const Point& p, double enough, Nearest best) const;
   double likely_squared(const Point& p, std::uint32_t place) const;
   struct Quick {
     double squared, size;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/engine/error_engine.h"
+#include "host/measure/mesh_extent.h"
 #include "sw_model/base/error.h"
 #include "tests/support/stimuli.h"
 
@@ -32,6 +33,44 @@ TEST(PieceMeasurement, GivesTheBitsOfTheWhole) {
       }
     }
   }
+}
+
+// The least distances from the parts of a mesh are those from the whole, to the bit, whatever the
+// size and the order of the parts.
+TEST(PieceMeasurement, LowersToTheBitsOfTheWholeMesh) {
+  for (const test::Stimulus& s : test::all_stimuli(97)) {
+    SCOPED_TRACE(s.name + ", seed 97");
+    const Normalization normalization = normalization_of(s.cloud);
+    const MeshView mesh = s.mesh();
+    for (const bool brute_force : {false, true}) {
+      const std::vector<std::uint32_t> whole =
+          PieceMeasurement(mesh, normalization, brute_force, 2).squared_distances(s.cloud);
+      for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{50}}) {
+        if (mesh.triangles.size() > 300 * size) continue;
+        std::vector<std::uint32_t> least(s.cloud.size(), kNothingMet);
+        for (std::size_t end = mesh.triangles.size(); end > 0; end -= std::min(end, size)) {
+          const std::size_t first = end - std::min(end, size);
+          const MeshView part{mesh.vertices, mesh.triangles.subspan(first, end - first)};
+          PieceMeasurement(part, normalization, brute_force, 1).lower(s.cloud, least);
+        }
+        EXPECT_EQ(least, whole) << "parts of " << size << (brute_force ? ", every pair" : "");
+      }
+    }
+  }
+}
+
+TEST(MeshExtent, OfPartsIsThatOfTheWhole) {
+  const test::Stimulus s = test::bumpy_sphere(12, 16, 300, 98);
+  const Normalization normalization = normalization_of(s.cloud);
+  const MeshView mesh = s.mesh();
+  const MeshExtent whole(mesh, normalization);
+  const std::size_t half = mesh.triangles.size() / 2;
+  MeshExtent joined({mesh.vertices, mesh.triangles.subspan(half)}, normalization);
+  joined.join(MeshExtent({mesh.vertices, mesh.triangles.first(half)}, normalization));
+  EXPECT_EQ(joined.lower, whole.lower);
+  EXPECT_EQ(joined.upper, whole.upper);
+  EXPECT_EQ(joined.longest_edge, whole.longest_edge);
+  EXPECT_EQ(joined.farthest, whole.farthest);
 }
 
 TEST(PieceMeasurement, EndsWhereItIsInterrupted) {

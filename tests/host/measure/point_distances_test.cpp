@@ -17,6 +17,7 @@ namespace {
 void expect_exact(std::span<const Point> points, MeshView mesh) {
   const PreparedCloud cloud(points);
   const auto found = point_distances(cloud, mesh);
+  const MeshExtent extent(mesh, cloud.normalization());
   const auto bits = nearest_squared_bits(cloud.points(), make_records(mesh, cloud.normalization()));
   ASSERT_EQ(found.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -27,7 +28,7 @@ void expect_exact(std::span<const Point> points, MeshView mesh) {
     }
     const double distance = std::max(found[i], static_cast<double>(exact));
     EXPECT_NEAR(found[i], static_cast<double>(exact),
-                point_distance_margin(cloud.normalization(), mesh, distance))
+                point_distance_margin(cloud.normalization(), extent, distance))
         << "point " << i;
   }
 }

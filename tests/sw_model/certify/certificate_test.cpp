@@ -104,6 +104,26 @@ TEST(Certificate, PartsOfSeveralGiveThatOfTheWhole) {
   }
 }
 
+// Where every point's upper end is known, only the lower end is to be found.
+TEST(Certificate, KnownDistancesGiveThatOfTheWhole) {
+  for (const test::Stimulus& s : test::all_stimuli(76)) {
+    SCOPED_TRACE(s.name + ", seed 76");
+    const std::span<const Point> cloud = s.cloud;
+    const std::array<std::uint32_t, 2> excluded = {0, 2};
+    const ExactMesh mesh(s.mesh());
+    std::vector<double> uppers;
+    for (const Point& p : cloud) uppers.push_back(mesh.distance(p).upper);
+    PiecewiseCertificate known;
+    known.add_known(cloud.subspan(3), {3}, std::span(uppers).subspan(3));
+    known.add_known(cloud.first(3), {}, std::span(uppers).first(3), excluded);
+    expect_equal(known.finish([&](const Point& p, double upper) {
+      EXPECT_EQ(upper, mesh.distance(p).upper);
+      return mesh.distance(p).lower;
+    }),
+                 certify(cloud, mesh, excluded));
+  }
+}
+
 // A bumpy sphere and three points far from it.
 test::Stimulus with_outliers() {
   test::Stimulus s = test::bumpy_sphere(12, 16, 300, 72);

@@ -178,6 +178,36 @@ TEST(ExactMesh, EqualsBruteForce) {
   }
 }
 
+// Parts one after the other give what the whole gives; the lower end holds, too.
+TEST(ExactMesh, PartsGiveTheNearestOfTheWhole) {
+  for (const test::Stimulus& s : test::all_stimuli(62)) {
+    SCOPED_TRACE(s.name + ", seed 62");
+    const MeshView mesh = s.mesh();
+    const ExactMesh whole(mesh);
+    for (const std::size_t size : {std::size_t{3}, std::size_t{40}}) {
+      std::vector<ExactMesh::Nearest> least(s.cloud.size(), {{0, INFINITY}, 0});
+      std::vector<double> lower(s.cloud.size(), INFINITY);
+      for (std::size_t first = 0; first < mesh.triangles.size(); first += size) {
+        const std::size_t count = std::min(size, mesh.triangles.size() - first);
+        const MeshView part{mesh.vertices, mesh.triangles.subspan(first, count)};
+        const ExactMesh exact(part);
+        for (std::size_t i = 0; i < s.cloud.size(); ++i) {
+          exact.lower(s.cloud[i], static_cast<std::uint32_t>(first), least[i]);
+          const double upper = whole.nearest(s.cloud[i]).distance.upper;
+          lower[i] = std::min(lower[i], lower_end(s.cloud[i], part, upper));
+        }
+      }
+      for (std::size_t i = 0; i < s.cloud.size(); ++i) {
+        const ExactMesh::Nearest found = whole.nearest(s.cloud[i]);
+        ASSERT_EQ(least[i].distance.upper, found.distance.upper);
+        ASSERT_EQ(least[i].triangle, found.triangle);
+        ASSERT_LE(lower[i], found.distance.upper);
+        ASSERT_GE(lower[i], found.distance.lower);
+      }
+    }
+  }
+}
+
 TEST(ExactMesh, FindsTheSameFromAnySeed) {
   for (const test::Stimulus& s : test::all_stimuli(63)) {
     SCOPED_TRACE(s.name + ", seed 63");
