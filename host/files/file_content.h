@@ -16,6 +16,7 @@
 #include "host/files/cloud_file.h"
 #include "host/files/input_file.h"
 #include "host/geometry/point_cloud.h"
+#include "host/geometry/triangle_mesh.h"
 #include "host/geometry/unit.h"
 #include "sw_model/base/mesh_view.h"
 
@@ -82,6 +83,21 @@ struct FileContent {
     is_wanted.reset();
     return passed;
   }
+  // Gives the triangles to `take` as they come, `most` or a few more at a time, with the vertices
+  // of these alone, and holds no more of them. For the readers of MeshParts.
+  void take_parts(std::size_t most, std::function<void(FileContent&)> take) {
+    part_triangles = most;
+    take_part = std::move(take);
+  }
+  bool is_in_parts() const { return take_part != nullptr; }
+  bool part_is_full() const { return triangles.size() >= part_triangles; }
+  void give_part() {
+    if (triangles.empty()) return;
+    take_part(*this);
+    vertices.clear();
+    triangles.clear();
+    fans.clear();
+  }
   // The points that the piece has room for.
   std::size_t room() const { return piece_points - vertices.size(); }
   // Takes the content of a file that was read whole.
@@ -128,6 +144,8 @@ struct FileContent {
   std::uint64_t points_expected = 0;
   std::size_t piece_points = std::numeric_limits<std::size_t>::max();
   std::function<void(FileContent&)> take_piece;
+  std::size_t part_triangles = std::numeric_limits<std::size_t>::max();
+  std::function<void(FileContent&)> take_part;
   PieceChoice choice;
   std::optional<bool> is_wanted;    // the piece that is read, once that was asked
   std::uint64_t points_passed = 0;  // those of a piece that is given without having been read
@@ -136,6 +154,10 @@ struct FileContent {
     if (std::ranges::find(attributes, name) == attributes.end()) attributes.emplace_back(name);
   }
 };
+
+// The mesh of a content that was read: its vertices are finite, polygons are cut and repeated
+// vertices merged. Throws Error.
+TriangleMesh take_mesh(const NamedInput& input, FileContent& content);
 
 // Adds the fan of `polygon`. Calls `fail(what)` if it has fewer than three corners or a corner that
 // is not in [0, vertex_count).
@@ -214,6 +236,13 @@ void read_xyz(const InputStream& input, FileContent& content);
 void read_pts(const InputStream& input, FileContent& content);
 // Several scans, each with a grid of cells and a pose. Empty cells (0 0 0) are left out.
 void read_ptx(const InputStream& input, FileContent& content);
+// How many faces or triangles the header of a file promises whose content may be taken in parts.
+// Nothing for other files: PLY as text, with strips of triangles, with lists in front of the faces
+// or faces in front of the vertices; STL as text. Throws Error where the header is wrong.
+std::optional<std::uint64_t> ply_faces_in_parts(const InputStream& input);
+std::optional<std::uint64_t> stl_triangles_in_parts(const InputStream& input);
+void read_stl_in_parts(const InputStream& input, FileContent& content);
+
 // A reader of whole files as one of those above.
 template <auto kRead>
 void read_whole(const InputStream& input, FileContent& content) {

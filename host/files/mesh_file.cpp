@@ -67,6 +67,18 @@ bool replace_unused_invalid(FileContent& content) {
 
 }  // namespace
 
+TriangleMesh take_mesh(const NamedInput& input, FileContent& content) {
+  if (!content.first_invalid.empty() && !replace_unused_invalid(content)) {
+    input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
+               "mend the mesh, its vertices must be finite");
+  }
+  for (const auto& [first, count] : content.fans) {
+    triangulate(std::span(content.triangles).subspan(first, count), content.vertices);
+  }
+  if (content.repeats_vertices) merge_equal_vertices(content.vertices, content.triangles);
+  return {std::move(content.vertices), std::move(content.triangles)};
+}
+
 std::span<const std::string_view> mesh_endings() { return kMeshEndings; }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
@@ -84,17 +96,8 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (content.triangles.empty()) {
     input.fail("holds no triangles", "give a mesh, a cloud cannot stand in its place");
   }
-  if (!content.first_invalid.empty() && !replace_unused_invalid(content)) {
-    input.fail(fmt::format("{}: a coordinate is NaN or infinite", content.first_invalid),
-               "mend the mesh, its vertices must be finite");
-  }
-  for (const auto& [first, count] : content.fans) {
-    triangulate(std::span(content.triangles).subspan(first, count), content.vertices);
-  }
-  if (content.repeats_vertices) merge_equal_vertices(content.vertices, content.triangles);
-  return {{std::move(content.vertices), std::move(content.triangles)},
-          std::move(content.attributes),
-          content.unit};
+  TriangleMesh mesh = take_mesh(input, content);
+  return {std::move(mesh), std::move(content.attributes), content.unit};
 }
 
 bool holds_triangles(const std::filesystem::path& path) {
