@@ -53,8 +53,18 @@ void check_outputs(const ErrorOptions& options) {
       {options.common.cloud, options.mesh, options.reference});
 }
 
+// Throws Error if an option needs the whole mesh and it is read in parts.
+void require_whole(const ErrorOptions& options, const MeasuredMesh& mesh) {
+  if (options.common.device != "cpu") mesh.require_whole("--device");
+  if (options.two_sided) mesh.require_whole("--two-sided");
+  if (!options.deviations.empty()) mesh.require_whole("--deviations");
+  if (!options.common.report.report.empty()) mesh.require_whole("--report");
+  if (!options.common.report.picture.empty()) mesh.require_whole("--picture");
+}
+
 // Throws Error if an option needs all points at a time and they are not in memory.
-void require_room(const ErrorOptions& options, const ScanPieces& scan) {
+void require_room(const ErrorOptions& options, const MeasuredMesh& mesh, const ScanPieces& scan) {
+  if (!mesh.is_whole()) scan.require_more_than_once("a mesh in parts");
   if (options.common.device != "cpu") scan.require_in_memory("--device");
   if (options.two_sided && options.reference.empty()) {
     scan.require_in_memory("--two-sided without --reference");
@@ -69,22 +79,22 @@ void require_room(const ErrorOptions& options, const ScanPieces& scan) {
 }
 
 // Whether one look at the points of a cloud that does not fit into memory is enough.
-bool is_one_look(const ErrorOptions& options) {
+bool is_one_look(const ErrorOptions& options, const MeasuredMesh& mesh) {
   const bool is_two_sided_alone = options.two_sided && options.reference.empty();
-  return options.common.device == "cpu" && !is_two_sided_alone && options.color.empty() &&
-         options.deviations.empty() && !options.common.report.any() &&
+  return mesh.is_whole() && options.common.device == "cpu" && !is_two_sided_alone &&
+         options.color.empty() && options.deviations.empty() && !options.common.report.any() &&
          parse_share(options.common.excluded_share) == 0 &&
          options.common.reading.left_out_classes.empty() && options.reference != kStandardInput;
 }
 
 // The cloud, where it comes through a pipe and is measured as it comes. Standard input is copied
 // into a file where that is not enough.
-std::unique_ptr<LasStream> stream_of(const ErrorOptions& options) {
+std::unique_ptr<LasStream> stream_of(const ErrorOptions& options, const MeasuredMesh& mesh) {
   const std::string& cloud = options.common.cloud;
   if (!is_pipe(cloud)) return nullptr;
   const bool is_copied =
       cloud == kStandardInput &&
-      (!is_one_look(options) || format_of_content(standard_input_head()) != ".las");
+      (!is_one_look(options, mesh) || format_of_content(standard_input_head()) != ".las");
   if (is_copied) return nullptr;
   if (!options.common.report.report.empty()) {
     throw Error(fmt::format("{}: is a pipe, and --report states the checksum of a file; {}", cloud,
@@ -140,14 +150,21 @@ struct DeviceFindings {
   std::optional<double> cpu_seconds;
 };
 
+void print_mesh(Facts& facts, const ErrorFindings& f, const ErrorOptions& options,
+                const MeasuredMesh& mesh) {
+  facts.add("mesh", "{}: {} triangles{}; {}", options.mesh, grouped(f.triangles),
+            mesh.is_whole() ? "" : ", in parts",
+            f.validity ? describe(*f.validity) : "faults and topology " + mesh.unchecked());
+  if (f.topology) facts.add("topology", "{}", describe(*f.topology, f.reference_topology()));
+  if (!mesh.remark().empty()) facts.add("remark", "{}", mesh.remark());
+}
+
 void print(Facts& facts, const ErrorFindings& f, const DeviceFindings& d,
-           const ErrorOptions& options, const Scan& scan, const TriangleMesh& mesh) {
+           const ErrorOptions& options, const Scan& scan, const MeasuredMesh& mesh) {
   facts.add("cloud", "{}", describe(scan, f.points));
   print_left_out(facts, scan.cloud);
   print_doubtful_unit(facts, scan.width, scan.unit);
-  facts.add("mesh", "{}: {} triangles; {}", options.mesh, grouped(mesh.triangles.size()),
-            describe(f.validity));
-  facts.add("topology", "{}", describe(f.topology, f.reference_topology()));
+  print_mesh(facts, f, options, mesh);
   facts.add("e_max", "{:.9g} certified ({:.4g}% of the width)", f.certified.e_max_upper,
             100 * f.certified.e_max_upper / scan.width);
   print_excluded(facts, f.certified, f.excludable);
@@ -165,8 +182,8 @@ void print(Facts& facts, const ErrorFindings& f, const DeviceFindings& d,
 }
 
 std::string json_text(const ErrorFindings& f, const DeviceFindings& d, const ErrorOptions& options,
-                      const TriangleMesh& mesh, const Scan& scan) {
-  ResultReport report = report_of(f, mesh, scan);
+                      const Scan& scan) {
+  ResultReport report = report_of(f, scan);
   report.device = options.common.device;
   report.counters = d.counters;
   report.board = d.board;
@@ -227,21 +244,22 @@ int run_error(const ErrorOptions& options) {
   question.excluded_share = parse_share(options.common.excluded_share);
   question.tolerance = given_tolerance(options.max_error, options.level);
   check_outputs(options);
-  MeshFile file = read_mesh_file(options.mesh);
-  TriangleMesh& mesh = file.mesh;
-  drop_unused_vertices(mesh.vertices, mesh.triangles);  // vertices without a triangle get no colour
   question.memory = options.memory.value_or(question.memory);
-  question.runner = options.machines.pieces.get();
   question.files = {options.mesh, {}, true};
+  MeasuredMesh mesh(options.mesh, question.memory);
+  mesh.drop_unused_vertices();  // vertices without a triangle get no colour
+  require_whole(options, mesh);
+  LocalPieces here;  // measures a mesh in parts
+  question.runner = mesh.is_whole() ? options.machines.pieces.get() : &here;
   PhaseProgress phase;
   phase.begin("reading the cloud", reading_seconds(options.common.cloud));
   const ScanPieces pieces(options.common.cloud, options.common.reading, options.common.unit,
-                          question.memory, was_interrupted, stream_of(options),
+                          mesh.memory_for_points(), was_interrupted, stream_of(options, mesh),
                           question.runner->threads(options.common.cloud, question.files));
   phase.end();
   const Scan& scan = pieces.scan();
-  require_room(options, pieces);
-  require_unit_of(scan, options.mesh, file.unit);
+  require_room(options, mesh, pieces);
+  require_unit_of(scan, options.mesh, mesh.file().unit);
   if (question.tolerance) question.tolerance = question.tolerance->in_unit_of(scan.unit);
   std::optional<ErrorReference> reference;
   if (options.two_sided) reference = read_reference(options, scan);
@@ -261,7 +279,7 @@ int run_error(const ErrorOptions& options) {
                                         d.board = address.board;
                                         if (!d.board) return;
                                         CpuTwin cpu(constraint);
-                                        cpu.measure(mesh.view(), now.measured);
+                                        cpu.measure(mesh.whole().view(), now.measured);
                                         d.cpu_seconds = cpu.seconds();
                                       });
   phase.end();
@@ -273,15 +291,16 @@ int run_error(const ErrorOptions& options) {
   if (!options.color.empty()) {
     write_colors(facts, options.color, scan.cloud.points, f.distances, {}, limit);
   }
+  const TriangleMesh& whole = mesh.whole();  // where an output needs it
   if (!options.color_mesh.empty()) {
     const auto distances =
-        point_distances(PreparedCloud(mesh.vertices), reference->mesh.view(), was_interrupted);
-    write_colors(facts, options.color_mesh, mesh.vertices, distances, mesh.triangles, limit);
+        point_distances(PreparedCloud(whole.vertices), reference->mesh.view(), was_interrupted);
+    write_colors(facts, options.color_mesh, whole.vertices, distances, whole.triangles, limit);
   }
-  if (!options.deviations.empty()) write_deviations(facts, options.deviations, mesh, scan, f);
-  write_report_of(facts, f, options, mesh, scan, std::move(inputs));
+  if (!options.deviations.empty()) write_deviations(facts, options.deviations, whole, scan, f);
+  write_report_of(facts, f, options, whole, scan, std::move(inputs));
   if (json_is_wanted(json)) {
-    write_json(json, json_text(f, d, options, mesh, scan));
+    write_json(json, json_text(f, d, options, scan));
   }
   return question.tolerance && !f.feasible() ? kExitNo : kExitOk;
 }

@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "host/app/device_report.h"
+#include "host/geometry/merge_vertices.h"
 #include "host/measure/point_distances.h"
-#include "host/report/distance_store.h"
+#include "host/report/point_store.h"
 #include "host/report/surface_samples.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/parallel.h"
@@ -28,22 +29,31 @@ constexpr double kDecisionPrecision = 1e-9;
 // printed, or that may lie on the other side of the limit, is the exact one.
 class CloudMeasurement {
  public:
-  CloudMeasurement(const ScanPieces& scan, const TriangleMesh& mesh, const MeshExtent& extent,
-                   const ErrorQuestion& question, std::optional<double> limit)
+  CloudMeasurement(const ScanPieces& scan, const MeasuredMesh& mesh, const ErrorQuestion& question,
+                   std::optional<double> limit)
       : scan_(scan),
         question_(question),
         limit_(limit),
         excludable_(excludable_points(question.excluded_share, scan.points())),
-        meter_(mesh, nullptr, scan.normalization(), question.brute_force, processor_threads()),
-        margin_(limit ? point_distance_margin(meter_.normalization(), extent, *limit) : 0),
+        meter_(meter_of(scan, mesh, nullptr,
+                        {.brute_force = question.brute_force,
+                         .memory = question.memory / 8,
+                         .interrupted = question.interrupted,
+                         .advance = question.advance})),
+        extent_(meter_->extent()),
+        margin_(limit ? point_distance_margin(scan.normalization(), extent_, *limit) : 0),
         farthest_(excludable_),
         store_(scan.points(), question.memory / 4, scan.scan().path.string()) {}
 
-  const ExactMesh& exact() const { return meter_.exact(); }
+  const PieceMeter& meter() const { return *meter_; }
+  const MeshExtent& extent() const { return extent_; }
   std::size_t excludable() const { return excludable_; }
   const FarthestPoints& farthest() const { return farthest_; }
   // Of the kernel alone, on all threads together.
   double kernel_seconds() const {
+    if (const PartwiseDistances* parts = meter_->parts()) {
+      return parts->kernel_seconds() / static_cast<double>(processor_threads());
+    }
     const std::size_t shared = runner().threads(scan_.scan().path, question_.files);
     const std::size_t threads = std::min(std::max(processor_threads(), shared), pieces_done_);
     return kernel_seconds_ / static_cast<double>(threads);
@@ -67,13 +77,13 @@ class CloudMeasurement {
       asked.excluded.assign(excluded.begin(), excluded.end());
       run(asked, [](const PieceFindings&) {});
     }
-    return meter_.certificate().finish();
+    return meter_->certified();
   }
 
   CloudErrors errors(const std::vector<double>& quantiles) {
     std::vector<FarPoint> worst;
     for (const FarthestPoint& shown : shown_) {
-      const ExactMesh::Nearest nearest = exact().nearest(shown.at);
+      const ExactMesh::Nearest nearest = meter_->nearest(shown.at, shown.index);
       store_.put(shown.index, {&nearest.distance.upper, 1});
       worst.push_back({shown.number, shown.at, nearest.distance.upper, nearest.triangle});
     }
@@ -93,7 +103,7 @@ class CloudMeasurement {
   }
 
   void run(const PieceQuestion& asked, const PieceRunner::Take& take) {
-    runner().run(scan_, meter_, question_.files, asked, question_.interrupted, take);
+    runner().run(scan_, *meter_, question_.files, asked, question_.interrupted, take);
   }
 
   void add(const PieceFindings& found, std::size_t most) {
@@ -105,7 +115,7 @@ class CloudMeasurement {
     while (shown_.size() > most) shown_.erase(std::prev(shown_.end()));
     ++pieces_done_;
     points_done_ += found.points;
-    if (question_.advance) {
+    if (question_.advance && !meter_->parts()) {
       question_.advance(static_cast<double>(points_done_) / static_cast<double>(scan_.points()));
     }
   }
@@ -114,7 +124,8 @@ class CloudMeasurement {
   const ErrorQuestion& question_;
   const std::optional<double> limit_;
   const std::size_t excludable_;
-  PieceMeter meter_;
+  const std::unique_ptr<PieceMeter> meter_;
+  const MeshExtent extent_;
   const double margin_;
 
   std::mutex mutex_;  // of what follows
@@ -168,9 +179,20 @@ ReferenceErrors measure_reference(const TriangleMesh& mesh, const ExactMesh& exa
 }
 
 struct MeshFindings {
-  MeshValidity validity;
-  MeshTopology topology;
+  std::optional<MeshValidity> validity;
+  std::optional<MeshTopology> topology;
 };
+
+// A mesh in parts is read once more, where the memory holds it alone.
+MeshFindings check(const MeasuredMesh& mesh) {
+  if (mesh.is_whole()) {
+    return {check_mesh(mesh.whole().view()), topology_of(mesh.whole().view())};
+  }
+  if (!mesh.can_be_checked()) return {};
+  TriangleMesh whole = mesh.read_whole();
+  drop_unused_vertices(whole.vertices, whole.triangles);
+  return {check_mesh(whole.view()), topology_of(whole.view())};
+}
 
 void measure_by_device(const TriangleMesh& mesh, const ScanPieces& scan,
                        const ErrorQuestion& question,
@@ -210,31 +232,19 @@ std::string_view ErrorFindings::exceeding() const {
   return "";
 }
 
-ErrorFindings find_errors(
-    const TriangleMesh& mesh, const ScanPieces& scan,
-    const std::optional<ErrorReference>& reference, const ErrorQuestion& question,
-    const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured) {
-  ErrorFindings f;
-  f.tolerance = question.tolerance;
-  f.errors.width = scan.scan().width;
-  f.points = scan.points();
-  f.transform = scan.normalization();
-  std::optional<double>& limit = f.errors.limit;
-  if (f.tolerance) {
-    limit = f.tolerance->in_units(f.errors.width);
-    require_resolution(scan.scan(), *limit);
-  }
+namespace {
 
-  // The work that needs only the mesh runs beside the work that needs the cloud.
-  auto of_mesh = std::async(std::launch::async, [&] {
-    return MeshFindings{check_mesh(mesh.view()), topology_of(mesh.view())};
-  });
-  const MeshExtent extent(mesh.view(), f.transform);
-  CloudMeasurement cloud(scan, mesh, extent, question, limit);
+// All but the faults and the topology of the mesh.
+void measure(const MeasuredMesh& mesh, const ScanPieces& scan,
+             const std::optional<ErrorReference>& reference, const ErrorQuestion& question,
+             const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured,
+             ErrorFindings& f) {
+  const std::optional<double>& limit = f.errors.limit;
+  CloudMeasurement cloud(scan, mesh, question, limit);
   cloud.measure();
   f.excludable = cloud.excludable();
   // Without a tolerance the farthest points are excluded, whatever their distance.
-  f.measured = judge(extent, f.transform, limit.value_or(0), cloud.farthest());
+  f.measured = judge(cloud.extent(), f.transform, limit.value_or(0), cloud.farthest());
   f.seconds = cloud.kernel_seconds();
   f.certified = cloud.certify(f.measured.excluded);
   if (scan.is_in_memory()) {
@@ -242,27 +252,50 @@ ErrorFindings find_errors(
   }
   if (question.device != nullptr) {
     const MeasuredError by_cpu = f.measured;
-    measure_by_device(mesh, scan, question, measured, f);
+    measure_by_device(mesh.whole(), scan, question, measured, f);
     require_same(by_cpu, f.measured);
   }
-  const MeshFindings mesh_findings = of_mesh.get();
-  f.validity = mesh_findings.validity;
-  f.topology = mesh_findings.topology;
-
+  const PartwiseDistances* parts = cloud.meter().parts();
+  f.triangles = parts != nullptr ? parts->triangles() : mesh.whole().triangles.size();
   const std::vector<double> quantiles =
       question.quantiles.empty()
           ? std::vector<double>(kUsualQuantiles.begin(), kUsualQuantiles.end())
           : question.quantiles;
   f.errors.cloud = cloud.errors(quantiles);
   if (reference) {
-    f.errors.reference = measure_reference(mesh, cloud.exact(), *reference, f.errors.width,
-                                           quantiles, limit, question.interrupted);
+    f.errors.reference = measure_reference(mesh.whole(), cloud.meter().exact(), *reference,
+                                           f.errors.width, quantiles, limit, question.interrupted);
   }
   f.distances = std::move(cloud).distances();
+}
+
+}  // namespace
+
+ErrorFindings find_errors(
+    const MeasuredMesh& mesh, const ScanPieces& scan,
+    const std::optional<ErrorReference>& reference, const ErrorQuestion& question,
+    const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured) {
+  ErrorFindings f;
+  f.tolerance = question.tolerance;
+  f.errors.width = scan.scan().width;
+  f.points = scan.points();
+  f.transform = scan.normalization();
+  if (f.tolerance) {
+    f.errors.limit = f.tolerance->in_units(f.errors.width);
+    require_resolution(scan.scan(), *f.errors.limit);
+  }
+  // The work that needs only the mesh runs beside the work that needs the cloud, or, for a mesh in
+  // parts, once the memory of that is free.
+  auto of_mesh = std::async(mesh.is_whole() ? std::launch::async : std::launch::deferred,
+                            [&] { return check(mesh); });
+  measure(mesh, scan, reference, question, measured, f);
+  const MeshFindings mesh_findings = of_mesh.get();
+  f.validity = mesh_findings.validity;
+  f.topology = mesh_findings.topology;
   return f;
 }
 
-ResultReport report_of(const ErrorFindings& f, const TriangleMesh& mesh, const Scan& scan) {
+ResultReport report_of(const ErrorFindings& f, const Scan& scan) {
   ResultReport report;
   if (f.tolerance) {
     report.feasible = f.feasible();
@@ -270,7 +303,7 @@ ResultReport report_of(const ErrorFindings& f, const TriangleMesh& mesh, const S
   }
   report.validity = f.validity;
   report.topology = f.topology;
-  report.triangles = mesh.triangles.size();
+  report.triangles = f.triangles;
   report.certified = f.certified;
   report.kernel = f.measured.kept;
   report.points = f.points;

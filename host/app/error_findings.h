@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/app/measured_mesh.h"
 #include "host/app/piece_runner.h"
 #include "host/app/scan_pieces.h"
 #include "host/measure/error_constraint.h"
@@ -31,7 +32,7 @@ struct ErrorQuestion {
   std::size_t worst = 5;
   bool brute_force = false;
   Evaluator* device = nullptr;               // nullptr: this processor
-  std::uint64_t memory = standard_memory();  // bytes for the distances of the points
+  std::uint64_t memory = standard_memory();  // bytes; some are for the distances of the points
   std::function<bool()> interrupted;
   std::function<void(double)> advance;  // told the share of the points that are measured
   PieceRunner* runner = nullptr;        // nullptr: the threads of this processor
@@ -46,8 +47,9 @@ struct ErrorFindings {
   double seconds = 0;
   std::uint64_t points = 0;  // of the scan
   CertifiedError certified;
-  MeshValidity validity;
-  MeshTopology topology;
+  std::optional<MeshValidity> validity;  // nothing where the memory does not hold the whole mesh
+  std::optional<MeshTopology> topology;  // likewise
+  std::size_t triangles = 0;             // of the mesh
   Normalization transform;
   std::size_t excludable = 0;
   std::vector<double> distances;  // of every point of the scan, where they are in memory
@@ -62,15 +64,15 @@ struct ErrorFindings {
 };
 
 // `mesh` has no vertex without a triangle. `measured`, if given, is called once a device has
-// measured the mesh; for a device the points must be in memory. The same results wherever they are
-// and for any number of threads. Throws Error as ErrorConstraint and require_resolution() do, and
-// Interrupted.
+// measured the mesh. For a device the points must be in memory and the mesh whole, for a reference
+// the mesh whole. The same results wherever they are and for any number of threads. Throws Error as
+// ErrorConstraint and require_resolution() do, and Interrupted.
 ErrorFindings find_errors(
-    const TriangleMesh& mesh, const ScanPieces& scan,
+    const MeasuredMesh& mesh, const ScanPieces& scan,
     const std::optional<ErrorReference>& reference, const ErrorQuestion& question,
     const std::function<void(ErrorConstraint&, const ErrorFindings&)>& measured = nullptr);
 
 // The JSON of the findings, without what a device adds.
-ResultReport report_of(const ErrorFindings& findings, const TriangleMesh& mesh, const Scan& scan);
+ResultReport report_of(const ErrorFindings& findings, const Scan& scan);
 
 }  // namespace emax

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "host/app/partwise_distances.h"
 #include "host/app/scan_pieces.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/measure/piece_measurement.h"
@@ -57,7 +58,8 @@ struct PieceFindings {
   PointNumbers numbers() const { return {first_number, listed_numbers}; }
 };
 
-// Measures pieces of a cloud against one mesh, by the kernel, and certifies them.
+// Measures pieces of a cloud against one mesh, by the kernel, and certifies them. For a mesh in
+// parts it takes what is known of the points.
 class PieceMeter {
  public:
   // `reference`: another mesh that the points are certified against; nullptr: none. The meshes must
@@ -65,37 +67,52 @@ class PieceMeter {
   PieceMeter(const TriangleMesh& mesh, const TriangleMesh* reference,
              const Normalization& normalization, bool brute_force, std::size_t threads);
 
+  // Of a mesh that was measured part by part.
+  explicit PieceMeter(std::unique_ptr<const PartwiseDistances> parts);
+
   // Several threads may measure pieces at a time. Throws Interrupted when `interrupted` returns
   // true.
   PieceFindings measure(const ScanPieces::Piece& piece, const PieceQuestion& question,
                         const std::function<bool()>& interrupted = nullptr);
 
-  const TriangleMesh& mesh() const { return mesh_; }
+  const PartwiseDistances* parts() const { return parts_.get(); }  // nullptr: the mesh is whole
+  const TriangleMesh& mesh() const { return *mesh_; }              // if it is whole
   const TriangleMesh* reference() const { return reference_; }
-  const ExactMesh& exact() const { return *exact_; }
-  const Normalization& normalization() const { return kernel_.normalization(); }
+  const ExactMesh& exact() const { return *exact_; }  // likewise
+  // The end of a point's distance and the nearest triangle, of the point with this index.
+  ExactMesh::Nearest nearest(const Point& p, std::uint64_t index) const;
+  MeshExtent extent() const;
+  const Normalization& normalization() const { return normalization_; }
   bool brute_force() const { return brute_force_; }
   // Of the points that were certified.
-  PiecewiseCertificate& certificate() { return certificate_; }
+  PiecewiseCertificate& certificate() { return *certificate_; }
+  CertifiedError certified();  // once all are
   PiecewiseCertificate* certificate_of_reference() {
     return of_reference_ ? &*of_reference_ : nullptr;
   }
 
  private:
   void find_distances(const ScanPieces::Piece& piece, const PieceQuestion& question,
-                      PieceFindings& found) const;
+                      std::span<const double> uppers, PieceFindings& found) const;
 
   using Exact = std::unique_ptr<const ExactMesh>;
   static std::future<Exact> begun(const TriangleMesh* mesh);
 
-  const TriangleMesh& mesh_;
-  const TriangleMesh* reference_;
-  bool brute_force_;
+  std::unique_ptr<const PartwiseDistances> parts_;  // in place of the mesh
+  const TriangleMesh* mesh_ = nullptr;
+  const TriangleMesh* reference_ = nullptr;
+  Normalization normalization_;
+  bool brute_force_ = false;
   std::future<Exact> exact_of_mesh_, exact_of_reference_;  // made beside the kernel's
-  PieceMeasurement kernel_;
+  std::optional<PieceMeasurement> kernel_;
   Exact exact_, exact_reference_;
-  PiecewiseCertificate certificate_;
+  std::optional<PiecewiseCertificate> certificate_;
   std::optional<PiecewiseCertificate> of_reference_;
 };
+
+// The meter of a mesh and, if it is whole, of a reference or none. A mesh in parts is measured now.
+// All must outlive the meter. Throws Error as PieceMeter and PartwiseDistances do.
+std::unique_ptr<PieceMeter> meter_of(const ScanPieces& scan, const MeasuredMesh& mesh,
+                                     const TriangleMesh* reference, const PartwiseOptions& options);
 
 }  // namespace emax

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "host/app/measured_mesh.h"
 #include "host/app/piece_runner.h"
 #include "host/app/scan_pieces.h"
 #include "host/geometry/triangle_mesh.h"
@@ -22,9 +23,10 @@ struct PointClaims {
 };
 
 // `excluded`: ascending, each once, fewer than the scan has points. `reference` may be nullptr.
-// `files`: those of the meshes, where the runner has other processes.
-PointClaims recompute(const ScanPieces& scan, const TriangleMesh& mesh,
+// `files`: those of the meshes, where the runner has other processes. `memory`: bytes for distances
+// from a mesh in parts, which is measured without a reference by this process.
+PointClaims recompute(const ScanPieces& scan, const MeasuredMesh& mesh,
                       const TriangleMesh* reference, std::span<const std::uint32_t> excluded,
-                      PieceRunner& runner, const MeterFiles& files);
+                      PieceRunner& runner, const MeterFiles& files, std::uint64_t memory);
 
 }  // namespace emax

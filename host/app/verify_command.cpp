@@ -9,6 +9,7 @@
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
 #include "host/app/json_output.h"
+#include "host/app/measured_mesh.h"
 #include "host/app/point_claims.h"
 #include "host/app/reference_text.h"
 #include "host/app/report_output.h"
@@ -67,7 +68,8 @@ class Verification {
   // Of a certificate whose mesh, cloud and reference are at hand.
   Verification(const Certificate& certificate, const TriangleMesh& mesh, const Scan& scan,
                const TriangleMesh* reference)
-      : certificate_(certificate), mesh_(mesh) {
+      : certificate_(certificate) {
+    mesh_.emplace(mesh);
     scan_.emplace(scan);
     if (reference != nullptr) reference_ = *reference;
   }
@@ -106,9 +108,10 @@ class Verification {
     const bool once = std::ranges::adjacent_find(excluded_) == excluded_.end();
     const bool leave_some = excluded_.size() < scan_->points();
     if (once && leave_some) {
-      points_ = recompute(*scan_, mesh_, certificate_.reference ? &reference_ : nullptr, excluded_,
-                          *runner_, files());
+      points_ = recompute(*scan_, *mesh_, certificate_.reference ? &reference_ : nullptr, excluded_,
+                          *runner_, files(), memory_ / 8);
     }
+    if (!hold_whole_mesh()) return {reasons_, e_max_};
     check_sizes(once, leave_some);
     if (reasons_.empty()) check_claims();
     return {reasons_, e_max_};
@@ -129,8 +132,8 @@ class Verification {
     if (!scan_) read();  // other files than those that were certified are shown as they are
     if (!excluded_are_known_) excluded_.clear();
     const Scan& scan = scan_->scan();
-    ReportData report = measured_report(wanted, scan, mesh_.view(), in_cloud(excluded_, scan.cloud),
-                                        certificate_.epsilon);
+    ReportData report = measured_report(wanted, scan, mesh_->whole().view(),
+                                        in_cloud(excluded_, scan.cloud), certificate_.epsilon);
     const DeviationStatistics& s = report.measured.statistics;
     report.command = "verify";
     report.title = path_.filename().string();
@@ -180,26 +183,55 @@ class Verification {
   }
 
   void read() {
-    mesh_ = read_mesh(mesh_path_);
+    // Two surfaces are compared whole, and a report shows the whole mesh.
+    if (certificate_.reference || report_.any()) {
+      mesh_.emplace(read_mesh(mesh_path_));
+    } else {
+      mesh_.emplace(mesh_path_, memory_);
+    }
+    if (!mesh_->is_whole()) runner_ = std::make_shared<LocalPieces>();
     if (certificate_.vertices_of_mesh) {
       vertices_ = vertices_of(cloud_path_, read_mesh(cloud_path_));
       scan_.emplace(*vertices_);
     } else {
-      scan_.emplace(cloud_path_, certificate_.reading, "", memory_, was_interrupted,
-                    runner_->threads(cloud_path_, files()));
+      scan_.emplace(cloud_path_, certificate_.reading, "", mesh_->memory_for_points(),
+                    was_interrupted, runner_->threads(cloud_path_, files()));
       scan_->require_in_memory(report_);
     }
     if (certificate_.reference) reference_ = read_mesh(reference_path_);
   }
 
+  // A mesh in parts is read whole, once its points are measured, for what is claimed of its faults
+  // and topology. False where the points have refuted the certificate already; throws Error where
+  // they have not, and the memory is too small.
+  bool hold_whole_mesh() {
+    if (mesh_->is_whole()) return true;
+    if (!mesh_->can_be_checked()) {
+      if (points_ && points_->excluded == excluded_.size()) {
+        check_error();
+        check_kernel();
+      }
+      if (!reasons_.empty()) return false;
+      throw Error(
+          fmt::format("{}: no point refutes the certificate, but faults and topology of the "
+                      "mesh are {}",
+                      mesh_path_.string(), mesh_->unchecked()));
+    }
+    TriangleMesh whole = mesh_->read_whole();
+    mesh_.emplace(std::move(whole));
+    return true;
+  }
+
+  const TriangleMesh& mesh() const { return mesh_->whole(); }
+
   MeterFiles files() const { return {mesh_path_, reference_path_}; }
 
   void check_sizes(bool once, bool leave_some) {
     require("sizes",
-            mesh_.triangles.size() == certificate_.triangles &&
-                mesh_.vertices.size() == certificate_.vertices,
+            mesh().triangles.size() == certificate_.triangles &&
+                mesh().vertices.size() == certificate_.vertices,
             fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",
-                        mesh_.triangles.size(), mesh_.vertices.size(), certificate_.triangles,
+                        mesh().triangles.size(), mesh().vertices.size(), certificate_.triangles,
                         certificate_.vertices));
     const bool exist = !points_ || points_->excluded == excluded_.size();
     require("sizes", exist, "the certificate excludes a point that the cloud does not have");
@@ -214,13 +246,13 @@ class Verification {
   void check_claims() {
     check_error();
     check_kernel();
-    if (certificate_.reference) check_reference(mesh_);
-    const MeshValidity validity = check_mesh(mesh_.view(), processor_threads());
+    if (certificate_.reference) check_reference(mesh());
+    const MeshValidity validity = check_mesh(mesh().view(), processor_threads());
     require("validity",
             validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");
     say("the mesh is " + describe(validity));
-    check_topology("the mesh", certificate_.topology, mesh_);
+    check_topology("the mesh", certificate_.topology, mesh());
     const Normalization transform = scan_->normalization();
     require("transform",
             transform.origin == certificate_.transform.origin &&
@@ -361,7 +393,8 @@ class Verification {
   Certificate certificate_;
   std::string certificate_text_;
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
-  TriangleMesh mesh_, reference_;
+  std::optional<MeasuredMesh> mesh_;
+  TriangleMesh reference_;
   ReportOptions report_;
   std::uint64_t memory_ = 0;  // bytes
   std::shared_ptr<PieceRunner> runner_ = std::make_shared<LocalPieces>();

@@ -295,8 +295,13 @@ class Body {
     values.end_item();
   }
 
-  // Gives the triangles so far with their vertices, which are read from their places in the file.
   void give_part() {
+    read_corners();
+    content_.give_part();
+  }
+
+  // Reads the vertices of the triangles so far from their places in the file.
+  void read_corners() {
     std::vector<std::uint32_t> used;  // ascending
     used.reserve(3 * content_.triangles.size());
     for (const Triangle& t : content_.triangles) used.insert(used.end(), t.begin(), t.end());
@@ -315,7 +320,6 @@ class Body {
         v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
       }
     }
-    content_.give_part();
   }
 
   static Point three_of(const std::vector<double>& item, const std::array<std::size_t, 3>& at) {

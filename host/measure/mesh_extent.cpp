@@ -1,12 +1,10 @@
 #include "host/measure/mesh_extent.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace emax {
 
-MeshExtent::MeshExtent(MeshView mesh, const Normalization& normalization)
-    : lower(Point::Constant(std::numeric_limits<double>::infinity())), upper(-lower) {
+MeshExtent::MeshExtent(MeshView mesh, const Normalization& normalization) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto corners = mesh.corners(i);
     for (std::size_t k = 0; k < 3; ++k) {

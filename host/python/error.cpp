@@ -68,10 +68,10 @@ void bind_error(nb::module_& module) {
           TriangleMesh mesh = given.mesh;
           drop_unused_vertices(mesh.vertices, mesh.triangles);
           ErrorFindings found = find_errors(
-              mesh, ScanPieces(cloud.scan),
+              MeasuredMesh(std::move(mesh)), ScanPieces(cloud.scan),
               reference_of(cloud, reference_mesh, reference_cloud, two_sided), question);
           auto errors = std::make_shared<Errors>();
-          errors->json = to_json_text(report_of(found, mesh, cloud.scan));
+          errors->json = to_json_text(report_of(found, cloud.scan));
           if (found.errors.limit) errors->exceeding = found.exceeding();
           errors->distances = std::move(found.distances);
           return [errors] { return nb::cast(std::move(*errors)); };

@@ -1,4 +1,4 @@
-#include "host/report/distance_store.h"
+#include "host/report/point_store.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,82 @@
+#include "host/app/measured_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/app/scan.h"
+#include "host/geometry/merge_vertices.h"
+#include "sw_model/base/error.h"
+
+namespace emax {
+namespace {
+
+// What a triangle takes while it is read and prepared for the kernel and the certificate, and while
+// the faults of a mesh are counted; measured.
+constexpr std::uint64_t kBytesPerMeasured = 256, kBytesPerChecked = 64;
+constexpr std::uint64_t kBytesToCheck = 150'000'000;  // whatever the mesh
+
+// Smaller meshes are always held whole, and a part has no fewer triangles.
+constexpr std::uint64_t kFewTriangles = std::uint64_t{1} << 14;
+// A part, the points of the pieces under way and what is known of all points share the memory.
+constexpr std::uint64_t kPartsShare = 3;
+constexpr std::uint64_t kLeastMemory = 100'000'000;
+
+double in_gigabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e9; }
+
+bool fits(std::uint64_t triangles, std::uint64_t memory) {
+  return triangles <= std::max(kFewTriangles, memory / 2 / kBytesPerMeasured);
+}
+
+}  // namespace
+
+MeasuredMesh::MeasuredMesh(const std::filesystem::path& path, std::uint64_t memory)
+    : path_(path), memory_(memory), parts_(std::in_place, path) {
+  const std::optional<std::uint64_t> promised = parts_->promised();
+  if (promised && !fits(*promised, memory)) {
+    if (memory < kLeastMemory) {
+      throw Error(fmt::format(
+          "{}: {} triangles are measured in parts, which takes {} MB, more than the {} MB of "
+          "--memory; give more memory",
+          path.string(), grouped(*promised), kLeastMemory / 1'000'000, memory / 1'000'000));
+    }
+    part_triangles_ =
+        static_cast<std::size_t>(std::max(kFewTriangles, memory / kPartsShare / kBytesPerMeasured));
+    return;
+  }
+  parts_.reset();
+  file_ = read_mesh_file(path);
+  const std::uint64_t triangles = file_.mesh.triangles.size();
+  if (fits(triangles, memory)) return;
+  remark_ = fmt::format(
+      "{} is held whole, about {:.2g} GB: only binary PLY and binary STL are read in parts",
+      path.string(), in_gigabytes(triangles * kBytesPerMeasured));
+}
+
+void MeasuredMesh::drop_unused_vertices() {
+  emax::drop_unused_vertices(file_.mesh.vertices, file_.mesh.triangles);
+}
+
+bool MeasuredMesh::can_be_checked() const { return memory_to_check() <= memory_; }
+
+std::string MeasuredMesh::unchecked() const {
+  return fmt::format("not counted: --memory {:.1f}GB holds the whole mesh for that",
+                     in_gigabytes(memory_to_check()) + 0.05);
+}
+
+// The points that are held and their distances take up to three eighths of the memory.
+std::uint64_t MeasuredMesh::memory_to_check() const {
+  return (*parts_->promised() * kBytesPerChecked + kBytesToCheck) * 8 / 5;
+}
+
+void MeasuredMesh::require_whole(std::string_view what) const {
+  if (is_whole()) return;
+  throw Error(
+      fmt::format("{}: {} triangles are measured in parts, and {} needs all of them at "
+                  "once, about {:.2g} GB; give more than twice that --memory, or leave it "
+                  "out",
+                  path_.string(), grouped(*parts_->promised()), what,
+                  in_gigabytes(*parts_->promised() * kBytesPerMeasured)));
+}
+
+}  // namespace emax
