@@ -19,7 +19,7 @@ constexpr std::uint64_t kBytesToCheck = 150'000'000;  // whatever the mesh
 // Smaller meshes are always held whole, and a part has no fewer triangles.
 constexpr std::uint64_t kFewTriangles = std::uint64_t{1} << 14;
 // A part, the points of the pieces under way and what is known of all points share the memory.
-constexpr std::uint64_t kPartsShare = 3;
+constexpr double kPartsShare = 0.4;
 constexpr std::uint64_t kLeastMemory = 100'000'000;
 
 double in_gigabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e9; }
@@ -29,6 +29,12 @@ bool fits(std::uint64_t triangles, std::uint64_t memory) {
 }
 
 }  // namespace
+
+MeasuredMesh::MeasuredMesh(const std::filesystem::path& path, std::uint64_t memory,
+                           std::size_t part_triangles)
+    : path_(path), memory_(memory), parts_(std::in_place, path), part_triangles_(part_triangles) {
+  if (!parts_->promised()) throw Error(path.string() + ": has to be held whole");
+}
 
 MeasuredMesh::MeasuredMesh(const std::filesystem::path& path, std::uint64_t memory)
     : path_(path), memory_(memory), parts_(std::in_place, path) {
@@ -40,8 +46,9 @@ MeasuredMesh::MeasuredMesh(const std::filesystem::path& path, std::uint64_t memo
           "--memory; give more memory",
           path.string(), grouped(*promised), kLeastMemory / 1'000'000, memory / 1'000'000));
     }
+    const double part = kPartsShare * static_cast<double>(memory / kBytesPerMeasured);
     part_triangles_ =
-        static_cast<std::size_t>(std::max(kFewTriangles, memory / kPartsShare / kBytesPerMeasured));
+        std::max(static_cast<std::size_t>(kFewTriangles), static_cast<std::size_t>(part));
     return;
   }
   parts_.reset();

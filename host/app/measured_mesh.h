@@ -20,6 +20,8 @@ class MeasuredMesh {
   // `memory`: bytes. Throws Error as read_mesh_file() does, and where the memory is too small for
   // parts.
   MeasuredMesh(const std::filesystem::path& path, std::uint64_t memory);
+  // In parts of this size. Throws Error for a file that has to be held whole.
+  MeasuredMesh(const std::filesystem::path& path, std::uint64_t memory, std::size_t part_triangles);
 
   const std::filesystem::path& path() const { return path_; }
   bool is_whole() const { return !parts_; }

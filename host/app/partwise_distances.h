@@ -32,8 +32,8 @@ struct PartwiseOptions {
 // because both are minima over its triangles. 16 bytes a point.
 class PartwiseDistances {
  public:
-  // Reads the mesh once, and the points once for each part. The scan and the mesh must outlive
-  // this. Throws Error as these do, and Interrupted.
+  // Reads the mesh twice, and the points once for each part and once more. The scan and the mesh
+  // must outlive this. Throws Error as these do, and Interrupted.
   PartwiseDistances(const ScanPieces& scan, const MeasuredMesh& mesh,
                     const PartwiseOptions& options);
 
@@ -49,6 +49,8 @@ class PartwiseDistances {
 
  private:
   class Part;
+  // What the points have from some triangles bounds what they have from all.
+  void bound(const MeshPart& sample, const PartwiseOptions& options);
   void measure(const MeshPart& part, const PartwiseOptions& options);
 
   const ScanPieces& scan_;
@@ -56,6 +58,7 @@ class PartwiseDistances {
   PointStore<LeastDistance> store_;
   MeshExtent extent_;
   std::uint64_t triangles_ = 0;
+  bool is_begun_ = false;  // something is stored
   double kernel_seconds_ = 0;
 };
 
