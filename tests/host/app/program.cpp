@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -63,10 +64,12 @@ void EmaxProcess::signal(int number) const { kill(pid_, number); }
 
 ProgramRun EmaxProcess::wait() {
   int status = 0;
-  waitpid(pid_, &status, 0);
+  rusage usage = {};
+  wait4(pid_, &status, 0, &usage);
   pid_ = -1;
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, file_text(streams_ / "out"), file_text(streams_ / "err")};
+  return {code, file_text(streams_ / "out"), file_text(streams_ / "err"),
+          static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
 ProgramRun run_emax(const std::vector<std::string>& arguments, const std::filesystem::path& folder,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,9 +9,10 @@ namespace emax::test {
 
 // A run of the built program, as a person would see it.
 struct ProgramRun {
-  int exit_code;       // 128 + signal where one ended it
-  std::string output;  // standard output
-  std::string errors;  // standard error
+  int exit_code;                     // 128 + signal where one ended it
+  std::string output;                // standard output
+  std::string errors;                // standard error
+  std::uint64_t resident_bytes = 0;  // at most, as the system counts them
 };
 
 // A run that is under way; killed with this if it still is.
