@@ -97,6 +97,15 @@ CLI::Option& add_memory(CLI::App& command, std::optional<std::uint64_t>& memory)
               ->transform(not_negative());  // CLI11 runs this one first
 }
 
+void add_memory_for_mesh(CLI::App& command, std::optional<std::uint64_t>& memory) {
+  add_memory(command, memory)
+      .description(
+          "a cloud that needs more memory than this is not kept but read in pieces, and a mesh "
+          "that "
+          "needs more than half of it in parts, with the same result: bytes, or N MB, N GB "
+          "(default: half of what is free)");
+}
+
 void add_points_and_json(CLI::App& command, std::string& excluded_share, CloudReadOptions& reading,
                          std::string& json) {
   add_json(command, json);
@@ -465,7 +474,7 @@ void add_error(CLI::App& app, CommandLine& line) {
       "--deviations", error.deviations,
       "write the mesh with the greatest deviation of the points at each triangle and vertex: .ply "
       ".glb");
-  add_memory(command, error.memory);
+  add_memory_for_mesh(command, error.memory);
   add_quiet(command, line);
   add_examples(command,
                "  emax error scan.ply part.ply  the greatest distance, quantiles, histogram\n"
@@ -490,7 +499,7 @@ void add_verify(CLI::App& app, CommandLine& line) {
                      "certificate nor in the current folder");
   add_json(command, verify.json);
   add_report(command, verify.report);
-  add_memory(command, verify.memory);
+  add_memory_for_mesh(command, verify.memory);
   add_quiet(command, line);
   add_examples(
       command,

@@ -12,14 +12,14 @@ namespace emax {
 namespace {
 
 // What a triangle takes while it is read and prepared for the kernel and the certificate, and while
-// the faults of a mesh are counted; measured.
-constexpr std::uint64_t kBytesPerMeasured = 256, kBytesPerChecked = 64;
+// the faults of a mesh are counted; measured. In a part it may have corners of its own.
+constexpr std::uint64_t kBytesPerMeasured = 256, kBytesPerChecked = 64, kBytesInPart = 400;
 constexpr std::uint64_t kBytesToCheck = 150'000'000;  // whatever the mesh
 
 // Smaller meshes are always held whole, and a part has no fewer triangles.
 constexpr std::uint64_t kFewTriangles = std::uint64_t{1} << 14;
-// A part, the points of the pieces under way and what is known of all points share the memory.
-constexpr double kPartsShare = 0.4;
+// Of the memory; the rest is for the points of the pieces under way and what is known of all.
+constexpr std::uint64_t kPartFifths = 2;
 constexpr std::uint64_t kLeastMemory = 100'000'000;
 
 double in_gigabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e9; }
@@ -46,9 +46,8 @@ MeasuredMesh::MeasuredMesh(const std::filesystem::path& path, std::uint64_t memo
           "--memory; give more memory",
           path.string(), grouped(*promised), kLeastMemory / 1'000'000, memory / 1'000'000));
     }
-    const double part = kPartsShare * static_cast<double>(memory / kBytesPerMeasured);
     part_triangles_ =
-        std::max(static_cast<std::size_t>(kFewTriangles), static_cast<std::size_t>(part));
+        static_cast<std::size_t>(std::max(kFewTriangles, memory / kBytesInPart * kPartFifths / 5));
     return;
   }
   parts_.reset();
