@@ -274,8 +274,8 @@ PointCloud ScanPieces::read(const PieceShare& share, const Take& take) const {
 void ScanPieces::require_in_memory(std::string_view what) const {
   if (is_in_memory()) return;
   throw Error(fmt::format(
-      "{}: {} points need {:.3g} GB, more than the {:.3g} GB of --memory, and {} needs all of them "
-      "at once; give more memory, or leave it out",
+      "{}: {} points need {:.3g} GB, more than the {:.3g} GB that --memory leaves, and {} needs "
+      "all of them at once; give more memory, or leave it out",
       scan_->path.string(), grouped(points_), static_cast<double>(points_ * kBytesPerPoint) / 1e9,
       static_cast<double>(memory_) / 1e9, what));
 }
@@ -288,8 +288,8 @@ void ScanPieces::require_in_memory(const ReportOptions& wanted) const {
 void ScanPieces::require_more_than_once(std::string_view what) const {
   if (!stream_) return;
   stream_->input().fail(
-      fmt::format("{} points need {:.3g} GB, more than the {:.3g} GB of --memory, so the stream is "
-                  "measured as it comes, and {} needs to see it twice",
+      fmt::format("{} points need {:.3g} GB, more than the {:.3g} GB that --memory leaves, so the "
+                  "stream is measured as it comes, and {} needs to see it twice",
                   grouped(points_), static_cast<double>(points_ * kBytesPerPoint) / 1e9,
                   static_cast<double>(memory_) / 1e9, what),
       kStoreFirst);
