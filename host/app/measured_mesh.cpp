@@ -22,7 +22,11 @@ constexpr std::uint64_t kFewTriangles = std::uint64_t{1} << 14;
 constexpr std::uint64_t kPartFifths = 2;
 constexpr std::uint64_t kLeastMemory = 100'000'000;
 
-double in_gigabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e9; }
+// What gives so many bytes.
+std::string option_for(std::uint64_t bytes) {
+  constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20;
+  return fmt::format("--memory {}MB", (bytes + kMegabyte - 1) / kMegabyte);
+}
 
 bool fits(std::uint64_t triangles, std::uint64_t memory) {
   return triangles <= std::max(kFewTriangles, memory / 2 / kBytesPerMeasured);
@@ -56,7 +60,7 @@ MeasuredMesh::MeasuredMesh(const std::filesystem::path& path, std::uint64_t memo
   if (fits(triangles, memory)) return;
   remark_ = fmt::format(
       "{} is held whole, about {:.2g} GB: only binary PLY and binary STL are read in parts",
-      path.string(), in_gigabytes(triangles * kBytesPerMeasured));
+      path.string(), static_cast<double>(triangles * kBytesPerMeasured) / 1e9);
 }
 
 void MeasuredMesh::drop_unused_vertices() {
@@ -66,8 +70,8 @@ void MeasuredMesh::drop_unused_vertices() {
 bool MeasuredMesh::can_be_checked() const { return memory_to_check() <= memory_; }
 
 std::string MeasuredMesh::unchecked() const {
-  return fmt::format("not counted: --memory {:.1f}GB holds the whole mesh for that",
-                     in_gigabytes(memory_to_check()) + 0.05);
+  return fmt::format("not counted: {} holds the whole mesh for that",
+                     option_for(memory_to_check()));
 }
 
 // The points that are held and their distances take up to three eighths of the memory.
@@ -77,12 +81,11 @@ std::uint64_t MeasuredMesh::memory_to_check() const {
 
 void MeasuredMesh::require_whole(std::string_view what) const {
   if (is_whole()) return;
-  throw Error(
-      fmt::format("{}: {} triangles are measured in parts, and {} needs all of them at "
-                  "once, about {:.2g} GB; give more than twice that --memory, or leave it "
-                  "out",
-                  path_.string(), grouped(*parts_->promised()), what,
-                  in_gigabytes(*parts_->promised() * kBytesPerMeasured)));
+  throw Error(fmt::format(
+      "{}: {} triangles are measured in parts, and {} needs all of them at once; give {}, or leave "
+      "it out",
+      path_.string(), grouped(*parts_->promised()), what,
+      option_for(2 * kBytesPerMeasured * *parts_->promised())));
 }
 
 }  // namespace emax

@@ -37,7 +37,7 @@ class MeasuredMesh {
   // counted, which takes less than to measure it.
   bool can_be_checked() const;
   TriangleMesh read_whole() const { return read_mesh(path_); }
-  // Why not, and what to do: "not counted: --memory 1.3GB holds the whole mesh for that".
+  // Why not, and what to do: "not counted: --memory 1300MB holds the whole mesh for that".
   std::string unchecked() const;
   // Throws Error if the mesh is in parts, where `what` needs it whole.
   void require_whole(std::string_view what) const;

@@ -217,6 +217,7 @@ class Verification {
                       "mesh are {}",
                       mesh_path_.string(), mesh_->unchecked()));
     }
+    threads_to_check_ = 1;  // each takes memory
     TriangleMesh whole = mesh_->read_whole();
     mesh_.emplace(std::move(whole));
     return true;
@@ -247,7 +248,7 @@ class Verification {
     check_error();
     check_kernel();
     if (certificate_.reference) check_reference(mesh());
-    const MeshValidity validity = check_mesh(mesh().view(), processor_threads());
+    const MeshValidity validity = check_mesh(mesh().view(), threads_to_check_);
     require("validity",
             validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");
@@ -397,6 +398,7 @@ class Verification {
   TriangleMesh reference_;
   ReportOptions report_;
   std::uint64_t memory_ = 0;  // bytes
+  std::size_t threads_to_check_ = processor_threads();
   std::shared_ptr<PieceRunner> runner_ = std::make_shared<LocalPieces>();
   std::optional<Scan> vertices_;         // of the mesh that is the cloud
   std::optional<ScanPieces> scan_;       // read with the meshes

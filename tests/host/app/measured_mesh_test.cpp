@@ -194,7 +194,7 @@ class MeasuredMeshProgram : public testing::Test {
 TEST_F(MeasuredMeshProgram, KeepsToTheMemory) {
   const test::ProgramRun parts = error("mesh.ply", {"--memory", "100MB"});
   ASSERT_EQ(parts.exit_code, 0) << parts.errors;
-  EXPECT_NE(parts.output.find(", in parts; faults and topology not counted: --memory 0.3GB"),
+  EXPECT_NE(parts.output.find(", in parts; faults and topology not counted: --memory 269MB"),
             std::string::npos)
       << parts.output;
   nlohmann::json in_parts = result();
@@ -225,7 +225,8 @@ TEST_F(MeasuredMeshProgram, NamesWhatNeedsTheWholeMesh) {
     more.insert(more.end(), {"--memory", "100MB"});
     const test::ProgramRun run = error("mesh.ply", more);
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_NE(run.errors.find(option + " needs all of them at once"), std::string::npos)
+    EXPECT_NE(run.errors.find(option + " needs all of them at once; give --memory 198MB"),
+              std::string::npos)
         << run.errors;
   }
   const test::ProgramRun few = error("mesh.ply", {"--memory", "1MB"});
@@ -292,11 +293,11 @@ TEST_F(MeasuredMeshProgram, VerifiesWhatTheMemoryPermits) {
     std::ofstream(folder_ / "c.json") << to_json_text(certificate);
     return test::run_emax({"verify", "c.json", "--memory", memory}, folder_.path());
   };
-  const test::ProgramRun whole = verify("1GB"), parts = verify("100MB");
+  const test::ProgramRun whole = verify("269MB"), parts = verify("100MB");
   EXPECT_EQ(whole.exit_code, 0) << whole.output << whole.errors;
   EXPECT_EQ(parts.exit_code, 1) << parts.output;
   EXPECT_NE(parts.errors.find("no point refutes the certificate, but faults and topology of the "
-                              "mesh are not counted: --memory 0.3GB"),
+                              "mesh are not counted: --memory 269MB"),
             std::string::npos)
       << parts.errors;
   certificate.error.e_max_upper *= 0.9;
