@@ -306,7 +306,7 @@ class Body {
     used.reserve(3 * content_.triangles.size());
     for (const Triangle& t : content_.triangles) used.insert(used.end(), t.begin(), t.end());
     std::ranges::sort(used);
-    used.erase(std::ranges::unique(used).begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
     const std::uint64_t bytes = least_item_bytes(*vertex_);
     std::vector<double> item(vertex_->properties.size());
     content_.vertices.reserve(used.size());
