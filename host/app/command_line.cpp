@@ -332,11 +332,15 @@ void add_decimate(CLI::App& app, CommandLine& line) {
   command
       .add_option(
           "--features", decimate.features,
-          "planes: find the planes of the scan and put vertices on them, on the lines where "
-          "two meet and the corners of three; auto: with and without, and take the mesh "
-          "with fewer triangles")
+          "planes: find the planes of the scan, close the flat holes that the error cannot tell "
+          "from the surface, and put vertices on the planes, on the lines where two meet and the "
+          "corners of three; auto: vertices with and without, and take the mesh with fewer "
+          "triangles")
       ->check(CLI::IsMember({"none", "planes", "auto"}))
       ->capture_default_str();
+  command.add_option("--hole-reach", decimate.hole_reach,
+                     "with --features: how far what closes a hole on a plane may be from MESH, N "
+                     "or N% or 5mm; none: all holes stay open (default: --max-error)");
   add_points_and_json(command, decimate.excluded_share, decimate.reading, decimate.json);
   add_report(command, decimate.report);
   add_unit(command, decimate.unit);

@@ -79,6 +79,7 @@ struct DecimateOptions {
   std::string objective = "triangles";         // or hoppe
   double feature_angle = 0;                    // degrees; 0: no features
   std::string features = "none";               // or planes, auto
+  std::string hole_reach;                      // empty: the tolerance; none: holes stay
   std::string json;
   ReportOptions report;
   std::string excluded_share = "0";

@@ -63,8 +63,14 @@ class DecimateCommand {
     }
     tile_triangles_ = options.tile_triangles;
     if (tile_triangles_ > 0) check_tiles();
-    std::optional<Tolerance> back;
+    std::optional<Tolerance> back, reach;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
+    if (!options.hole_reach.empty() && options.features == "none") {
+      throw Error("--hole-reach: give --features planes or auto, too");
+    }
+    if (!options.hole_reach.empty() && closes_holes()) {
+      reach = parse_tolerance(options.hole_reach, "--hole-reach");
+    }
     const std::filesystem::path curve = several ? curve_path(options.output) : "";
     for (const ToleratedMesh& bound : bounds_) {
       check_mesh_outputs(bound.output, options.two_sided);
@@ -77,6 +83,7 @@ class DecimateCommand {
     if (!options.json.empty()) check_output(options.json, kJsonEndings);
     for (const ToleratedMesh& bound : bounds_) check_not_among_scans(bound.output, options.cloud);
     read_inputs();
+    if (reach) hole_reach_ = tolerance_below_width(*reach, "--hole-reach", scan());
     if (back) back_ = tolerance_below_width(*back, "--back-error", scan());
     for (ToleratedMesh& bound : bounds_) bound.tolerance = bound.tolerance.in_unit_of(scan().unit);
     // All tolerances have the same reference, which is made for the smallest.
@@ -163,14 +170,19 @@ class DecimateCommand {
 
   // Makes the reference and the file that holds it.
   void make_reference() {
-    const ReferenceWishes wishes = {.repair = options_.repair,
-                                    .closed = options_.closed,
-                                    .threads = settings_.decimation.threads};
+    ReferenceWishes wishes = {.repair = options_.repair,
+                              .closed = options_.closed,
+                              .threads = settings_.decimation.threads};
     if (tile_triangles_ > 0) {
       begin_tiles();
       reference_ = tiled_->make_reference(wishes);
     } else {
       kept_ = choose_kept(scan(), given_.view(), epsilon_, excludable(), wishes.threads);
+      find_planes();
+      if (closes_holes()) wishes.planes = settings_.decimation.planes.get();
+      wishes.plane_epsilon = epsilon_;
+      wishes.plane_farthest = hole_reach_.value_or(epsilon_);
+      progress_.begin("making the reference surface", joining_seconds(pieces_->points()));
       reference_ =
           emax::make_reference(given_, kept_.points, kFar * epsilon_, wishes, was_interrupted);
     }
@@ -232,7 +244,6 @@ class DecimateCommand {
   }
 
   int run_once() {
-    find_planes();
     progress_.begin("assigning the points", joining_seconds(pieces_->points()));
     settings_.early = [this](const CertifiedDecimation& made) { write_early(made); };
     result_ = tiled_ ? tiled_->decimate(reference_.surface.mesh, settings_)
@@ -350,6 +361,7 @@ class DecimateCommand {
     return feasible && reference_.all_closed() ? kExitOk : kExitNo;
   }
 
+  bool closes_holes() const { return options_.hole_reach != "none"; }
   const Scan& scan() const { return pieces_->scan(); }
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, pieces_->points()); }
@@ -483,6 +495,7 @@ class DecimateCommand {
   std::vector<ToleratedMesh> bounds_;  // ascending
   std::filesystem::path output_;       // for the present tolerance
   std::optional<double> back_;         // --back-error, if it is given
+  std::optional<double> hole_reach_;   // --hole-reach, if it is given
   TriangleMesh given_;
   std::vector<std::string> lost_attributes_;
   Scan vertices_ = {};  // of the mesh, where they are the cloud

@@ -14,15 +14,29 @@ namespace {
 
 constexpr double kAnyHole = 1;  // as wide as the mesh
 
+TriangleMesh closed_on_planes(TriangleMesh mesh, const ReferenceWishes& wishes,
+                              GivenReference& made) {
+  if (wishes.planes == nullptr) return mesh;
+  made.on_planes = close_on_planes(mesh, *wishes.planes,
+                                   {wishes.plane_epsilon, wishes.plane_farthest, wishes.threads});
+  return std::exchange(made.on_planes->mesh, {});
+}
+
 // Makes the surface by cutting the mesh apart where it is not manifold, then closes it.
 void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, double far,
-                      std::size_t threads, const std::function<bool()>& interrupted,
+                      const ReferenceWishes& wishes, const std::function<bool()>& interrupted,
                       GivenReference& made) {
   CutSurface cut = cut_to_manifold(given);
-  made.closed = close_surface(std::move(cut.mesh));
+  TriangleMesh mesh = std::move(cut.mesh);
+  if (wishes.closed) {
+    made.closed = close_surface(std::move(mesh));
+    mesh = made.closed->mesh;
+  } else {
+    mesh = closed_on_planes(std::move(mesh), wishes, made);
+  }
   ReferenceSurface& surface = made.surface;
-  surface = reference_surface(made.closed->mesh, kept, far, interrupted, MadeManifold::kByCutting,
-                              threads);
+  surface =
+      reference_surface(mesh, kept, far, interrupted, MadeManifold::kByCutting, wishes.threads);
   surface.merged += cut.merged;
   surface.turned += cut.turned;
   surface.dropped += cut.dropped;
@@ -44,18 +58,27 @@ void repair(const TriangleMesh& given, std::span<const Point> kept, double far,
   if (wishes.closed) {
     made.closed = close_surface(std::move(part.mesh));
     part.mesh = made.closed->mesh;
+  } else {
+    part.mesh = closed_on_planes(std::move(part.mesh), wishes, made);
   }
   made.surface = reference_surface(part.mesh, kept, far, interrupted, MadeManifold::kByDropping,
                                    wishes.threads);
   made.surface.dropped += part.dropped;
 }
 
+void print_on_planes(Facts& facts, const ClosedOnPlanes& made) {
+  if (made.on_planes + made.own + made.wide == 0) return;
+  facts.add("flat holes", "closed: {} on planes, {} others, area {:.4g}; {} wider on planes open",
+            grouped(made.on_planes), grouped(made.own), made.area, grouped(made.wide));
+}
+
 }  // namespace
 
 bool GivenReference::is_as_given() const {
   const ReferenceSurface& s = surface;
-  return !before_repair && !closed && s.merged == 0 && s.turned == 0 && s.dropped == 0 &&
-         s.split == 0 && s.cut_vertices == 0 && s.inserted == 0;
+  return !before_repair && !closed && (!on_planes || on_planes->on_planes + on_planes->own == 0) &&
+         s.merged == 0 && s.turned == 0 && s.dropped == 0 && s.split == 0 && s.cut_vertices == 0 &&
+         s.inserted == 0;
 }
 
 GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, double far,
@@ -64,8 +87,8 @@ GivenReference make_reference(const TriangleMesh& given, std::span<const Point> 
   GivenReference made;
   if (wishes.repair) {
     repair(given, kept, far, wishes, interrupted, made);
-  } else if (wishes.closed) {
-    close_by_cutting(given, kept, far, wishes.threads, interrupted, made);
+  } else if (wishes.closed || wishes.planes != nullptr) {
+    close_by_cutting(given, kept, far, wishes, interrupted, made);
   } else {
     made.surface =
         reference_surface(given, kept, far, interrupted, MadeManifold::kByCutting, wishes.threads);
@@ -74,6 +97,7 @@ GivenReference make_reference(const TriangleMesh& given, std::span<const Point> 
 }
 
 void print(Facts& facts, const GivenReference& reference, const std::string& file) {
+  if (reference.on_planes) print_on_planes(facts, *reference.on_planes);
   if (reference.is_as_given()) return;
   const ReferenceSurface& s = reference.surface;
   std::string made;
@@ -91,6 +115,9 @@ void print(Facts& facts, const GivenReference& reference, const std::string& fil
   say(s.cut_vertices, s.cut_vertices == 1 ? "non-manifold vertex" : "non-manifold vertices",
       "cut apart");
   say(s.inserted, s.inserted == 1 ? "point" : "points", "added that the mesh missed");
+  const std::size_t holes =
+      reference.on_planes ? reference.on_planes->on_planes + reference.on_planes->own : 0;
+  say(holes, holes == 1 ? "flat hole" : "flat holes", "closed");
   facts.add("reference", "{}{}", made.empty() ? "as given" : made, file.empty() ? "" : ": " + file);
   if (reference.closed) print_closed(facts, reference.closed->closed, reference.closed->open);
   if (!reference.before_repair) return;

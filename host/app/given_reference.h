@@ -6,6 +6,7 @@
 
 #include "host/app/facts.h"
 #include "host/decimate/bounded_decimation.h"
+#include "host/decimate/close_on_planes.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/surface/close_holes.h"
 
@@ -16,6 +17,7 @@ struct GivenReference {
   ReferenceSurface surface;
   std::optional<MeshTopology> before_repair;  // if `repair` was asked for
   std::optional<ClosedSurface> closed;        // if `closed` was asked for
+  std::optional<ClosedOnPlanes> on_planes;    // without its mesh, if `planes` were given
 
   // Whether the surface is the given mesh except for the order of its parts.
   bool is_as_given() const;
@@ -27,6 +29,9 @@ struct ReferenceWishes {
   bool repair = false;  // remove parts that intersect or are not manifold instead of cutting
   bool closed = false;  // close every hole
   std::size_t threads = 1;
+  // Holes on these are closed: close_on_planes(); with `closed` all are, anyway.
+  const PlaneParts* planes = nullptr;
+  double plane_epsilon = 0, plane_farthest = 0;
 };
 
 // `kept`: points that become vertices of the reference if they are farther than `far` from it.

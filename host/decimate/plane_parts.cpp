@@ -45,6 +45,21 @@ std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
   return neighbours;
 }
 
+// The plane of most of the points nearest to p; of equal ones, that of the nearest point.
+std::uint32_t vote(const PlaneParts& parts, const PointTree& tree, const Point& p,
+                   std::vector<PointTree::Neighbour>& found) {
+  tree.nearest(p, kVotes, found);
+  std::uint32_t best = PlaneParts::kNoPlane;
+  std::ptrdiff_t most = 0;
+  for (const PointTree::Neighbour& neighbour : found) {
+    const std::uint32_t plane = parts.plane_of[neighbour.index];
+    const std::ptrdiff_t votes = std::ranges::count_if(
+        found, [&](const auto& other) { return parts.plane_of[other.index] == plane; });
+    if (votes > most) most = votes, best = plane;
+  }
+  return best;
+}
+
 class Labels {
  public:
   Labels(const TriangleMesh& mesh, const PlaneParts& parts, double reach)
@@ -62,31 +77,9 @@ class Labels {
   }
 
  private:
-  // The plane of most of the points nearest to p; of equal ones, that of the nearest point.
-  std::uint32_t vote(const PointTree& tree, const Point& p,
-                     std::vector<PointTree::Neighbour>& found) const {
-    tree.nearest(p, kVotes, found);
-    std::uint32_t best = PlaneParts::kNoPlane;
-    std::ptrdiff_t most = 0;
-    for (const PointTree::Neighbour& neighbour : found) {
-      const std::uint32_t plane = parts_.plane_of[neighbour.index];
-      const std::ptrdiff_t votes = std::ranges::count_if(
-          found, [&](const auto& other) { return parts_.plane_of[other.index] == plane; });
-      if (votes > most) most = votes, best = plane;
-    }
-    return best;
-  }
-
   void begin(std::size_t threads) {
-    const PointTree tree(parts_.points);
-    std::vector<std::uint32_t> of_vertex(mesh_.vertices.size(), PlaneParts::kNoPlane);
-    in_pieces(threads, of_vertex.size(), kVertices,
-              [&](std::size_t, std::size_t first, std::size_t last) {
-                std::vector<PointTree::Neighbour> found;
-                for (std::size_t v = first; v < last; ++v) {
-                  of_vertex[v] = vote(tree, mesh_.vertices[v], found);
-                }
-              });
+    const std::vector<std::uint32_t> of_vertex =
+        planes_of_vertices(mesh_.vertices, parts_, threads);
     for (std::uint32_t t = 0; t < plane_of_.size(); ++t) {
       const auto [a, b, c] = mesh_.triangles[t];
       const std::uint32_t plane = of_vertex[a];
@@ -169,6 +162,21 @@ PlaneParts find_plane_parts(std::span<const Point> points, double epsilon, std::
     for (const std::uint32_t p : region.points) parts.plane_of[p] = number;
   }
   return parts;
+}
+
+std::vector<std::uint32_t> planes_of_vertices(std::span<const Point> vertices,
+                                              const PlaneParts& parts, std::size_t threads) {
+  std::vector<std::uint32_t> plane_of(vertices.size(), PlaneParts::kNoPlane);
+  if (parts.planes.empty()) return plane_of;
+  const PointTree tree(parts.points);
+  in_pieces(threads, plane_of.size(), kVertices,
+            [&](std::size_t, std::size_t first, std::size_t last) {
+              std::vector<PointTree::Neighbour> found;
+              for (std::size_t v = first; v < last; ++v) {
+                plane_of[v] = vote(parts, tree, vertices[v], found);
+              }
+            });
+  return plane_of;
 }
 
 std::vector<std::uint32_t> planes_of_triangles(const TriangleMesh& mesh, const PlaneParts& parts,

@@ -31,10 +31,15 @@ PlaneParts find_plane_parts(
     std::span<const Point> points, double epsilon, std::size_t threads,
     const std::function<void()>& check = [] {});
 
-// The plane that each triangle of a manifold mesh follows, or kNoPlane. A vertex is of the plane to
-// which most of the points nearest to it belong; a triangle whose vertices are of one plane follows
-// it. From there each plane grows over triangles beside it that lie within `reach` of it, the
-// nearest first: noise, outliers and the chamfers between planes follow one of them. O(n log n).
+// The plane to which most of the five points nearest to each vertex belong, or kNoPlane. O(n log
+// n).
+std::vector<std::uint32_t> planes_of_vertices(std::span<const Point> vertices,
+                                              const PlaneParts& parts, std::size_t threads);
+
+// The plane that each triangle of a manifold mesh follows, or kNoPlane. A triangle whose vertices
+// are of one plane (planes_of_vertices) follows it. From there each plane grows over triangles
+// beside it that lie within `reach` of it, the nearest first: noise, outliers and the chamfers
+// between planes follow one of them. O(n log n).
 std::vector<std::uint32_t> planes_of_triangles(const TriangleMesh& mesh, const PlaneParts& parts,
                                                double reach, std::size_t threads);
 

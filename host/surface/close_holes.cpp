@@ -112,13 +112,15 @@ std::vector<bool> cracks_of(const TriangleMesh& mesh, const Adjacency& adjacency
 // A hole and the triangles around it that are dropped, with the patches that close it.
 class Opening {
  public:
+  // Holes that are not `allowed` stay open, triangles from `first_kept` on stay.
   Opening(const TriangleMesh& mesh, const Adjacency& adjacency, double farthest,
-          std::size_t most_edges, const std::vector<bool>& cracks)
+          std::size_t most_edges, const std::vector<bool>& allowed, std::size_t first_kept)
       : mesh_(mesh),
         adjacency_(adjacency),
         farthest_(farthest),
         most_edges_(most_edges),
-        cracks_(cracks) {}
+        allowed_(allowed),
+        first_kept_(first_kept) {}
 
   // Returns false where the hole cannot be closed.
   bool close(std::uint32_t hole, int rings) {
@@ -152,7 +154,7 @@ class Opening {
 
  private:
   bool take(std::uint32_t hole) {
-    if (!cracks_[hole] || !small_enough(adjacency_.holes()[hole])) return false;
+    if (!allowed_[hole] || !small_enough(adjacency_.holes()[hole])) return false;
     holes_.insert(hole);
     return true;
   }
@@ -160,6 +162,7 @@ class Opening {
   bool drop(std::span<const std::uint32_t> triangles) {
     for (const std::uint32_t t : triangles) {
       if (!dropped_.insert(t).second) continue;
+      if (t >= first_kept_) return false;
       // Another hole at a vertex of the triangle becomes part of this one.
       for (const std::uint32_t v : mesh_.triangles[t]) {
         const std::uint32_t hole = adjacency_.hole_at(v);
@@ -258,7 +261,8 @@ class Opening {
   const Adjacency& adjacency_;
   double farthest_;
   std::size_t most_edges_;
-  const std::vector<bool>& cracks_;  // of the holes
+  const std::vector<bool>& allowed_;  // of the holes
+  std::size_t first_kept_;
   std::unordered_set<std::uint32_t> holes_, dropped_;
   std::vector<std::vector<std::uint32_t>> loops_;
   std::vector<Triangle> patches_;
@@ -287,6 +291,54 @@ std::vector<bool> intersecting(const TriangleMesh& mesh, std::span<const Opening
   return bad;
 }
 
+// Closes the openings whose patches meet nothing.
+void apply(std::span<const Opening> openings, TriangleMesh& mesh, ClosedHoles& result) {
+  if (openings.empty()) return;
+  const std::vector<bool> bad = intersecting(mesh, openings);
+  std::vector<bool> drops(mesh.triangles.size(), false);
+  std::vector<Triangle> added;
+  for (std::size_t o = 0; o < openings.size(); ++o) {
+    if (bad[o]) continue;
+    for (const std::uint32_t t : openings[o].dropped()) drops[t] = true;
+    added.insert(added.end(), openings[o].patches().begin(), openings[o].patches().end());
+    result.closed += openings[o].holes();
+    result.dropped += openings[o].dropped().size();
+  }
+  std::vector<Triangle> kept;
+  for (std::size_t t = 0; t < drops.size(); ++t) {
+    if (!drops[t]) kept.push_back(mesh.triangles[t]);
+  }
+  kept.insert(kept.end(), added.begin(), added.end());
+  mesh.triangles = std::move(kept);
+}
+
+// Those openings that `close` closes and that touch none before them.
+template <class Close>
+std::vector<Opening> openings_of(const Adjacency& adjacency, const Close& close) {
+  std::vector<Opening> openings;
+  std::unordered_set<std::uint32_t> touched;
+  for (std::uint32_t hole = 0; hole < adjacency.holes().size(); ++hole) {
+    std::optional<Opening> opening = close(hole);
+    if (!opening) continue;
+    const std::vector<std::uint32_t> touches = opening->touched();
+    if (std::ranges::any_of(touches, [&](std::uint32_t v) { return touched.contains(v); })) {
+      continue;
+    }
+    touched.insert(touches.begin(), touches.end());
+    openings.push_back(std::move(*opening));
+  }
+  return openings;
+}
+
+HoleRim rim_of(const TriangleMesh& mesh, const Adjacency& adjacency, std::uint32_t hole) {
+  HoleRim rim{adjacency.holes()[hole], {}};
+  for (std::size_t i = 0; i < rim.vertices.size(); ++i) {
+    const std::uint32_t from = rim.vertices[(i + 1) % rim.vertices.size()], to = rim.vertices[i];
+    rim.triangles.push_back(mesh.triangles[adjacency.triangle(from, to)]);
+  }
+  return rim;
+}
+
 }  // namespace
 
 ClosedHoles close_holes(TriangleMesh mesh, double size, double crack, std::size_t most_edges) {
@@ -295,37 +347,42 @@ ClosedHoles close_holes(TriangleMesh mesh, double size, double crack, std::size_
   for (int rings = 0; rings <= kRimRings; ++rings) {
     const Adjacency adjacency(mesh);
     const std::vector<bool> cracks = cracks_of(mesh, adjacency, crack);
-    std::vector<Opening> openings;
-    std::unordered_set<std::uint32_t> touched;
-    for (std::uint32_t hole = 0; hole < adjacency.holes().size(); ++hole) {
-      Opening opening(mesh, adjacency, farthest, most_edges, cracks);
-      if (!opening.close(hole, rings)) continue;
-      const std::vector<std::uint32_t> touches = opening.touched();
-      if (std::ranges::any_of(touches, [&](std::uint32_t v) { return touched.contains(v); })) {
-        continue;
-      }
-      touched.insert(touches.begin(), touches.end());
-      openings.push_back(std::move(opening));
-    }
-    if (openings.empty()) continue;
-    const std::vector<bool> bad = intersecting(mesh, openings);
-    std::vector<bool> drops(mesh.triangles.size(), false);
-    std::vector<Triangle> added;
-    for (std::size_t o = 0; o < openings.size(); ++o) {
-      if (bad[o]) continue;
-      for (const std::uint32_t t : openings[o].dropped()) drops[t] = true;
-      added.insert(added.end(), openings[o].patches().begin(), openings[o].patches().end());
-      result.closed += openings[o].holes();
-      result.dropped += openings[o].dropped().size();
-    }
-    std::vector<Triangle> kept;
-    for (std::size_t t = 0; t < drops.size(); ++t) {
-      if (!drops[t]) kept.push_back(mesh.triangles[t]);
-    }
-    kept.insert(kept.end(), added.begin(), added.end());
-    mesh.triangles = std::move(kept);
+    const auto close = [&](std::uint32_t hole) -> std::optional<Opening> {
+      Opening opening(mesh, adjacency, farthest, most_edges, cracks, mesh.triangles.size());
+      if (!opening.close(hole, rings)) return std::nullopt;
+      return opening;
+    };
+    apply(openings_of(adjacency, close), mesh, result);
   }
   drop_unused(mesh);
+  result.mesh = std::move(mesh);
+  return result;
+}
+
+ClosedHoles close_chosen_holes(TriangleMesh mesh, const HoleChoice& choice,
+                               std::size_t most_edges) {
+  ClosedHoles result;
+  const std::size_t given = mesh.triangles.size();
+  for (int rings = 0; rings <= kRimRings; ++rings) {
+    const Adjacency adjacency(mesh);
+    std::vector<HoleRim> rims;
+    std::vector<bool> allowed;
+    for (std::uint32_t hole = 0; hole < adjacency.holes().size(); ++hole) {
+      rims.push_back(rim_of(mesh, adjacency, hole));
+      allowed.push_back(choice.may_close(rims.back()));
+    }
+    const auto close = [&](std::uint32_t hole) -> std::optional<Opening> {
+      Opening opening(mesh, adjacency, std::numeric_limits<double>::infinity(), most_edges, allowed,
+                      given - result.dropped);
+      if (!opening.close(hole, rings)) return std::nullopt;
+      std::vector<Triangle> dropped;
+      for (const std::uint32_t t : opening.dropped()) dropped.push_back(mesh.triangles[t]);
+      std::ranges::sort(dropped);
+      if (!choice.permits(rims[hole], opening.patches(), dropped)) return std::nullopt;
+      return opening;
+    };
+    apply(openings_of(adjacency, close), mesh, result);
+  }
   result.mesh = std::move(mesh);
   return result;
 }

@@ -59,6 +59,29 @@ ClosedHoles close_holes(TriangleMesh mesh, double size,
                         double crack = std::numeric_limits<double>::infinity(),
                         std::size_t most_edges = kMostHoleEdges);
 
+// A border loop: its vertices in the direction of the triangles that would close it, and the
+// triangle of the mesh at the edge from each to the next.
+struct HoleRim {
+  std::vector<std::uint32_t> vertices;
+  std::vector<Triangle> triangles;
+};
+
+struct HoleChoice {
+  std::function<bool(const HoleRim&)> may_close;
+  // `patch` closes the hole, and those that became one with it when `dropped` were.
+  std::function<bool(const HoleRim&, std::span<const Triangle> patch,
+                     std::span<const Triangle> dropped)>
+      permits;
+};
+
+// Closes holes as close_holes() does, but those that may be closed, by patches that are permitted.
+// The border loops around a surface from outside are among those asked for. No triangle of a patch
+// is dropped again. Vertices stay, also those without triangles; the triangles that are left of the
+// mesh keep their order, those of patches follow. `mesh` is as cut_to_manifold() gives it; so is
+// the result, with no intersections that were not there. O(n log n) and best_patch().
+ClosedHoles close_chosen_holes(TriangleMesh mesh, const HoleChoice& choice,
+                               std::size_t most_edges = kMostHoleEdges);
+
 // close_holes() for all holes that can be closed, with a list of the borders that stay open. Holes
 // of kMostClosedEdges edges take seconds.
 struct OpenBorder {

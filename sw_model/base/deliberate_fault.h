@@ -21,6 +21,7 @@ enum class Fault {
   kSkipsBackBound,      // the mesh may leave the reference
   kSkipsReference,      // the reference may leave the mesh
   kSkipsIntersections,  // triangles may meet
+  kClosesWideHoles,     // what closes a hole on a plane may reach anywhere
   kForgetsPlanes,       // vertices do not stay on the planes that the mesh follows
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change

@@ -132,6 +132,36 @@ TEST_F(DecimateCommand, AutoTakesTheFewerTriangles) {
   EXPECT_EQ(decimate("t.ply", {"--features", "auto", "--tiles", "100"}).exit_code, 1);
 }
 
+// A plate of 41 x 41 vertices without one of them, and without a window of 0.3 x 0.3.
+TriangleMesh plate_with_a_window() {
+  TriangleMesh plate = test::sheet(41, 0);
+  std::erase_if(plate.triangles, [&](const Triangle& t) {
+    return std::ranges::any_of(t, [&](std::uint32_t v) {
+      const bool in_window = (plate.vertices[v] - Point(0.5, 0, 0)).cwiseAbs().maxCoeff() < 0.11;
+      return in_window || (plate.vertices[v] - Point(-0.5, 0, 0)).norm() < 1e-9;
+    });
+  });
+  return plate;
+}
+
+TEST_F(DecimateCommand, ClosesFlatHolesBelowTheToleranceAndWiderOnesOnDemand) {
+  write_mesh(folder_ / "plate.ply", plate_with_a_window());
+  const auto borders = [&](std::vector<std::string> more) {
+    const ProgramRun run = decimate("out.ply", std::move(more), "plate.ply", "3%");
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_EQ(verify("out.ply"), 0);
+    return certificate("out.ply").at("topology").at("border_loops").get<int>();
+  };
+  EXPECT_EQ(borders({}), 3);
+  EXPECT_EQ(borders({"--features", "planes"}), 2);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out.ply.reference.ply"));
+  EXPECT_EQ(borders({"--features", "planes", "--hole-reach", "10%"}), 1);
+  EXPECT_EQ(borders({"--features", "planes", "--hole-reach", "none"}), 3);
+  const ProgramRun alone = decimate("no.ply", {"--hole-reach", "10%"}, "plate.ply", "3%");
+  EXPECT_EQ(alone.exit_code, 1);
+  EXPECT_NE(alone.errors.find("--features"), std::string::npos) << alone.errors;
+}
+
 TEST_F(DecimateCommand, KeepsTheCornersOfAPartSharp) {
   const std::string part = "part.off";
   std::filesystem::copy_file(EMAX_DATA_FOLDER "/fandisk.off", folder_ / part);
