@@ -1,4 +1,5 @@
-// A tool that finds planes in a cloud, its time and what it found beside what is there, as JSON.
+// A tool that finds planes in a cloud, its time and what it found beside what is there, or how far
+// the edges of a mesh are from the true ones, as JSON.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +12,7 @@
 #include "host/files/mesh_file.h"
 #include "host/geometry/bounds.h"
 #include "testbench/stimuli/random.h"
+#include "tests/benchmarks/features/edge_distance.h"
 #include "tests/benchmarks/features/plane_truth.h"
 
 namespace emax::benchmarks {
@@ -38,8 +40,8 @@ std::vector<FoundPlane> planes_of(const std::string& tool, const PlaneTask& task
 }
 
 struct Words {
-  std::string tool, cloud, truth;
-  double band = 0, outliers = 0;
+  std::string tool, cloud, truth, mesh;
+  double band = 0, outliers = 0, flatness = 1e-5;
   std::size_t least_support = 500, least_known = 1000;
   std::uint64_t seed = 1;
 };
@@ -67,7 +69,7 @@ json measured(const Words& words) {
                {"points_of_planes", points},
                {"rms", std::sqrt(squares / static_cast<double>(std::max<std::size_t>(points, 1)))}};
   if (words.truth.empty()) return told;
-  const PlaneTruth truth = truth_of(read_mesh(words.truth), cloud, words.band);
+  const PlaneTruth truth = truth_of(read_mesh(words.truth), cloud, words.band, words.flatness);
   const PlaneScore score = score_of(truth, cloud, planes, words.least_known);
   told["known"] = score.known;
   told["found"] = score.found;
@@ -75,6 +77,17 @@ json measured(const Words& words) {
   told["angle"] = {{"greatest", score.greatest_angle}, {"mean", score.mean_angle}};
   told["offset"] = {{"greatest", score.greatest_offset}, {"mean", score.mean_offset}};
   return told;
+}
+
+json edges(const Words& words) {
+  const TriangleMesh mesh = read_mesh(words.mesh);
+  const EdgeDistance found =
+      distance_of_edges(read_mesh(words.truth), mesh, read_cloud(words.cloud).points, words.band);
+  return {{"band", words.band},
+          {"samples", found.samples},
+          {"mean", found.mean},
+          {"p95", found.p95},
+          {"within_half", found.within_half}};
 }
 
 }  // namespace
@@ -85,17 +98,24 @@ int main(int argc, char** argv) {
   emax::benchmarks::Words words;
   app.add_option("TOOL", words.tool)
       ->required()
-      ->check(CLI::IsMember({"emax", "emax-hough", "cgal-ransac", "cgal-growing", "pcl-ransac"}));
+      ->check(CLI::IsMember(
+          {"emax", "emax-hough", "cgal-ransac", "cgal-growing", "pcl-ransac", "edges"}));
   app.add_option("CLOUD", words.cloud)->required();
   app.add_option("--max-error", words.band, "in the unit of the cloud")->required();
   app.add_option("--truth", words.truth, "the surface of which the cloud is a scan");
+  app.add_option("--flatness", words.flatness,
+                 "how far corners of the truth may be from their plane, in widths")
+      ->capture_default_str();
+  app.add_option("--mesh", words.mesh, "of which `edges` measures how far those of the truth are");
   app.add_option("--outliers", words.outliers, "to be added, as a share of the points");
   app.add_option("--least-points", words.least_support, "of a plane that a tool reports");
   app.add_option("--least-known", words.least_known, "of a plane that is to be found");
   app.add_option("--seed", words.seed);
   CLI11_PARSE(app, argc, argv);
   try {
-    fmt::print("{}\n", emax::benchmarks::measured(words).dump());
+    fmt::print("{}\n", (words.tool == "edges" ? emax::benchmarks::edges(words)
+                                              : emax::benchmarks::measured(words))
+                           .dump());
   } catch (const std::exception& error) {
     fmt::print(stderr, "emax_features_benchmark: {}\n", error.what());
     return 1;

@@ -20,11 +20,13 @@ struct PlaneTruth {
   std::vector<std::uint32_t> plane_of;  // of each point
 };
 
-// The plane of each triangle; those of equal planes are one, whether or not they touch. A triangle
-// that meets one of another plane across an edge at less than 20 degrees is part of a curved
-// surface, and of no plane. A point belongs to the plane of the triangle nearest to it, if that is
-// within `reach`.
-PlaneTruth truth_of(const TriangleMesh& mesh, std::span<const Point> cloud, double reach);
+// The planes of a mesh's facets: connected triangles whose corners are within `flatness`, in widths
+// of the mesh, of one plane; at least what its coordinates are rounded to. Facets on equal planes
+// are of one, whether or not they touch. A facet that meets another at less than 20 degrees is part
+// of a curved surface, and of no plane, unless its own corners tell that it is flat. A point
+// belongs to the plane of the triangle nearest to it, if that is within `reach`.
+PlaneTruth truth_of(const TriangleMesh& mesh, std::span<const Point> cloud, double reach,
+                    double flatness = 1e-5);
 
 // What a tool found beside what is there.
 struct PlaneScore {

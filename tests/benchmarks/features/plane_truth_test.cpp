@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -81,6 +83,46 @@ TEST_F(PlaneTruthTest, CountsWhatIsFoundAndWhatIsWrong) {
   EXPECT_EQ(score.wrong, 1u);
   EXPECT_NEAR(score.greatest_angle, 1, 1e-9);
   EXPECT_EQ(score_of(truth_, cloud_, reported, 150).known, 1u);
+}
+
+// A plate of 1 x 1 that goes over into an arc of this radius and of length 1, tilted, with
+// coordinates rounded to 1e-4; 21 x 41 vertices, those of the plate first.
+TriangleMesh plate_and_arc(double radius) {
+  constexpr int kAlong = 41, kAcross = 21;
+  const Eigen::AngleAxisd tilt(0.3, Point(1, 2, 3).normalized());
+  TriangleMesh mesh;
+  for (int i = 0; i < kAlong; ++i) {
+    const double beyond = std::max(0.0, 0.05 * i - 1), turn = beyond / radius;
+    for (int j = 0; j < kAcross; ++j) {
+      const Point p(std::min(1.0, 0.05 * i) + radius * std::sin(turn), 0.05 * j,
+                    radius * (1 - std::cos(turn)));
+      mesh.vertices.push_back((1e4 * (tilt * p)).array().round() / 1e4);
+    }
+  }
+  for (std::uint32_t i = 0; i + 1 < kAlong; ++i) {
+    for (std::uint32_t j = 0; j + 1 < kAcross; ++j) {
+      const std::uint32_t at = i * kAcross + j;
+      mesh.triangles.push_back({at, at + kAcross, at + kAcross + 1});
+      mesh.triangles.push_back({at, at + kAcross + 1, at + 1});
+    }
+  }
+  return mesh;
+}
+
+TEST(PlaneTruthOfRoundedMeshes, KeepsAPlaneWholeThatGoesOverIntoAnArc) {
+  for (const double radius : {0.5, 2.0, 5.0}) {
+    SCOPED_TRACE(radius);
+    const TriangleMesh mesh = plate_and_arc(radius);
+    const PlaneTruth truth = truth_of(mesh, mesh.vertices, 1e-3, 1e-4);
+    const std::uint32_t plane = truth.plane_of.front();
+    ASSERT_NE(plane, PlaneTruth::kNone);
+    const std::size_t points = truth.planes[plane].points.size();
+    EXPECT_GE(points, 20u * 21u);
+    EXPECT_LE(points, 24u * 21u);
+    for (std::size_t i = 25 * 21; i < mesh.vertices.size(); ++i) {
+      EXPECT_EQ(truth.plane_of[i], PlaneTruth::kNone) << i;
+    }
+  }
 }
 
 }  // namespace
