@@ -19,7 +19,13 @@ class FeaturesBenchTest(unittest.TestCase):
     def test_tells_where_no_truth_is_known_and_who_took_too_long(self):
         self.assertEqual(bench.line("building", "emax", TOLD),
                          "| building | emax, region growing | 4, truth not known | – | – | – | 90.0 | 0.200 | 1.2 |")
-        self.assertTrue(bench.line("building", "pcl-ransac", None).endswith("| more than 120 |"))
+        self.assertTrue(bench.line("building", "pcl-ransac", None).endswith("| more than 60 |"))
+
+    def test_tells_what_decimation_makes(self):
+        made = {"triangles": 100, "borders": 2, "edges": {"band": 0.01, "mean": 0.001, "p95": 0.004, "within_half": 0.97}}
+        self.assertEqual(bench.decimated_line("hall", "quick", "planes", made),
+                         "| hall, quick | planes | 100 | 2 | 0.10 | 0.40 | 97 |")
+        self.assertTrue(bench.decimated_line("building", "normal", "none", {"triangles": 1, "borders": 0}).endswith("– |"))
 
 
 if __name__ == "__main__":
