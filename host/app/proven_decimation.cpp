@@ -77,7 +77,7 @@ ReferenceBound bound_of(const CertifiedDecimation& made, double epsilon_back, Re
   bound.mesh_to_reference = made.mesh_to_reference->upper;
   bound.reference_to_mesh = made.reference_to_mesh->upper;
   if (points_to_reference) {
-    file.describe(bound, *points_to_reference);
+    file.describe_measured(bound, *points_to_reference);
   } else {
     file.describe(bound, made.points.excluded);
   }

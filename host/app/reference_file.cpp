@@ -28,10 +28,10 @@ void ReferenceFile::describe(ReferenceBound& bound, const std::vector<std::uint3
   if (!points_to_reference_ || points_to_reference_->excluded != excluded) {
     points_to_reference_ = certify(points_, mesh_.view(), excluded, processor_threads());
   }
-  describe(bound, points_to_reference_->e_max_upper);
+  describe_measured(bound, points_to_reference_->e_max_upper);
 }
 
-void ReferenceFile::describe(ReferenceBound& bound, double points_to_reference) const {
+void ReferenceFile::describe_measured(ReferenceBound& bound, double points_to_reference) const {
   bound.file = path().filename().string();
   bound.sha256 = sha256_;
   bound.triangles = mesh_.triangles.size();

@@ -34,7 +34,7 @@ class ReferenceFile {
   // points; less if `excluded` is the same as in the last call.
   void describe(ReferenceBound& bound, const std::vector<std::uint32_t>& excluded);
   // The same where the greatest distance of a point that is not excluded is known.
-  void describe(ReferenceBound& bound, double points_to_reference) const;
+  void describe_measured(ReferenceBound& bound, double points_to_reference) const;
 
   // The file that is still to be written; nullptr if it exists.
   const OutputFile* unwritten() const { return file_.bytes.empty() ? nullptr : &file_; }

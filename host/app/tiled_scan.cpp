@@ -308,7 +308,8 @@ ProvenMesh TiledScan::prove(const CertifiedDecimation& made, const TriangleMesh*
     for (std::uint32_t& point : excluded) point = scan_.scan().cloud.index_in_file(point);
   }
   LocalPieces here;
-  PointClaims claims = recompute(scan_, made.mesh, reference, excluded, here, {});
+  PointClaims claims =
+      recompute(scan_, MeasuredMesh(made.mesh), reference, excluded, here, {}, settings_.memory);
   ProvenMesh proven;
   proven.validity = made.validity;
   proven.topology = topology_of(made.mesh.view());
