@@ -9,8 +9,8 @@ enum class Fault {
   kSearchWithoutMargin,  // lower bounds are taken as exact
   kSearchDropsTies,      // groups that could hold a lower index are dropped
   // In the fixed-point filter.
-  kFilterWithoutMargin,    // the filter's distance is taken as exact
-  kFilterTrustsSaturated,  // a distance is trusted although its numbers may have left their range
+  kFilterWithoutMargin,     // the filter's distance is taken as exact
+  kFilterTrustsSaturated,   // a distance is trusted although its numbers may have left their range
   kFilterKeepsOldGreatest,  // points meet the greatest minimum of a search before
   // In the distance between surfaces.
   kCutsWithoutMargin,    // the rounding of cuts is not added
