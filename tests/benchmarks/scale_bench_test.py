@@ -27,6 +27,28 @@ class ScaleBenchTest(DocumentsCase):
         self.assertIn("| 100000 | 4 | 300000 | 10 | 40.0 | – | 500 | 2.00; 30 |", told)
         self.assertIn("| 1000000 | 4 | 3000000 | 10 | 40.0 | 1.00 | 500 | 2.00; 30 |", told)
 
+    def test_tells_how_optimization_grows(self):
+        for points, processor in ((10**5, 20), (10**6, 200)):
+            self.store.put(("optimize", points), {"points": points, "triangles": 700, "seconds": 90, "first": 30.2,
+                                                  "processor": processor, "bytes": 6e8,
+                                                  "truth": {"rms": 0.001, "greatest": 0.02}})
+        told = bench.section(self.store)
+        self.assertIn("| 100000 | 700 | 30 | 90 | 200 | – | 600 | 1.00; 20 |", told)
+        self.assertIn("| 1000000 | 700 | 30 | 90 | 200 | 1.00 | 600 | 1.00; 20 |", told)
+
+    def test_tells_when_a_file_is_there(self):
+        programs = Path("programs")
+        programs.mkdir()
+        patch = mock.patch.object(bench, "FOLDER", Path.cwd())
+        patch.start()
+        self.addCleanup(patch.stop)
+        program = programs / "slow"
+        program.write_text("#!/bin/sh\n: >there\nfor last; do :; done; sleep 0.5; printf '{}' >\"$last\"\n")
+        program.chmod(0o700)
+        told = bench.run([program.absolute()], awaited=Path("there"))
+        self.assertLess(told["first"], told["seconds"])
+        self.assertNotIn("first", bench.run([program.absolute()]))
+
     def test_tells_what_a_point_takes(self):
         self.put_reconstruction(10**6, 40)
         self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
