@@ -21,10 +21,10 @@ namespace {
 
 // Of the points of a part of the cloud, and of the parts.
 constexpr std::uint64_t kLeastOfPart = 1 << 16, kMostParts = 4096;
-constexpr std::uint64_t kSample = 1 << 12;  // points that stand for all
-constexpr int kLooks = 8;                   // for points that the mesh was moved away from
-constexpr double kAround = 4;               // times `far`, and twice that with each look
-constexpr int kChoices = 4;                 // of the points that are excluded, but for the first
+constexpr std::uint64_t kSample = 1 << 12;           // points that stand for all
+constexpr int kLooks = 8;                            // for points that the mesh was moved away from
+constexpr double kAround = 4, kFarthestAround = 64;  // times `far`; twice that with each look
+constexpr int kChoices = 4;  // of the points that are excluded, but for the first
 constexpr std::uint64_t kBytesPerFarPoint = 128;
 
 bool has(std::span<const std::uint32_t> ascending, std::uint32_t number) {
@@ -236,7 +236,7 @@ TiledScan::Joined TiledScan::join(const ReferenceWishes& wishes,
       made.missed += lost.size();
       return made;
     }
-    reach *= 2;
+    reach = std::min(2 * reach, kFarthestAround * settings_.far);
     add_around(lost, reach, kept);
   }
 }

@@ -23,15 +23,16 @@ struct TiledScanSettings {
   std::size_t excludable = 0;
   std::size_t triangles_of_a_tile = 0;
   std::size_t threads = 1;
-  std::uint64_t memory = 0;      // bytes for the points that are joined
+  std::uint64_t memory = 0;      // bytes for the points that are joined, or looked at for that
   std::filesystem::path folder;  // for the points, where they are not in memory; it exists
   TileRunner* runner = nullptr;
   std::function<bool()> interrupted;
 };
 
 // A scan whose surface is decimated in tiles and whose points may be more than the memory holds.
-// Where they are changes no byte of a result. Memory, where they are not in it: two bits a point,
-// 40 bytes for each that is farther from the given mesh than `far`, and that of pieces and tiles.
+// Where they are changes no byte of a result. Memory, where they are not in it: a bit a point, 128
+// bytes for each that is farther from the given mesh than `far` or was looked at beside one, and
+// that of pieces and tiles.
 class TiledScan {
  public:
   // Measures every point against the mesh. The scan and the mesh must outlive this. Throws Error if
