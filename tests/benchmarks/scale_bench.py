@@ -180,40 +180,39 @@ def exponent(small, large, unit):
     return math.log(large[unit] / small[unit]) / math.log(large["points"] / small["points"])
 
 
-def reconstruction_table(store):
-    found = [result for points in RECONSTRUCTED if (result := store.get("reconstruct", points))]
-    if not found:
-        return ""
-    lines = ["| points | tiles | triangles | s | µs of processor a point | grows as n^ | MB of the largest process | "
+def growth_table(found, titles, cells, digits):
+    """Of results by ascending size; `titles` and `cells`: of two columns of the table's own; `digits`: of a point's time."""
+    lines = [f"| points | {titles} | s | µs of processor a point | grows as n^ | MB of the largest process | "
              "from the true surface, mm: root mean square; greatest |",
              "|---:|---:|---:|---:|---:|---:|---:|---:|"]
     for i, r in enumerate(found):
         grows = f"{exponent(found[i - 1], r, 'processor'):.2f}" if i else "–"
-        lines.append(f"| {r['points']} | {r['tiles']} | {r['triangles']} | {r['seconds']:.0f} | "
-                     f"{1e6 * r['processor'] / r['points']:.1f} | {grows} | {r['bytes'] / 1e6:.0f} | "
+        lines.append(f"| {r['points']} | {cells(r)} | {r['seconds']:.0f} | "
+                     f"{1e6 * r['processor'] / r['points']:.{digits}f} | {grows} | {r['bytes'] / 1e6:.0f} | "
                      f"{1e3 * r['truth']['rms']:.2f}; {1e3 * r['truth']['greatest']:.0f} |")
+    return "\n".join(lines) + "\n"
+
+
+def reconstruction_table(store):
+    found = [result for points in RECONSTRUCTED if (result := store.get("reconstruct", points))]
+    if not found:
+        return ""
+    table = growth_table(found, "tiles | triangles", lambda r: f"{r['tiles']} | {r['triangles']}", 1)
     return ("`emax reconstruct` of a hall of 40 by 20 by 8 m, scanned from several stations, in tiles of 262,144 points on "
             "two cores. The exponent is that of the processor time from the row above; n log n grows as n^1.07 "
             "from 10^6 to 10^7. The resident size is the greatest of one process; two tiles are under way at a time, and "
-            "the surface is checked as a whole in the end.\n\n" + "\n".join(lines) + "\n")
+            "the surface is checked as a whole in the end.\n\n" + table)
 
 
 def optimization_table(store):
     found = [result for points in OPTIMIZED if (result := store.get("optimize", points))]
     if not found:
         return ""
-    lines = ["| points | triangles | first certified mesh, s | s | µs of processor a point | grows as n^ | MB of the largest "
-             "process | from the true surface, mm: root mean square; greatest |",
-             "|---:|---:|---:|---:|---:|---:|---:|---:|"]
-    for i, r in enumerate(found):
-        grows = f"{exponent(found[i - 1], r, 'processor'):.2f}" if i else "–"
-        lines.append(f"| {r['points']} | {r['triangles']} | {r['first']:.0f} | {r['seconds']:.0f} | "
-                     f"{1e6 * r['processor'] / r['points']:.0f} | {grows} | {r['bytes'] / 1e6:.0f} | "
-                     f"{1e3 * r['truth']['rms']:.2f}; {1e3 * r['truth']['greatest']:.0f} |")
+    table = growth_table(found, "triangles | first certified mesh, s", lambda r: f"{r['triangles']} | {r['first']:.0f}", 0)
     return (f"`emax optimize --max-error {TOLERANCE} --exclude-outliers {OUTLIERS} --tiles {TILE} --effort quick "
             f"--memory {OPTIMIZE_MEMORY}` of the same scans: reconstruction in tiles, simplified, and decimation in tiles, "
             "two-sided and certified. The distances from the true surface are those of the mesh's vertices; mixed pixels "
-            "that are joined count.\n\n" + "\n".join(lines) + "\n")
+            "that are joined count.\n\n" + table)
 
 
 def error_table(store):
