@@ -4,7 +4,7 @@ docs/benchmarks.md.
 The scans are of the generator's hall, whose surface is known. Each result is kept in
 build/bench/scale/, so that a measurement can be interrupted and continued; --fresh begins anew,
 --most N leaves larger clouds out (1e8: the one of 10^9 points, which is never stored), --only-write
-writes from what is there. All of it takes two hours of two cores and 12 GB of disk.
+writes from what is there. All of it takes two and a half hours of two cores and 12 GB of disk.
 """
 
 import argparse
@@ -12,6 +12,7 @@ import json
 import math
 import os
 import shutil
+import statistics
 import subprocess
 import sys
 import time
@@ -24,13 +25,19 @@ from decimation_bench import say
 PROGRAMS = Path("build/bench/bin")
 FOLDER = Path("build/bench/scale")
 RECONSTRUCTED, MEASURED = [10**5, 10**6, 10**7], [10**6, 10**7, 10**8]
-OPTIMIZED = [10**5, 10**6, 10**7]
+OPTIMIZED = [10**5, 10**6, 10**7, 3 * 10**7]
+EXTRAPOLATED, FITTED = 10**8, 3  # points of `optimize`, from the last so many sizes
+STAGES = {"normals": "normals, oriented along the spanning tree", "holes": "holes closed, one for each hundred points",
+          "far": "far points joined, one of a hundred"}
+STAGED = [10**5, 10**6, 10**7]
 TOLERANCE, OUTLIERS = "5mm", "3%"  # of the hall, whose edges have mixed pixels
 STREAMED = [10**9]  # measured as they are drawn, and never stored
 MEMORY, OPTIMIZE_MEMORY = "500MB", "2GB"
 MESH_POINTS = 10**6  # of whose surface clouds are measured from, in cubes so coarse that it has about 10^6 triangles
 MESH_CUBES = 2
 DRAGON, PERCENT, TILE = Path("data/dragon.ply"), 0.2, 250000
+# A surface of the hall as `optimize --tiles` makes it for its tolerance.
+TILED_HALL, HALL_SURFACE = 2 * 10**6, ["--thin", "2.5mm", "--simplify", "0.625mm", "--set", "imls.cell=2"]
 
 
 class Store(decimation_bench.Store):
@@ -149,17 +156,46 @@ def measure_stream(store, points, mesh):
     store.put(("stream", points), result)
 
 
-def measure_tiles(store):
+def measure_decimation(store, name, words):
+    """As a whole and in tiles."""
     for way, more in (("whole", []), ("tiles", ["--tiles", TILE])):
-        if store.get("decimate", way):
+        if store.get(name, way):
             continue
-        result = run([PROGRAMS / "emax", "decimate", DRAGON, "--max-error", f"{PERCENT}%", "-o", FOLDER / "dragon.ply",
-                      "--threads", 2, *more])
+        result = run([PROGRAMS / "emax", "decimate", *words, "-o", FOLDER / f"{name}-{way}.ply", "--threads", 2, *more])
         result["triangles"] = result.pop("answer")["triangles"]
-        store.put(("decimate", way), result)
+        store.put((name, way), result)
+
+
+def measure_hall_in_tiles(store):
+    if store.get("hall", "tiles"):
+        return
+    mesh = surface(TILED_HALL)
+    if not mesh.exists():
+        run([PROGRAMS / "emax", "reconstruct", scan(TILED_HALL), "-o", mesh, "--unit", "m", *HALL_SURFACE])
+    measure_decimation(store, "hall", [mesh, "--cloud", scan(TILED_HALL), "--unit", "m", "--max-error", TOLERANCE,
+                                       "--exclude-outliers", OUTLIERS, "--effort", "quick"])
+
+
+def measure_stage(store, stage, points):
+    if store.get(stage, points):
+        return
+    begun = time.monotonic()
+    process = subprocess.Popen([PROGRAMS / "emax_growth_benchmark", stage, str(points)], stdout=subprocess.PIPE, text=True)
+    with process.stdout:
+        told = process.stdout.read()
+    used, _ = wait(process, begun, None)
+    if process.returncode:
+        sys.exit(f"bench: emax_growth_benchmark {stage} {points} failed")
+    told = json.loads(told)
+    store.put((stage, points), {"points": told["points"], "seconds": told["seconds"], "processor": told["seconds"],
+                                "bytes": 1024 * used.ru_maxrss})
 
 
 def measure(store, most):
+    for stage in STAGES:
+        for points in STAGED:
+            if points <= most:
+                measure_stage(store, stage, points)
     for points in RECONSTRUCTED:
         if points <= most:
             measure_reconstruction(store, points)
@@ -172,7 +208,8 @@ def measure(store, most):
     for points in STREAMED:
         if points <= most:
             measure_stream(store, points, measured_mesh(store))
-    measure_tiles(store)
+    measure_hall_in_tiles(store)
+    measure_decimation(store, "decimate", [DRAGON, "--max-error", f"{PERCENT}%"])
 
 
 def exponent(small, large, unit):
@@ -212,7 +249,34 @@ def optimization_table(store):
     return (f"`emax optimize --max-error {TOLERANCE} --exclude-outliers {OUTLIERS} --tiles {TILE} --effort quick "
             f"--memory {OPTIMIZE_MEMORY}` of the same scans: reconstruction in tiles, simplified, and decimation in tiles, "
             "two-sided and certified. The distances from the true surface are those of the mesh's vertices; mixed pixels "
-            "that are joined count.\n\n" + table)
+            f"that are joined count.{extrapolation(found)}\n\n" + table)
+
+
+def extrapolation(found):
+    """By a power of the number of points, fitted to the last sizes."""
+    if len(found) < FITTED:
+        return ""
+    last = found[-FITTED:]
+    slope, intercept = statistics.linear_regression([math.log(r["points"]) for r in last],
+                                                    [math.log(r["seconds"]) for r in last])
+    hours = math.exp(intercept + slope * math.log(EXTRAPOLATED)) / 3600
+    return (f" The last {FITTED} sizes grow as n^{slope:.2f} in wall time, by which {EXTRAPOLATED} points would take "
+            f"{hours:.1f} hours.")
+
+
+def stage_table(store):
+    lines = []
+    for stage, text in STAGES.items():
+        found = [result for points in STAGED if (result := store.get(stage, points))]
+        for i, r in enumerate(found):
+            grows = f"{exponent(found[i - 1], r, 'processor'):.2f}" if i else "–"
+            lines.append(f"| {text} | {r['points']} | {r['seconds']:.1f} | {1e6 * r['seconds'] / r['points']:.2f} | {grows} | "
+                         f"{r['bytes'] / r['points']:.0f} |")
+    if not lines:
+        return ""
+    return ("What comes before a decimation, of a wavy sheet as a whole, one thread.\n\n"
+            "| | points | s | µs a point | grows as n^ | bytes a point, of the process |\n|---|---:|---:|---:|---:|---:|\n"
+            + "\n".join(lines) + "\n")
 
 
 def error_table(store):
@@ -234,19 +298,23 @@ def error_table(store):
 
 
 def tiles_text(store):
-    whole, tiles = store.get("decimate", "whole"), store.get("decimate", "tiles")
-    if not whole or not tiles:
-        return ""
-    more = 100 * tiles["triangles"] / whole["triangles"] - 100
-    return (f"`emax decimate` of the dragon at {PERCENT} % of the width, two-sided, two threads: {whole['triangles']} triangles "
-            f"as a whole in {whole['seconds']:.0f} s and {whole['bytes'] / 1e6:.0f} MB; {tiles['triangles']} ({more:+.1f} %) "
-            f"in tiles of {TILE} triangles in {tiles['seconds']:.0f} s and {tiles['bytes'] / 1e6:.0f} MB.\n")
+    told = []
+    for name, text in (("decimate", f"the dragon at {PERCENT} % of the width"),
+                       ("hall", f"a surface of {TILED_HALL} points of the hall at {TOLERANCE}, quick effort")):
+        whole, tiles = store.get(name, "whole"), store.get(name, "tiles")
+        if not whole or not tiles:
+            continue
+        more = 100 * tiles["triangles"] / whole["triangles"] - 100
+        told.append(f"`emax decimate` of {text}, two-sided, two threads: {whole['triangles']} triangles as a whole in "
+                    f"{whole['seconds']:.0f} s and {whole['bytes'] / 1e6:.0f} MB; {tiles['triangles']} ({more:+.1f} %) in "
+                    f"tiles of {TILE} triangles in {tiles['seconds']:.0f} s and {tiles['bytes'] / 1e6:.0f} MB.\n")
+    return "\n".join(told)
 
 
 def section(store):
     return "\n".join(["## Scale\n", "Written by `./dev bench --scale`.\n",
-                      *[part for part in (reconstruction_table(store), optimization_table(store), error_table(store),
-                                   tiles_text(store)) if part]])
+                      *[part for part in (reconstruction_table(store), optimization_table(store), stage_table(store),
+                                   error_table(store), tiles_text(store)) if part]])
 
 
 def main(words, fetch_dragon):

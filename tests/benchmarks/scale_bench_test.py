@@ -36,6 +36,23 @@ class ScaleBenchTest(DocumentsCase):
         self.assertIn("| 100000 | 700 | 30 | 90 | 200 | – | 600 | 1.00; 20 |", told)
         self.assertIn("| 1000000 | 700 | 30 | 90 | 200 | 1.00 | 600 | 1.00; 20 |", told)
 
+    def test_extrapolates_the_last_three_sizes(self):
+        for points, seconds in ((10**5, 1), (10**6, 36), (10**7, 360), (3 * 10**7, 1080)):
+            if points < 10**7:
+                self.assertNotIn("would take", bench.section(self.store))
+            self.store.put(("optimize", points), {"points": points, "triangles": 700, "seconds": seconds, "first": 1,
+                                                  "processor": seconds, "bytes": 6e8,
+                                                  "truth": {"rms": 0.001, "greatest": 0.02}})
+        self.assertIn("grow as n^1.00 in wall time, by which 100000000 points would take 1.0 hours",
+                      bench.section(self.store))
+
+    def test_tells_what_a_stage_takes(self):
+        for points, seconds in ((10**5, 0.5), (10**6, 5)):
+            self.store.put(("far", points), {"points": points, "seconds": seconds, "processor": seconds, "bytes": 700 * points})
+        told = bench.section(self.store)
+        self.assertIn("| 100000 | 0.5 | 5.00 | – | 700 |", told)
+        self.assertIn("| 1000000 | 5.0 | 5.00 | 1.00 | 700 |", told)
+
     def test_tells_when_a_file_is_there(self):
         programs = Path("programs")
         programs.mkdir()
