@@ -20,6 +20,7 @@ EMAX = Path("build/bench/bin/emax")
 CASES = [("bunny-9k", Path("data/bunny00.off"), Path("build/bench/cases/bunny-quadric-9000.ply")),
          ("dragon-20k", Path("data/dragon.ply"), Path("build/bench/cases/dragon-quadric-20000.ply"))]
 ROUNDS = 7
+CLOUDCOMPARE, OFFSCREEN = ["CloudCompare", "-SILENT", "-AUTO_SAVE", "OFF"], {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 TOLERANCE = 1e-5  # relative; peers compute in float
 
 
@@ -30,9 +31,8 @@ def emax(cloud, mesh, folder):
 
 
 def cloudcompare(cloud, mesh, folder):
-    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
-    said = subprocess.run(["CloudCompare", "-SILENT", "-AUTO_SAVE", "OFF", "-O", cloud, "-O", mesh, "-C2M_DIST"],
-                          check=True, cwd=folder, env=environment, capture_output=True, text=True).stdout
+    said = subprocess.run([*CLOUDCOMPARE, "-O", cloud, "-O", mesh, "-C2M_DIST"], check=True, cwd=folder, env=OFFSCREEN,
+                          capture_output=True, text=True).stdout
     if not re.search(r"Mean distance = \S+", said):
         raise RuntimeError("CloudCompare measured nothing:\n" + said)
     return None  # its command line tells the mean alone

@@ -19,12 +19,14 @@ import time
 from pathlib import Path
 
 import decimation_bench
+import error_bench
 import sections
 from decimation_bench import say
 
 PROGRAMS = Path("build/bench/bin")
 FOLDER = Path("build/bench/scale")
 RECONSTRUCTED, MEASURED = [10**5, 10**6, 10**7], [10**6, 10**7, 10**8]
+BESIDE = [10**7, 10**8]  # of these, also by CloudCompare
 OPTIMIZED = [10**5, 10**6, 10**7, 3 * 10**7]
 EXTRAPOLATED, FITTED = 10**8, 3  # points of `optimize`, from the last so many sizes
 STAGES = {"normals": "normals, oriented along the spanning tree", "holes": "holes closed, one for each hundred points",
@@ -32,7 +34,7 @@ STAGES = {"normals": "normals, oriented along the spanning tree", "holes": "hole
 STAGED = [10**5, 10**6, 10**7]
 TOLERANCE, OUTLIERS = "5mm", "3%"  # of the hall, whose edges have mixed pixels
 STREAMED = [10**9]  # measured as they are drawn, and never stored
-MEMORY, OPTIMIZE_MEMORY = "500MB", "2GB"
+MEMORY, OPTIMIZE_MEMORY = "1GB", "2GB"
 MESH_POINTS = 10**6  # of whose surface clouds are measured from, in cubes so coarse that it has about 10^6 triangles
 MESH_CUBES = 2
 DRAGON, PERCENT, TILE = Path("data/dragon.ply"), 0.2, 250000
@@ -143,6 +145,22 @@ def measure_error(store, points):
         scan(points).unlink()
 
 
+def measure_peer(store, points):
+    """CloudCompare beside `emax error`, both from PLY."""
+    if store.get("peer", points) or not shutil.which("CloudCompare"):
+        return
+    mesh, cloud = measured_mesh(store).resolve(), (FOLDER / "cloud.ply").resolve()
+    subprocess.run([PROGRAMS / "emax_scan", "hall", "--points", str(points), "-o", cloud], check=True, stderr=subprocess.DEVNULL)
+    own = run([PROGRAMS / "emax", "error", cloud, mesh, "--memory", MEMORY])
+    begun = time.monotonic()
+    process = subprocess.Popen(error_bench.CLOUDCOMPARE + ["-O", cloud, "-O", mesh, "-C2M_DIST"], cwd=FOLDER,
+                               env=error_bench.OFFSCREEN, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    used, _ = wait(process, begun, None)
+    cloud.unlink()
+    store.put(("peer", points), {"points": own.pop("answer")["points"], "emax": own, "failed": process.returncode != 0,
+                                 "seconds": time.monotonic() - begun, "bytes": 1024 * used.ru_maxrss})
+
+
 def measure_stream(store, points, mesh):
     if store.get("stream", points):
         return
@@ -205,6 +223,9 @@ def measure(store, most):
     for points in MEASURED:
         if points <= most:
             measure_error(store, points)
+    for points in BESIDE:
+        if points <= most:
+            measure_peer(store, points)
     for points in STREAMED:
         if points <= most:
             measure_stream(store, points, measured_mesh(store))
@@ -294,7 +315,21 @@ def error_table(store):
                    f"{r['processor']:.0f} s of processor." for r in streamed)
     return (f"`emax error` of the hall's scans against the surface of the one of 10^6 points in cubes of two spacings, {found[0]['triangles']} "
             f"triangles, with `--memory {MEMORY}`: wall time of the whole command on two cores, which reads and checks the "
-            f"mesh, and resident size as the system counts it.{told}\n\n" + "\n".join(lines) + "\n")
+            f"mesh, and resident size as the system counts it.{told}{peer_text(store)}\n\n" + "\n".join(lines) + "\n")
+
+
+def peer_text(store):
+    told = ""
+    for points in BESIDE:
+        r = store.get("peer", points)
+        if not r:
+            continue
+        if r["failed"]:
+            told += f" CloudCompare ends with an error at {r['points']} points, after {r['seconds']:.0f} s."
+            continue
+        told += (f" CloudCompare {error_bench.version('cloudcompare')} takes {r['seconds']:.1f} s and {r['bytes'] / 1e6:.0f} MB for "
+                 f"{r['points']} points from PLY, `emax error` {r['emax']['seconds']:.1f} s and {r['emax']['bytes'] / 1e6:.0f} MB.")
+    return told
 
 
 def tiles_text(store):

@@ -71,6 +71,16 @@ class ScaleBenchTest(DocumentsCase):
         self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
         self.assertIn("| 1000000 | 0.5 | 500 | 300 |", bench.section(self.store))
 
+    def test_tells_what_a_peer_takes(self):
+        self.put_reconstruction(10**6, 40)
+        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
+        self.store.put(("peer", 10**7), {"points": 10**7, "seconds": 30, "bytes": 5e8, "failed": False,
+                                         "emax": {"seconds": 6, "bytes": 7e8}})
+        self.store.put(("peer", 10**8), {"points": 10**8, "seconds": 9, "bytes": 5e8, "failed": True, "emax": {}})
+        told = bench.section(self.store)
+        self.assertIn("takes 30.0 s and 500 MB for 10000000 points from PLY, `emax error` 6.0 s and 700 MB.", told)
+        self.assertIn("CloudCompare ends with an error at 100000000 points, after 9 s.", told)
+
     def test_tells_what_was_streamed(self):
         self.put_reconstruction(10**6, 40)
         self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
