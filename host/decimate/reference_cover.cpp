@@ -18,8 +18,35 @@ constexpr int kMostHalvings = 5;
 // A cut by secants leaves at least this share of a side at either end.
 constexpr double kLeastPart = 1.0 / 16;
 
+// Squared, of the sum of two unit normals: less is a fold.
+constexpr double kLeastTurn = 0.01;
+// A cut that leaves less than this share of both sides at one end cuts nothing.
+constexpr double kNoPart = 1e-6;
+
 // A triangle of the mesh: a slot, or with this bit the index of one that an edit adds.
 constexpr std::uint32_t kAdded = 1u << 31;
+
+// The corner whose side is not that of the two others; 3 if there is none.
+std::size_t lone_of(const std::array<double, 3>& side) {
+  std::size_t lone = 0;
+  while (lone < 3 && ((side[lone] > 0) == (side[(lone + 1) % 3] > 0) ||
+                      (side[lone] > 0) == (side[(lone + 2) % 3] > 0))) {
+    ++lone;
+  }
+  return lone;
+}
+
+// Of the way from the lone corner to another one, where the sides change.
+double share_of(const std::array<double, 3>& side, std::size_t lone, std::size_t to) {
+  return side[lone] / (side[lone] - side[to]);
+}
+
+// Whether both parts that a cut leaves are smaller than the whole.
+bool separates(const std::array<double, 3>& side) {
+  const std::size_t lone = lone_of(side);
+  const double a = share_of(side, lone, (lone + 1) % 3), b = share_of(side, lone, (lone + 2) % 3);
+  return std::max(a, b) > kNoPart && std::min(a, b) < 1 - kNoPart;
+}
 
 }  // namespace
 
@@ -358,80 +385,87 @@ ReferenceCover::Corner ReferenceCover::labelled(const Point& at,
   return {at, within ? id : kNoIndex};
 }
 
-// Cuts the piece between two triangles of the mesh that its corners are near to. If they share an
-// edge, the cut is along the plane that halves the angle between them, else where their distances
-// are equal.
-bool ReferenceCover::cut(const Piece& piece, Around& around) {
-  std::uint32_t one = kNoIndex, other = kNoIndex;
-  std::array<std::uint32_t, 2> edge{};
-  bool adjacent = false;
-  for (std::size_t i = 0; i < 3 && !adjacent; ++i) {
+// Two triangles of the mesh that corners of the piece are near to, adjacent ones if possible.
+ReferenceCover::Seam ReferenceCover::seam_under(const Piece& piece, const Around& around) {
+  Seam seam;
+  for (std::size_t i = 0; i < 3 && !seam.adjacent; ++i) {
     const std::uint32_t s = piece[i].near, t = piece[(i + 1) % 3].near;
     if (s == t) continue;
-    one = s;
-    other = t;
+    seam.one = s;
+    seam.other = t;
     std::size_t shared = 0;
     for (const std::uint32_t v : around.corners(s)) {
-      if (has(around.corners(t), v) && shared < 2) edge[shared++] = v;
+      if (has(around.corners(t), v) && shared < 2) seam.edge[shared++] = v;
     }
-    adjacent = shared == 2;
+    seam.adjacent = shared == 2;
   }
-  std::array<double, 3> side;  // positive where nearer to `other`
-  bool by_plane = false;
-  if (adjacent) {
-    const std::array<Point, 3> s = around.points(one), t = around.points(other);
-    const Point normals = (s[1] - s[0]).cross(s[2] - s[0]).normalized() +
-                          (t[1] - t[0]).cross(t[2] - t[0]).normalized();
-    const auto place = [&](std::uint32_t id, std::uint32_t v) {
-      const Triangle& triangle = around.corners(id);
-      const auto at = static_cast<std::size_t>(std::ranges::find(triangle, v) - triangle.begin());
-      return (id == one ? s : t)[at];
-    };
-    const Point from = place(one, edge[0]);
-    Point across = (place(one, edge[1]) - from).cross(normals);
-    const Point apex = place(other, opposite(around.corners(other), edge[0], edge[1])) - from;
-    if (across.dot(apex) < 0) across = -across;
-    for (std::size_t i = 0; i < 3; ++i) side[i] = across.dot(piece[i].at - from);
-    by_plane = normals.squaredNorm() > 0.01;
+  return seam;
+}
+
+// Of each corner, from the plane that halves the angle between two adjacent triangles: positive
+// where it is on the other's side. Nothing where they are folded onto each other.
+std::optional<std::array<double, 3>> ReferenceCover::sides_of_plane(const Piece& piece,
+                                                                    const Seam& seam,
+                                                                    const Around& around) {
+  const std::array<Point, 3> s = around.points(seam.one), t = around.points(seam.other);
+  const Point normals =
+      (s[1] - s[0]).cross(s[2] - s[0]).normalized() + (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  if (!(normals.squaredNorm() > kLeastTurn)) return std::nullopt;
+  const auto place = [&](std::uint32_t id, std::uint32_t v) {
+    const Triangle& triangle = around.corners(id);
+    const auto at = static_cast<std::size_t>(std::ranges::find(triangle, v) - triangle.begin());
+    return (id == seam.one ? s : t)[at];
+  };
+  const Point from = place(seam.one, seam.edge[0]);
+  Point across = (place(seam.one, seam.edge[1]) - from).cross(normals);
+  const std::uint32_t apex = opposite(around.corners(seam.other), seam.edge[0], seam.edge[1]);
+  if (across.dot(place(seam.other, apex) - from) < 0) across = -across;
+  std::array<double, 3> side;
+  for (std::size_t i = 0; i < 3; ++i) side[i] = across.dot(piece[i].at - from);
+  return side;
+}
+
+// By the distances: positive where the other triangle is nearer.
+std::array<double, 3> ReferenceCover::sides_by_distance(const Piece& piece, const Seam& seam,
+                                                        const Around& around) {
+  std::array<double, 3> side;
+  for (std::size_t i = 0; i < 3; ++i) {
+    side[i] = std::sqrt(around.squared_distance_to(piece[i].at, seam.one)) -
+              std::sqrt(around.squared_distance_to(piece[i].at, seam.other));
   }
-  if (!by_plane) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      side[i] = std::sqrt(around.squared_distance_to(piece[i].at, one)) -
-                std::sqrt(around.squared_distance_to(piece[i].at, other));
+  return side;
+}
+
+// Cuts the piece between two triangles of the mesh that its corners are near to. If they share an
+// edge, the cut is along the plane that halves the angle between them, else where their distances
+// are equal. Corners that an earlier cut put onto that plane may be beyond the limit of one of the
+// triangles, as it ends before them; cut there again the piece would stay as it is.
+bool ReferenceCover::cut(const Piece& piece, Around& around) {
+  const Seam seam = seam_under(piece, around);
+  if (seam.adjacent) {
+    const std::optional<std::array<double, 3>> side = sides_of_plane(piece, seam, around);
+    if (side && (lone_of(*side) == 3 || separates(*side))) {
+      return cut(piece, seam, *side, 0, around);
     }
   }
-  std::size_t lone = 0;
-  while (lone < 3 && ((side[lone] > 0) == (side[(lone + 1) % 3] > 0) ||
-                      (side[lone] > 0) == (side[(lone + 2) % 3] > 0))) {
-    ++lone;
-  }
+  return cut(piece, seam, sides_by_distance(piece, seam, around), kLeastPart, around);
+}
+
+bool ReferenceCover::cut(const Piece& piece, const Seam& seam, const std::array<double, 3>& side,
+                         double least_part, Around& around) {
+  const std::size_t lone = lone_of(side);
+  if (lone == 3) return halve(piece, around);
   const auto between = [&](std::size_t i, std::size_t j, double share) {
     return Point(piece[i].at + share * (piece[j].at - piece[i].at));
   };
-  if (lone == 3) {
-    std::size_t longest = 0;
-    double length = -1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double squared = (piece[(i + 1) % 3].at - piece[i].at).squaredNorm();
-      if (squared <= length) continue;
-      length = squared;
-      longest = i;
-    }
-    const Corner &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
-    const Corner middle = labelled(0.5 * (a.at + b.at), {a.near, b.near}, around);
-    if (middle.near == kNoIndex) return false;
-    pieces_.push_back({a, middle, c});
-    pieces_.push_back({middle, b, c});
-    return true;
-  }
   const std::size_t i = (lone + 1) % 3, j = (lone + 2) % 3;
   const auto share = [&](std::size_t k) {
-    const double at = side[lone] / (side[lone] - side[k]);
-    return by_plane ? std::clamp(at, 0.0, 1.0) : std::clamp(at, kLeastPart, 1 - kLeastPart);
+    return std::clamp(share_of(side, lone, k), least_part, 1 - least_part);
   };
   const Point x = between(lone, i, share(i)), y = between(lone, j, share(j));
   const bool lone_is_other = side[lone] > 0;
-  const std::uint32_t here = lone_is_other ? other : one, there = lone_is_other ? one : other;
+  const std::uint32_t here = lone_is_other ? seam.other : seam.one;
+  const std::uint32_t there = lone_is_other ? seam.one : seam.other;
   const Corner x_here = labelled(x, {here, there}, around);
   const Corner y_here = labelled(y, {here, there}, around);
   const Corner x_there = labelled(x, {there, here}, around);
@@ -445,6 +479,24 @@ bool ReferenceCover::cut(const Piece& piece, Around& around) {
     pieces_.push_back({x_there, piece[i], y_there});
     pieces_.push_back({y_there, piece[i], piece[j]});
   }
+  return true;
+}
+
+// At its longest side.
+bool ReferenceCover::halve(const Piece& piece, Around& around) {
+  std::size_t longest = 0;
+  double length = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double squared = (piece[(i + 1) % 3].at - piece[i].at).squaredNorm();
+    if (squared <= length) continue;
+    length = squared;
+    longest = i;
+  }
+  const Corner &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
+  const Corner middle = labelled(0.5 * (a.at + b.at), {a.near, b.near}, around);
+  if (middle.near == kNoIndex) return false;
+  pieces_.push_back({a, middle, c});
+  pieces_.push_back({middle, b, c});
   return true;
 }
 

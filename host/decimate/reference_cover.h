@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -87,7 +88,21 @@ class ReferenceCover {
   Corner labelled(const Point& at, std::initializer_list<std::uint32_t> likely,
                   Around& around) const;
   bool cover(const Piece& whole, Around& around);
+  // Where a piece may be cut.
+  struct Seam {
+    std::uint32_t one = kNoIndex, other = kNoIndex;  // triangles of the mesh
+    std::array<std::uint32_t, 2> edge{};             // that they share
+    bool adjacent = false;
+  };
+  static Seam seam_under(const Piece& piece, const Around& around);
+  static std::optional<std::array<double, 3>> sides_of_plane(const Piece& piece, const Seam& seam,
+                                                             const Around& around);
+  static std::array<double, 3> sides_by_distance(const Piece& piece, const Seam& seam,
+                                                 const Around& around);
   bool cut(const Piece& piece, Around& around);
+  bool cut(const Piece& piece, const Seam& seam, const std::array<double, 3>& side,
+           double least_part, Around& around);
+  bool halve(const Piece& piece, Around& around);
   void use(std::uint32_t id);
   void add_support(std::uint32_t triangle, std::uint32_t slot);
   void drop_supports(std::uint32_t triangle);
