@@ -177,14 +177,11 @@ class DecimateCommand {
       begin_tiles();
       reference_ = tiled_->make_reference(wishes);
     } else {
-      kept_ = choose_kept(scan(), given_.view(), epsilon_, excludable(), wishes.threads);
-      find_planes();
-      if (closes_holes()) wishes.planes = settings_.decimation.planes.get();
-      wishes.plane_epsilon = epsilon_;
-      wishes.plane_farthest = hole_reach_.value_or(epsilon_);
-      progress_.begin("making the reference surface", joining_seconds(pieces_->points()));
-      reference_ =
-          emax::make_reference(given_, kept_.points, kFar * epsilon_, wishes, was_interrupted);
+      KeptReference made = reference_with_room(
+          scan(), given_.view(), epsilon_, excludable(), wishes.threads,
+          [&](const KeptPoints& kept) { return reference_of(kept.points, wishes); });
+      kept_ = std::move(made.kept);
+      reference_ = std::move(made.reference);
     }
     if (was_interrupted()) throw Interrupted{};
     has_begun_ = true;
@@ -198,6 +195,15 @@ class DecimateCommand {
     check_distinct({reference_file(), options_.json, report.report, report.picture},
                    {options_.mesh, options_.cloud});
     file_.emplace(reference_file(), mesh, scan().cloud.points);
+  }
+
+  GivenReference reference_of(std::span<const Point> kept, ReferenceWishes wishes) {
+    find_planes(kept);
+    if (closes_holes()) wishes.planes = settings_.decimation.planes.get();
+    wishes.plane_epsilon = epsilon_;
+    wishes.plane_farthest = hole_reach_.value_or(epsilon_);
+    progress_.begin("making the reference surface", joining_seconds(pieces_->points()));
+    return emax::make_reference(given_, kept, kFar * epsilon_, wishes, was_interrupted);
   }
 
   void begin_tiles() {
@@ -233,11 +239,11 @@ class DecimateCommand {
   }
 
   // The planes that vertices are to lie on, for the present tolerance.
-  void find_planes() {
+  void find_planes(std::span<const Point> kept) {
     if (options_.features == "none") return;
-    progress_.begin("searching planes", joining_seconds(kept_.points.size()));
+    progress_.begin("searching planes", joining_seconds(kept.size()));
     settings_.decimation.planes = std::make_shared<const PlaneParts>(
-        find_plane_parts(kept_.points, epsilon_, settings_.decimation.threads, [] {
+        find_plane_parts(kept, epsilon_, settings_.decimation.threads, [] {
           if (was_interrupted()) throw Interrupted{};
         }));
     settings_.decimation.without_planes_too = options_.features == "auto";
@@ -279,7 +285,7 @@ class DecimateCommand {
     std::vector<MadeReport> reports;
     for (const ToleratedMesh& bound : bounds_) {
       set_bound(bound);
-      find_planes();
+      find_planes(kept_.points);
       progress_.begin("assigning the points", joining_seconds(kept_.points.size()));
       result_ = decimate_certified(
           reference_.surface.mesh, ProvenPoints(kept_.points), settings_,

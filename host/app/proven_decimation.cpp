@@ -1,8 +1,9 @@
 #include "host/app/proven_decimation.h"
 
 #include <algorithm>
-#include <string>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "host/parameters/registry.h"
 #include "sw_model/base/parallel.h"
@@ -10,12 +11,14 @@
 namespace emax {
 namespace {
 
-std::vector<std::uint32_t> farthest_beyond(const Scan& scan, MeshView mesh, double epsilon,
-                                           std::size_t excludable, std::size_t threads) {
-  if (excludable == 0) return {};
+constexpr int kTries = 4;  // to make room
+
+using Beyond = std::vector<std::pair<double, std::uint32_t>>;  // -distance, index
+
+// The farthest first.
+Beyond points_beyond(const Scan& scan, MeshView mesh, double epsilon, std::size_t threads) {
   constexpr std::size_t kPiece = 4096;
   const ExactMesh exact(mesh);
-  using Beyond = std::vector<std::pair<double, std::uint32_t>>;
   std::vector<Beyond> of_thread(std::max<std::size_t>(threads, 1));
   in_pieces(threads, scan.cloud.points.size(), kPiece,
             [&](std::size_t thread, std::size_t first, std::size_t last) {
@@ -28,25 +31,56 @@ std::vector<std::uint32_t> farthest_beyond(const Scan& scan, MeshView mesh, doub
   Beyond beyond;
   for (const Beyond& some : of_thread) beyond.insert(beyond.end(), some.begin(), some.end());
   std::ranges::sort(beyond);
-  beyond.resize(std::min(beyond.size(), excludable));
-  std::vector<std::uint32_t> points;
-  for (const auto& [distance, i] : beyond) points.push_back(i);
-  std::ranges::sort(points);
-  return points;
+  return beyond;
 }
 
-}  // namespace
-
-KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable,
-                       std::size_t threads) {
+KeptPoints without(const Scan& scan, std::span<const Beyond::value_type> outliers) {
   KeptPoints kept;
-  kept.outliers = farthest_beyond(scan, mesh, epsilon, excludable, threads);
+  for (const auto& [distance, i] : outliers) kept.outliers.push_back(i);
+  std::ranges::sort(kept.outliers);
   for (std::uint32_t i = 0; i < scan.cloud.points.size(); ++i) {
     if (std::ranges::binary_search(kept.outliers, i)) continue;
     kept.points.push_back(scan.cloud.points[i]);
     kept.index.push_back(i);
   }
   return kept;
+}
+
+// Of those that were not joined to the reference.
+std::size_t count_beyond(const GivenReference& reference, std::span<const Point> points,
+                         double epsilon) {
+  const std::vector<std::uint32_t>& left_out = reference.surface.left_out;
+  if (left_out.empty()) return 0;
+  const ExactMesh exact(reference.surface.mesh.view());
+  return static_cast<std::size_t>(std::ranges::count_if(
+      left_out, [&](std::uint32_t p) { return exact.distance(points[p]).upper > epsilon; }));
+}
+
+}  // namespace
+
+std::optional<std::size_t> fewer_excluded(std::size_t excluded, std::size_t missed,
+                                          std::size_t excludable, int tries) {
+  if (excluded + missed <= excludable || tries == kTries) return std::nullopt;
+  const std::size_t released = 2 * (excluded + missed - excludable);  // not all can be joined
+  if (released > excluded) return std::nullopt;
+  return excluded - released;
+}
+
+KeptReference reference_with_room(const Scan& scan, MeshView mesh, double epsilon,
+                                  std::size_t excludable, std::size_t threads,
+                                  const std::function<GivenReference(const KeptPoints&)>& make) {
+  Beyond beyond;
+  if (excludable > 0) beyond = points_beyond(scan, mesh, epsilon, threads);
+  std::size_t excluded = std::min(beyond.size(), excludable);
+  for (int tries = 0;; ++tries) {
+    KeptReference found;
+    found.kept = without(scan, std::span(beyond).first(excluded));
+    found.reference = make(found.kept);
+    const std::size_t missed = count_beyond(found.reference, found.kept.points, epsilon);
+    const std::optional<std::size_t> fewer = fewer_excluded(excluded, missed, excludable, tries);
+    if (!fewer) return found;
+    excluded = *fewer;
+  }
 }
 
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "host/app/certified_result.h"
+#include "host/app/given_reference.h"
 #include "host/decimate/certified_decimation.h"
 
 namespace emax {
@@ -17,9 +19,23 @@ struct KeptPoints {
   std::vector<std::uint32_t> index;     // of these in the cloud
 };
 
-// Leaves out the points farthest beyond `epsilon` from the mesh, at most `excludable` of them.
-KeptPoints choose_kept(const Scan& scan, MeshView mesh, double epsilon, std::size_t excludable,
-                       std::size_t threads = 1);
+// Where the farthest points take all that may be excluded, and `missed` others cannot be joined to
+// the mesh, the nearest of the former make room: most of them can be joined. How many stay excluded
+// then; nothing where there is room, or none can be made. `tries`: how often that was asked before.
+std::optional<std::size_t> fewer_excluded(std::size_t excluded, std::size_t missed,
+                                          std::size_t excludable, int tries);
+
+struct KeptReference {
+  KeptPoints kept;
+  GivenReference reference;
+};
+
+// Leaves out the points farthest beyond `epsilon` from the mesh, at most `excludable` of them and
+// fewer where others need the room. `make` gives the reference of those that are kept, and is
+// called up to five times. O(n log n) beside that.
+KeptReference reference_with_room(const Scan& scan, MeshView mesh, double epsilon,
+                                  std::size_t excludable, std::size_t threads,
+                                  const std::function<GivenReference(const KeptPoints&)>& make);
 
 // Decimates the reference under the bounds of `settings`, and certifies every point of the scan.
 CertifiedDecimation decimate_scan(const TriangleMesh& reference, const Scan& scan,

@@ -11,6 +11,7 @@
 #include "host/app/interrupt.h"
 #include "host/app/piece_runner.h"
 #include "host/app/point_claims.h"
+#include "host/app/proven_decimation.h"
 #include "host/tiles/tiled_decimation.h"
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
@@ -24,7 +25,6 @@ constexpr std::uint64_t kLeastOfPart = 1 << 16, kMostParts = 4096;
 constexpr std::uint64_t kSample = 1 << 12;           // points that stand for all
 constexpr int kLooks = 8;                            // for points that the mesh was moved away from
 constexpr double kAround = 4, kFarthestAround = 64;  // times `far`; twice that with each look
-constexpr int kChoices = 4;  // of the points that are excluded, but for the first
 constexpr std::uint64_t kBytesPerFarPoint = 128;
 
 bool has(std::span<const std::uint32_t> ascending, std::uint32_t number) {
@@ -194,20 +194,17 @@ std::vector<NumberedPoint> TiledScan::far_points() const {
   return far;
 }
 
-// Where the farthest points take all that may be excluded, and others cannot be joined, the nearest
-// of the former make room: most of them can be joined.
 GivenReference TiledScan::make_reference(const ReferenceWishes& wishes) {
   std::vector<NumberedPoint> kept = sample();
-  for (int choice = 0;; ++choice) {
+  for (int tries = 0;; ++tries) {
     const std::vector<NumberedPoint> far = far_points();
     add(far, kept);
-    if (choice == 0) add_around(far, kAround * settings_.far, kept);
+    if (tries == 0) add_around(far, kAround * settings_.far, kept);
     Joined joined = join(wishes, kept);
-    const std::size_t excluded = outliers_.size() + joined.missed;
-    const std::size_t over = excluded - std::min(excluded, settings_.excludable);
-    const std::size_t released = 2 * over;  // as some of these cannot be joined either
-    if (over == 0 || released > outliers_.size() || choice == kChoices) return joined.reference;
-    exclude_farthest(outliers_.size() - released);
+    const std::optional<std::size_t> fewer =
+        fewer_excluded(outliers_.size(), joined.missed, settings_.excludable, tries);
+    if (!fewer) return joined.reference;
+    exclude_farthest(*fewer);
   }
 }
 

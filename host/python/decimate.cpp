@@ -57,10 +57,11 @@ class ArrayDecimation {
   CertifiedMesh run() {
     const auto start = std::chrono::steady_clock::now();
     const auto stopped = [this] { return watch_.stopped(); };
-    const KeptPoints kept = choose_kept(scan_, mesh_.view(), epsilon_, excludable_);
-    const GivenReference reference =
-        make_reference(mesh_, kept.points, epsilon_ / 2,
-                       {.repair = question_.repair, .closed = question_.closed}, stopped);
+    const auto [kept, reference] = reference_with_room(
+        scan_, mesh_.view(), epsilon_, excludable_, 1, [&](const KeptPoints& points) {
+          return make_reference(mesh_, points.points, epsilon_ / 2,
+                                {.repair = question_.repair, .closed = question_.closed}, stopped);
+        });
     if (stopped()) throw Interrupted{};
     CertifiedDecimationSettings settings = this->settings();
     settings.decimation.interrupted = [&] {

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "host/app/proven_decimation.h"
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "tests/host/support/surfaces.h"
@@ -115,6 +116,33 @@ TEST(TiledScan, ExcludesWhatCannotBeJoined) {
   const auto beyond = std::ranges::count_if(
       points, [&](const Point& p) { return reference.distance(p).upper > kTolerance; });
   EXPECT_LE(beyond, 8);
+}
+
+TEST(ReferenceWithRoom, ExcludesWhatCannotBeJoined) {
+  SpikedSheet sheet(2500);
+  std::vector<Point>& points = sheet.scan.cloud.points;
+  for (int i = 0; i < 3; ++i) points.push_back({0.5, 0.5, 0.5 + 0.1 * i});
+  std::vector<std::size_t> excluded;
+  const KeptReference made = reference_with_room(
+      sheet.scan, sheet.mesh.view(), kTolerance, 8, 1, [&](const KeptPoints& kept) {
+        excluded.push_back(kept.outliers.size());
+        return make_reference(sheet.mesh, kept.points, kTolerance / 2, {}, nullptr);
+      });
+  ASSERT_GT(excluded.size(), 1u);
+  EXPECT_EQ(excluded.front(), 8u);
+  EXPECT_LT(excluded.back(), 8u);
+  const ExactMesh reference(made.reference.surface.mesh.view());
+  const auto beyond = std::ranges::count_if(
+      points, [&](const Point& p) { return reference.distance(p).upper > kTolerance; });
+  EXPECT_LE(beyond, 8);
+}
+
+TEST(ReferenceWithRoom, TakesTwiceTheRoomThatIsMissing) {
+  EXPECT_EQ(fewer_excluded(8, 0, 8, 0), std::nullopt);
+  EXPECT_EQ(fewer_excluded(8, 3, 8, 0), 2u);
+  EXPECT_EQ(fewer_excluded(2, 6, 8, 1), std::nullopt);
+  EXPECT_EQ(fewer_excluded(8, 5, 8, 0), std::nullopt);  // more than there are
+  EXPECT_EQ(fewer_excluded(8, 3, 8, 4), std::nullopt);
 }
 
 TEST(TiledScan, SaysWhereTooManyPointsAreFar) {
