@@ -49,6 +49,8 @@ struct FileContent {
   bool has_classes = false;  // the format gives each point a class
   // A mesh is read with vertices of equal coordinates merged.
   bool repeats_vertices = false;
+  // Of a part: the numbers of its vertices in the file, where these have numbers.
+  std::vector<std::uint32_t> vertex_numbers;
 
   // Gives the points to `take` as they come, at most `points` at a time, and holds no more than
   // these; normals and triangles are not kept.
@@ -97,6 +99,7 @@ struct FileContent {
     vertices.clear();
     triangles.clear();
     fans.clear();
+    vertex_numbers.clear();
   }
   // The points that the piece has room for.
   std::size_t room() const { return piece_points - vertices.size(); }
@@ -236,10 +239,13 @@ void read_xyz(const InputStream& input, FileContent& content);
 void read_pts(const InputStream& input, FileContent& content);
 // Several scans, each with a grid of cells and a pose. Empty cells (0 0 0) are left out.
 void read_ptx(const InputStream& input, FileContent& content);
-// How many faces or triangles the header of a file promises whose content may be taken in parts.
-// Nothing for other files: PLY as text, with strips of triangles, with lists in front of the faces
-// or faces in front of the vertices; STL as text. Throws Error where the header is wrong.
-std::optional<std::uint64_t> ply_faces_in_parts(const InputStream& input);
+// How many faces, vertices or triangles the header of a file promises whose content may be taken in
+// parts. Nothing for other files: PLY as text, with strips of triangles, with lists in front of the
+// faces or faces in front of the vertices; STL as text. Throws Error where the header is wrong.
+struct PlyCounts {
+  std::uint64_t faces = 0, vertices = 0;
+};
+std::optional<PlyCounts> ply_counts_in_parts(const InputStream& input);
 std::optional<std::uint64_t> stl_triangles_in_parts(const InputStream& input);
 void read_stl_in_parts(const InputStream& input, FileContent& content);
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "host/files/input_file.h"
 #include "host/geometry/triangle_mesh.h"
@@ -14,6 +15,8 @@ namespace emax {
 struct MeshPart {
   TriangleMesh mesh;
   std::uint32_t first = 0;  // the number of the first triangle in the mesh
+  // Those of the vertices in the mesh. Empty where vertices are equal if their positions are (STL).
+  std::vector<std::uint32_t> vertex_numbers;
 };
 
 // A mesh in a file, of which a part at a time is in memory. It may be read any number of times.
@@ -25,6 +28,9 @@ class MeshParts {
   // How many triangles the header promises; polygons count once. Nothing where the file has to be
   // held whole. Binary PLY with the vertices before the faces, and binary STL, are read in parts.
   const std::optional<std::uint64_t>& promised() const { return promised_; }
+  // How many vertices it has, used or not. Nothing where the triangles repeat them (STL).
+  const std::optional<std::uint64_t>& vertices() const { return vertices_; }
+  const NamedInput& input() const { return input_; }
 
   // Gives the triangles that read_mesh_file() gives, in their order, `most` at a time or as many
   // more as the last polygon has. Returns their number. Refuses what read_mesh_file() refuses; a
@@ -35,7 +41,7 @@ class MeshParts {
  private:
   InputStream input_;
   bool is_stl_;
-  std::optional<std::uint64_t> promised_;
+  std::optional<std::uint64_t> promised_, vertices_;
 };
 
 }  // namespace emax

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "host/files/file_content.h"
 #include "host/files/ply_header.h"
@@ -320,6 +321,7 @@ class Body {
         v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
       }
     }
+    content_.vertex_numbers = std::move(used);
   }
 
   static Point three_of(const std::vector<double>& item, const std::array<std::size_t, 3>& at) {

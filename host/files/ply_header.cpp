@@ -92,19 +92,22 @@ PlyHeader read_ply_header(const InputStream& input) {
   return header;
 }
 
-std::optional<std::uint64_t> ply_faces_in_parts(const InputStream& input) {
+std::optional<PlyCounts> ply_counts_in_parts(const InputStream& input) {
   const PlyHeader header = read_ply_header(input);
   bool has_vertices = false;
-  std::uint64_t faces = 0;
+  PlyCounts counts;
   for (const PlyElement& element : header.elements) {
     const auto is_list = [](const PlyProperty& p) { return p.list_count.has_value(); };
     const bool has_lists = std::ranges::any_of(element.properties, is_list);
     if (!has_vertices && has_lists) return std::nullopt;
-    has_vertices = has_vertices || element.name == "vertex";
+    if (element.name == "vertex") {
+      has_vertices = true;
+      counts.vertices = element.count;
+    }
     if (element.name == "tristrips") return std::nullopt;
-    if (element.name == "face") faces = element.count;
+    if (element.name == "face") counts.faces = element.count;
   }
-  return header.text ? std::nullopt : std::optional(faces);
+  return header.text ? std::nullopt : std::optional(counts);
 }
 
 }  // namespace emax

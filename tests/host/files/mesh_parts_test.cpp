@@ -61,8 +61,10 @@ TEST(MeshParts, AreTheWholeMesh) {
   write_mesh(folder / "sphere.stl", {s.vertices, s.triangles});
   folder.write("polygons.ply", polygons());
   for (const char* file : {"sphere.ply", "sphere.stl", "polygons.ply"}) {
-    const Corners whole = corners_of(read_mesh(folder / file));
+    const TriangleMesh all = read_mesh(folder / file);
+    const Corners whole = corners_of(all);
     const MeshParts mesh(folder / file);
+    EXPECT_EQ(mesh.vertices().value_or(all.vertices.size()), all.vertices.size());
     ASSERT_TRUE(mesh.promised()) << file;
     EXPECT_LE(*mesh.promised(), whole.size());
     for (const std::size_t most : {1u, 7u, 100u, 1000u}) {
@@ -72,6 +74,10 @@ TEST(MeshParts, AreTheWholeMesh) {
         EXPECT_LE(part.mesh.triangles.size(), most + 5);  // the last polygon has up to 6 triangles
         EXPECT_LE(part.mesh.vertices.size(), 3 * part.mesh.triangles.size());
         for (const auto& corners : corners_of(part.mesh)) found.push_back(corners);
+        EXPECT_EQ(part.vertex_numbers.size(), mesh.vertices() ? part.mesh.vertices.size() : 0);
+        for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
+          EXPECT_EQ(part.mesh.vertices[v], all.vertices[part.vertex_numbers[v]]);
+        }
       });
       EXPECT_EQ(triangles, whole.size());
       EXPECT_EQ(found, whole) << file << " in parts of " << most;
