@@ -14,10 +14,17 @@ namespace emax {
 class DisjointSets {
  public:
   // Throws std::length_error for more than 2^32 numbers.
-  explicit DisjointSets(std::size_t size) {
+  explicit DisjointSets(std::size_t size) { grow(size); }
+  std::size_t size() const { return parent_.size(); }
+  void clear() { parent_.clear(); }
+  // Adds the numbers up to `size` - 1, if there are fewer, as sets of their own. Throws as above.
+  void grow(std::size_t size) {
     if (size > std::size_t{1} << 32) throw std::length_error("more than 2^32 numbers in sets");
+    const std::size_t before = parent_.size();
+    if (size <= before) return;
     parent_.resize(size);
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+    std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(before), parent_.end(),
+              static_cast<std::uint32_t>(before));
   }
   std::size_t root(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

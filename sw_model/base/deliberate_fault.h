@@ -35,8 +35,9 @@ enum class Fault {
   kKeepsInvalid,    // points that a file marks as invalid are kept
   kSkipsCrc,        // a CRC is not compared
   kTrustsPromises,  // the box that a stream promises is not compared with that of its points
-  // In the measurement of a mesh in parts.
-  kForgetsParts,  // a point keeps its distance from the last part alone
+  // In the measurement and the check of a mesh in parts.
+  kForgetsParts,        // a point keeps its distance from the last part alone
+  kForgetsPassedEdges,  // what the nodes of a range connect is not connected among lower ones
   // In reports.
   kSideOfOneTriangle,    // the side of a mesh is taken from the nearest triangle's normal alone
   kPictureWithoutDepth,  // what is drawn first hides what is nearer
