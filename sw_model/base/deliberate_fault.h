@@ -38,6 +38,7 @@ enum class Fault {
   // In the measurement and the check of a mesh in parts.
   kForgetsParts,        // a point keeps its distance from the last part alone
   kForgetsPassedEdges,  // what the nodes of a range connect is not connected among lower ones
+  kOneCellEach,         // a triangle is in the cell of space of its lower corner alone
   // In reports.
   kSideOfOneTriangle,    // the side of a mesh is taken from the nearest triangle's normal alone
   kPictureWithoutDepth,  // what is drawn first hides what is nearer
