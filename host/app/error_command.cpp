@@ -153,9 +153,8 @@ struct DeviceFindings {
 void print_mesh(Facts& facts, const ErrorFindings& f, const ErrorOptions& options,
                 const MeasuredMesh& mesh) {
   facts.add("mesh", "{}: {} triangles{}; {}", options.mesh, grouped(f.triangles),
-            mesh.is_whole() ? "" : ", in parts",
-            f.validity ? describe(*f.validity) : "faults and topology " + mesh.unchecked());
-  if (f.topology) facts.add("topology", "{}", describe(*f.topology, f.reference_topology()));
+            mesh.is_whole() ? "" : ", in parts", describe(f.validity));
+  facts.add("topology", "{}", describe(f.topology, f.reference_topology()));
   if (!mesh.remark().empty()) facts.add("remark", "{}", mesh.remark());
 }
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "host/app/device_report.h"
-#include "host/geometry/merge_vertices.h"
 #include "host/measure/point_distances.h"
 #include "host/report/point_store.h"
 #include "host/report/surface_samples.h"
@@ -179,19 +178,16 @@ ReferenceErrors measure_reference(const TriangleMesh& mesh, const ExactMesh& exa
 }
 
 struct MeshFindings {
-  std::optional<MeshValidity> validity;
-  std::optional<MeshTopology> topology;
+  MeshValidity validity;
+  MeshTopology topology;
 };
 
-// A mesh in parts is read once more, where the memory holds it alone.
-MeshFindings check(const MeasuredMesh& mesh) {
+MeshFindings check(const MeasuredMesh& mesh, const std::function<bool()>& interrupted) {
   if (mesh.is_whole()) {
     return {check_mesh(mesh.whole().view()), topology_of(mesh.whole().view())};
   }
-  if (!mesh.can_be_checked()) return {};
-  TriangleMesh whole = mesh.read_whole();
-  drop_unused_vertices(whole.vertices, whole.triangles);
-  return {check_mesh(whole.view()), topology_of(whole.view())};
+  const PartwiseCheck found = mesh.check(processor_threads(), interrupted);
+  return {found.validity, found.topology};
 }
 
 void measure_by_device(const TriangleMesh& mesh, const ScanPieces& scan,
@@ -287,7 +283,7 @@ ErrorFindings find_errors(
   // The work that needs only the mesh runs beside the work that needs the cloud, or, for a mesh in
   // parts, once the memory of that is free.
   auto of_mesh = std::async(mesh.is_whole() ? std::launch::async : std::launch::deferred,
-                            [&] { return check(mesh); });
+                            [&] { return check(mesh, question.interrupted); });
   measure(mesh, scan, reference, question, measured, f);
   const MeshFindings mesh_findings = of_mesh.get();
   f.validity = mesh_findings.validity;

@@ -47,9 +47,9 @@ struct ErrorFindings {
   double seconds = 0;
   std::uint64_t points = 0;  // of the scan
   CertifiedError certified;
-  std::optional<MeshValidity> validity;  // nothing where the memory does not hold the whole mesh
-  std::optional<MeshTopology> topology;  // likewise
-  std::size_t triangles = 0;             // of the mesh
+  MeshValidity validity;
+  MeshTopology topology;
+  std::size_t triangles = 0;  // of the mesh
   Normalization transform;
   std::size_t excludable = 0;
   std::vector<double> distances;  // of every point of the scan, where they are in memory

@@ -11,10 +11,9 @@
 namespace emax {
 namespace {
 
-// What a triangle takes while it is read and prepared for the kernel and the certificate, and while
-// the faults of a mesh are counted; measured. In a part it may have corners of its own.
-constexpr std::uint64_t kBytesPerMeasured = 256, kBytesPerChecked = 64, kBytesInPart = 400;
-constexpr std::uint64_t kBytesToCheck = 150'000'000;  // whatever the mesh
+// What a triangle takes while it is read and prepared for the kernel and the certificate; measured.
+// In a part it may have corners of its own.
+constexpr std::uint64_t kBytesPerMeasured = 256, kBytesInPart = 400;
 
 // Smaller meshes are always held whole, and a part has no fewer triangles.
 constexpr std::uint64_t kFewTriangles = std::uint64_t{1} << 14;
@@ -67,16 +66,9 @@ void MeasuredMesh::drop_unused_vertices() {
   emax::drop_unused_vertices(file_.mesh.vertices, file_.mesh.triangles);
 }
 
-bool MeasuredMesh::can_be_checked() const { return memory_to_check() <= memory_; }
-
-std::string MeasuredMesh::unchecked() const {
-  return fmt::format("not counted: {} holds the whole mesh for that",
-                     option_for(memory_to_check()));
-}
-
-// The points that are held and their distances take up to three eighths of the memory.
-std::uint64_t MeasuredMesh::memory_to_check() const {
-  return (*parts_->promised() * kBytesPerChecked + kBytesToCheck) * 8 / 5;
+PartwiseCheck MeasuredMesh::check(std::size_t threads,
+                                  const std::function<bool()>& interrupted) const {
+  return check_in_parts(*parts_, memory_ / 5 * kPartFifths, threads, interrupted);
 }
 
 void MeasuredMesh::require_whole(std::string_view what) const {

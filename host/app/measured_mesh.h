@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "host/files/mesh_file.h"
 #include "host/files/mesh_parts.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/tiles/partwise_check.h"
 
 namespace emax {
 
@@ -33,20 +35,14 @@ class MeasuredMesh {
 
   // What is left for the points of a cloud that is read in pieces.
   std::uint64_t memory_for_points() const { return is_whole() ? memory_ : memory_ / 4; }
-  // Of a mesh in parts: whether the memory holds the whole while its faults and its topology are
-  // counted, which takes less than to measure it.
-  bool can_be_checked() const;
-  TriangleMesh read_whole() const { return read_mesh(path_); }
-  // Why not, and what to do: "not counted: --memory 1300MB holds the whole mesh for that".
-  std::string unchecked() const;
+  // Of a mesh in parts, while it is not measured: its faults, its topology and its size.
+  PartwiseCheck check(std::size_t threads, const std::function<bool()>& interrupted) const;
   // Throws Error if the mesh is in parts, where `what` needs it whole.
   void require_whole(std::string_view what) const;
   // Where it is held whole although it should be read in parts: why; else empty.
   const std::string& remark() const { return remark_; }
 
  private:
-  std::uint64_t memory_to_check() const;
-
   std::filesystem::path path_;
   std::uint64_t memory_ = 0;
   MeshFile file_;

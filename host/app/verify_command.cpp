@@ -111,7 +111,12 @@ class Verification {
       points_ = recompute(*scan_, *mesh_, certificate_.reference ? &reference_ : nullptr, excluded_,
                           *runner_, files(), memory_ / 8);
     }
-    if (!hold_whole_mesh()) return {reasons_, e_max_};
+    if (mesh_->is_whole()) {
+      found_.triangles = mesh().triangles.size();
+      found_.vertices = mesh().vertices.size();
+    } else {
+      found_ = mesh_->check(processor_threads(), was_interrupted);
+    }
     check_sizes(once, leave_some);
     if (reasons_.empty()) check_claims();
     return {reasons_, e_max_};
@@ -201,39 +206,16 @@ class Verification {
     if (certificate_.reference) reference_ = read_mesh(reference_path_);
   }
 
-  // A mesh in parts is read whole, once its points are measured, for what is claimed of its faults
-  // and topology. False where the points have refuted the certificate already; throws Error where
-  // they have not, and the memory is too small.
-  bool hold_whole_mesh() {
-    if (mesh_->is_whole()) return true;
-    if (!mesh_->can_be_checked()) {
-      if (points_ && points_->excluded == excluded_.size()) {
-        check_error();
-        check_kernel();
-      }
-      if (!reasons_.empty()) return false;
-      throw Error(
-          fmt::format("{}: no point refutes the certificate, but faults and topology of the "
-                      "mesh are {}",
-                      mesh_path_.string(), mesh_->unchecked()));
-    }
-    threads_to_check_ = 1;  // each takes memory
-    TriangleMesh whole = mesh_->read_whole();
-    mesh_.emplace(std::move(whole));
-    return true;
-  }
-
   const TriangleMesh& mesh() const { return mesh_->whole(); }
 
   MeterFiles files() const { return {mesh_path_, reference_path_}; }
 
   void check_sizes(bool once, bool leave_some) {
-    require("sizes",
-            mesh().triangles.size() == certificate_.triangles &&
-                mesh().vertices.size() == certificate_.vertices,
-            fmt::format("the mesh has {} triangles and {} vertices, not {} and {}",
-                        mesh().triangles.size(), mesh().vertices.size(), certificate_.triangles,
-                        certificate_.vertices));
+    require(
+        "sizes",
+        found_.triangles == certificate_.triangles && found_.vertices == certificate_.vertices,
+        fmt::format("the mesh has {} triangles and {} vertices, not {} and {}", found_.triangles,
+                    found_.vertices, certificate_.triangles, certificate_.vertices));
     const bool exist = !points_ || points_->excluded == excluded_.size();
     require("sizes", exist, "the certificate excludes a point that the cloud does not have");
     require("sizes", once, "the certificate excludes a point twice");
@@ -248,12 +230,16 @@ class Verification {
     check_error();
     check_kernel();
     if (certificate_.reference) check_reference(mesh());
-    const MeshValidity validity = check_mesh(mesh().view(), threads_to_check_);
+    if (mesh_->is_whole()) {
+      found_.validity = check_mesh(mesh().view(), processor_threads());
+      found_.topology = topology_of(mesh().view());
+    }
+    const MeshValidity& validity = found_.validity;
     require("validity",
             validity == certificate_.validity && validity.valid() == certificate_.claims_valid,
             "the mesh's validity differs");
     say("the mesh is " + describe(validity));
-    check_topology("the mesh", certificate_.topology, mesh());
+    check_topology("the mesh", certificate_.topology, found_.topology);
     const Normalization transform = scan_->normalization();
     require("transform",
             transform.origin == certificate_.transform.origin &&
@@ -270,8 +256,7 @@ class Verification {
                        certificate_.error.excluded.empty() ? "" : "kept ", length);
   }
 
-  void check_topology(const char* what, const MeshTopology& claimed, const TriangleMesh& mesh) {
-    const MeshTopology found = topology_of(mesh.view());
+  void check_topology(const char* what, const MeshTopology& claimed, const MeshTopology& found) {
     require(std::string("topology of ") + what, claimed == found,
             fmt::format("the certificate claims {} for {}, which has {}", describe(claimed), what,
                         describe(found)));
@@ -348,7 +333,7 @@ class Verification {
           claimed.mesh_to_reference, claimed.epsilon_back);
     check("the distance of the reference to the mesh", reference.view(), mesh,
           claimed.reference_to_mesh, certificate_.epsilon);
-    check_topology("the reference", claimed.topology, reference);
+    check_topology("the reference", claimed.topology, topology_of(reference.view()));
     const CertifiedError& own = *points_->of_reference;
     require(
         "the distance of the points to the reference",
@@ -395,10 +380,10 @@ class Verification {
   std::string certificate_text_;
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
   std::optional<MeasuredMesh> mesh_;
+  PartwiseCheck found_;  // of the mesh
   TriangleMesh reference_;
   ReportOptions report_;
   std::uint64_t memory_ = 0;  // bytes
-  std::size_t threads_to_check_ = processor_threads();
   std::shared_ptr<PieceRunner> runner_ = std::make_shared<LocalPieces>();
   std::optional<Scan> vertices_;         // of the mesh that is the cloud
   std::optional<ScanPieces> scan_;       // read with the meshes
