@@ -14,9 +14,8 @@ struct CellPlane {
   std::size_t before, behind;  // the boxes that reach to either side
 };
 
-// The plane through the lower corner of a box that divides the boxes best, if one does. Boxes on
-// both sides are few, lest they become ever more in smaller cells.
-std::optional<CellPlane> best_plane(std::span<const Bounds> boxes) {
+// The plane through the lower corner of a box that divides the boxes best, if one does.
+std::optional<CellPlane> best_plane(std::span<const Bounds> boxes, double on_both) {
   constexpr std::size_t kQuarters = 4;
   std::optional<CellPlane> best;
   std::vector<double> lower;
@@ -31,8 +30,9 @@ std::optional<CellPlane> best_plane(std::span<const Bounds> boxes) {
         plane.behind += b.upper[axis] >= plane.at ? 1 : 0;
       }
       const std::size_t most = std::max(plane.before, plane.behind);
-      const bool divides =
-          5 * most <= 4 * boxes.size() && 4 * (plane.before + plane.behind) <= 5 * boxes.size();
+      const std::size_t both = plane.before + plane.behind - boxes.size();
+      const bool divides = 5 * most <= 4 * boxes.size() &&
+                           static_cast<double>(both) <= on_both * static_cast<double>(boxes.size());
       if (divides && (!best || most < std::max(best->before, best->behind))) best = plane;
     }
   }
@@ -41,17 +41,17 @@ std::optional<CellPlane> best_plane(std::span<const Bounds> boxes) {
 
 }  // namespace
 
-SpaceCells::SpaceCells(std::vector<Bounds> sample, double weight, double most,
-                       const Region& space) {
-  cut(std::move(sample), weight, most, space);
+SpaceCells::SpaceCells(std::vector<Bounds> sample, double weight, double most, const Region& space,
+                       double on_both)
+    : weight_(weight), most_(most), on_both_(on_both) {
+  cut(std::move(sample), space);
 }
 
-std::size_t SpaceCells::cut(std::vector<Bounds> sample, double weight, double most,
-                            const Region& region) {
+std::size_t SpaceCells::cut(std::vector<Bounds> sample, const Region& region) {
   const std::size_t node = nodes_.size();
   nodes_.emplace_back();
-  const bool is_small = static_cast<double>(sample.size()) * weight <= most;
-  const std::optional<CellPlane> plane = is_small ? std::nullopt : best_plane(sample);
+  const bool is_small = static_cast<double>(sample.size()) * weight_ <= most_;
+  const std::optional<CellPlane> plane = is_small ? std::nullopt : best_plane(sample, on_both_);
   if (!plane) {
     nodes_[node].first = cells_.size();
     cells_.push_back(region);
@@ -67,8 +67,8 @@ std::size_t SpaceCells::cut(std::vector<Bounds> sample, double weight, double mo
   first.upper[plane->axis] = second.lower[plane->axis] = plane->at;
   nodes_[node].axis = plane->axis;
   nodes_[node].plane = plane->at;
-  const std::size_t first_node = cut(std::move(before), weight, most, first);
-  const std::size_t second_node = cut(std::move(behind), weight, most, second);
+  const std::size_t first_node = cut(std::move(before), first);
+  const std::size_t second_node = cut(std::move(behind), second);
   nodes_[node].first = first_node;
   nodes_[node].second = second_node;
   return node;

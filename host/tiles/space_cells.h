@@ -25,8 +25,10 @@ class SpaceCells {
   };
 
   // Every box of the sample stands for `weight` boxes. Cells are cut in two while they hold more
-  // than `most`, unless every plane leaves most boxes on both of its sides.
-  SpaceCells(std::vector<Bounds> sample, double weight, double most, const Region& space);
+  // than `most`, unless every plane has a greater share of the boxes than `on_both` on both of its
+  // sides, or four fifths on one.
+  SpaceCells(std::vector<Bounds> sample, double weight, double most, const Region& space,
+             double on_both = 0.25);
 
   const std::vector<Region>& cells() const { return cells_; }
 
@@ -44,7 +46,7 @@ class SpaceCells {
   };
 
   // Returns the node.
-  std::size_t cut(std::vector<Bounds> sample, double weight, double most, const Region& region);
+  std::size_t cut(std::vector<Bounds> sample, const Region& region);
 
   template <class Visit>
   void visit_from(std::size_t node, const Bounds& box, bool lower_only, const Visit& visit) const {
@@ -60,6 +62,7 @@ class SpaceCells {
     }
   }
 
+  double weight_, most_, on_both_;
   std::vector<Node> nodes_;
   std::vector<Region> cells_;
 };

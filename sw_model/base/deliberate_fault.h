@@ -39,6 +39,7 @@ enum class Fault {
   kForgetsParts,        // a point keeps its distance from the last part alone
   kForgetsPassedEdges,  // what the nodes of a range connect is not connected among lower ones
   kOneCellEach,         // a triangle is in the cell of space of its lower corner alone
+  kForgetsReach,        // a mesh is compared with what lies in the same cell alone
   // In reports.
   kSideOfOneTriangle,    // the side of a mesh is taken from the nearest triangle's normal alone
   kPictureWithoutDepth,  // what is drawn first hides what is nearer
