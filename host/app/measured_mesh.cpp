@@ -66,9 +66,11 @@ void MeasuredMesh::drop_unused_vertices() {
   emax::drop_unused_vertices(file_.mesh.vertices, file_.mesh.triangles);
 }
 
+std::uint64_t MeasuredMesh::memory_for_parts() const { return memory_ / 5 * kPartFifths; }
+
 PartwiseCheck MeasuredMesh::check(std::size_t threads,
                                   const std::function<bool()>& interrupted) const {
-  return check_in_parts(*parts_, memory_ / 5 * kPartFifths, threads, interrupted);
+  return check_in_parts(*parts_, memory_for_parts(), threads, interrupted);
 }
 
 void MeasuredMesh::require_whole(std::string_view what) const {

@@ -35,7 +35,9 @@ class MeasuredMesh {
 
   // What is left for the points of a cloud that is read in pieces.
   std::uint64_t memory_for_points() const { return is_whole() ? memory_ : memory_ / 4; }
-  // Of a mesh in parts, while it is not measured: its faults, its topology and its size.
+  // Of a mesh in parts, while it is not measured: what other work with it may take, and its faults,
+  // its topology and its size.
+  std::uint64_t memory_for_parts() const;
   PartwiseCheck check(std::size_t threads, const std::function<bool()>& interrupted) const;
   // Throws Error if the mesh is in parts, where `what` needs it whole.
   void require_whole(std::string_view what) const;

@@ -21,6 +21,8 @@
 #include "host/parameters/decimation_bound.h"
 #include "host/report/certificate_file.h"
 #include "host/report/verification_json.h"
+#include "host/tiles/partwise_check.h"
+#include "host/tiles/partwise_surfaces.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/parallel.h"
 #include "sw_model/certify/surface_distance.h"
@@ -48,6 +50,10 @@ bool agree(double claimed, double found) {
   return std::abs(claimed - found) <= 1e-12 * std::abs(found);
 }
 
+void throw_if_interrupted() {
+  if (was_interrupted()) throw Interrupted{};
+}
+
 class Verification {
  public:
   explicit Verification(const VerifyOptions& options)
@@ -71,7 +77,7 @@ class Verification {
       : certificate_(certificate) {
     mesh_.emplace(mesh);
     scan_.emplace(scan);
-    if (reference != nullptr) reference_ = *reference;
+    if (reference != nullptr) reference_.emplace(*reference);
   }
 
   // Throws Error if an output is one of the files that are read.
@@ -108,8 +114,7 @@ class Verification {
     const bool once = std::ranges::adjacent_find(excluded_) == excluded_.end();
     const bool leave_some = excluded_.size() < scan_->points();
     if (once && leave_some) {
-      points_ = recompute(*scan_, *mesh_, certificate_.reference ? &reference_ : nullptr, excluded_,
-                          *runner_, files(), memory_ / 8);
+      recompute_points();
     }
     if (mesh_->is_whole()) {
       found_.triangles = mesh().triangles.size();
@@ -188,27 +193,52 @@ class Verification {
   }
 
   void read() {
-    // Two surfaces are compared whole, and a report shows the whole mesh.
+    // A mesh is compared with its reference as a whole, and a report shows the whole mesh.
     if (certificate_.reference || report_.any()) {
       mesh_.emplace(read_mesh(mesh_path_));
     } else {
       mesh_.emplace(mesh_path_, memory_);
+    }
+    std::uint64_t memory_for_points = mesh_->is_whole() ? memory_ : mesh_->memory_for_points();
+    if (certificate_.reference) {
+      reference_.emplace(reference_path_, memory_for_reference());
+      if (!reference_->is_whole()) memory_for_points = reference_->memory_for_points();
     }
     if (!mesh_->is_whole()) runner_ = std::make_shared<LocalPieces>();
     if (certificate_.vertices_of_mesh) {
       vertices_ = vertices_of(cloud_path_, read_mesh(cloud_path_));
       scan_.emplace(*vertices_);
     } else {
-      scan_.emplace(cloud_path_, certificate_.reading, "", mesh_->memory_for_points(),
-                    was_interrupted, runner_->threads(cloud_path_, files()));
+      scan_.emplace(cloud_path_, certificate_.reading, "", memory_for_points, was_interrupted,
+                    runner_->threads(cloud_path_, files()));
       scan_->require_in_memory(report_);
     }
-    if (certificate_.reference) reference_ = read_mesh(reference_path_);
+  }
+
+  // What the mesh leaves, which is held.
+  std::uint64_t memory_for_reference() const {
+    constexpr std::uint64_t kBytesHeld = 256, kLeast = 100'000'000;
+    const std::uint64_t held = std::min(memory_, kBytesHeld * mesh().triangles.size());
+    return std::max(memory_ - held, std::min(memory_, kLeast));
+  }
+
+  void recompute_points() {
+    const bool in_parts = reference_ && !reference_->is_whole();
+    points_ = recompute(*scan_, *mesh_, reference_ && !in_parts ? &reference_->whole() : nullptr,
+                        excluded_, *runner_, files(), memory_ / 8);
+    if (!in_parts) return;
+    LocalPieces here;
+    points_->of_reference =
+        recompute(*scan_, *reference_, nullptr, excluded_, here, {}, memory_ / 8).error;
   }
 
   const TriangleMesh& mesh() const { return mesh_->whole(); }
 
-  MeterFiles files() const { return {mesh_path_, reference_path_}; }
+  // Those that other processes hold as a whole.
+  MeterFiles files() const {
+    const bool is_whole = !reference_ || reference_->is_whole();
+    return {mesh_path_, is_whole ? reference_path_ : std::filesystem::path()};
+  }
 
   void check_sizes(bool once, bool leave_some) {
     require(
@@ -229,7 +259,7 @@ class Verification {
   void check_claims() {
     check_error();
     check_kernel();
-    if (certificate_.reference) check_reference(mesh());
+    if (certificate_.reference) check_reference();
     if (mesh_->is_whole()) {
       found_.validity = check_mesh(mesh().view(), processor_threads());
       found_.topology = topology_of(mesh().view());
@@ -308,32 +338,57 @@ class Verification {
                     worst.worst_point));
   }
 
-  void check_reference(const TriangleMesh& mesh) {
+  MeshConnectivity connectivity_of_reference() const {
+    if (!reference_->is_whole()) {
+      return connectivity_in_parts(reference_->parts(), reference_->memory_for_parts(),
+                                   was_interrupted);
+    }
+    const TriangleMesh& whole = reference_->whole();
+    return {{}, topology_of(whole.view()), whole.triangles.size(), whole.vertices.size()};
+  }
+
+  // Whether the distance of the mesh to the reference, or that of the reference to the mesh, is
+  // within the claim.
+  SurfaceDistance decided(bool to_reference, double claim) const {
+    const MeasuredMesh& reference = *reference_;
+    if (reference.is_whole()) {
+      const TriangleMesh& from = to_reference ? mesh() : reference.whole();
+      const TriangleMesh& to = to_reference ? reference.whole() : mesh();
+      return decided_distance(from.view(), ExactMesh(to.view()), claim);
+    }
+    const PartwiseSurfaceOptions options = {.limit = claim,
+                                            .memory = reference.memory_for_parts(),
+                                            .threads = processor_threads(),
+                                            .poll = throw_if_interrupted};
+    if (to_reference) return distance_to_parts(mesh().view(), reference.parts(), options);
+    return distance_from_parts(reference.parts(), ExactMesh(mesh().view()), options);
+  }
+
+  void check_distance(const char* what, bool to_reference, double claim, double limit) {
+    require(what, claim >= 0 && claim <= limit,
+            fmt::format("the certificate claims {:.9g} for {}, not within 0 and {:.9g}", claim,
+                        what, limit));
+    if (!(claim >= 0)) return;
+    const SurfaceDistance found = decided(to_reference, claim);
+    // A claim that holds may stay undecided because of roundings.
+    require(what, found.lower <= claim && found.within(limit),
+            fmt::format("the certificate claims {:.9g} for {}, which lies within {:.9g} and {:.9g}",
+                        claim, what, found.lower, found.upper));
+    say(fmt::format("{} is at most {:.9g}, {:.9g} is allowed", what, claim, limit));
+  }
+
+  void check_reference() {
     const ReferenceBound& claimed = *certificate_.reference;
-    const TriangleMesh& reference = reference_;
-    require("size of the reference", reference.triangles.size() == claimed.triangles,
-            fmt::format("the reference has {} triangles, not {}", reference.triangles.size(),
-                        claimed.triangles));
+    const MeshConnectivity found = connectivity_of_reference();
+    require(
+        "size of the reference", found.triangles == claimed.triangles,
+        fmt::format("the reference has {} triangles, not {}", found.triangles, claimed.triangles));
     say(fmt::format("the reference has {} triangles", grouped(claimed.triangles)));
-    const auto check = [&](const char* what, MeshView from, const TriangleMesh& to, double claim,
-                           double limit) {
-      require(what, claim >= 0 && claim <= limit,
-              fmt::format("the certificate claims {:.9g} for {}, not within 0 and {:.9g}", claim,
-                          what, limit));
-      if (!(claim >= 0)) return;
-      const SurfaceDistance found = decided_distance(from, ExactMesh(to.view()), claim);
-      // A claim that holds may stay undecided because of roundings.
-      require(
-          what, found.lower <= claim && found.within(limit),
-          fmt::format("the certificate claims {:.9g} for {}, which lies within {:.9g} and {:.9g}",
-                      claim, what, found.lower, found.upper));
-      say(fmt::format("{} is at most {:.9g}, {:.9g} is allowed", what, claim, limit));
-    };
-    check("the distance of the mesh to the reference", mesh.view(), reference,
-          claimed.mesh_to_reference, claimed.epsilon_back);
-    check("the distance of the reference to the mesh", reference.view(), mesh,
-          claimed.reference_to_mesh, certificate_.epsilon);
-    check_topology("the reference", claimed.topology, topology_of(reference.view()));
+    check_distance("the distance of the mesh to the reference", true, claimed.mesh_to_reference,
+                   claimed.epsilon_back);
+    check_distance("the distance of the reference to the mesh", false, claimed.reference_to_mesh,
+                   certificate_.epsilon);
+    check_topology("the reference", claimed.topology, found.topology);
     const CertifiedError& own = *points_->of_reference;
     require(
         "the distance of the points to the reference",
@@ -381,7 +436,7 @@ class Verification {
   std::filesystem::path mesh_path_, cloud_path_, reference_path_;
   std::optional<MeasuredMesh> mesh_;
   PartwiseCheck found_;  // of the mesh
-  TriangleMesh reference_;
+  std::optional<MeasuredMesh> reference_;
   ReportOptions report_;
   std::uint64_t memory_ = 0;  // bytes
   std::shared_ptr<PieceRunner> runner_ = std::make_shared<LocalPieces>();

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "host/tiles/cell_intersections.h"
-#include "host/tiles/mesh_stars.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -14,12 +13,22 @@ namespace {
 constexpr std::uint64_t kBytesInCheckedPart = 250;
 constexpr std::uint64_t kMostSampled = std::uint64_t{1} << 16;
 
+std::size_t checked_part(std::uint64_t memory) {
+  return static_cast<std::size_t>(std::max<std::uint64_t>(memory / 4 / kBytesInCheckedPart, 1));
+}
+
 }  // namespace
+
+MeshConnectivity connectivity_in_parts(const MeshParts& mesh, std::uint64_t memory,
+                                       const std::function<bool()>& interrupted) {
+  return connectivity_in_parts(mesh, checked_part(memory), memory / 4 * 3, [&](const MeshPart&) {
+    if (interrupted && interrupted()) throw Interrupted{};
+  });
+}
 
 PartwiseCheck check_in_parts(const MeshParts& mesh, std::uint64_t memory, std::size_t threads,
                              const std::function<bool()>& interrupted) {
-  const auto part =
-      static_cast<std::size_t>(std::max<std::uint64_t>(memory / 4 / kBytesInCheckedPart, 1));
+  const std::size_t part = checked_part(memory);
   const std::function<void()> poll = [&] {
     if (interrupted && interrupted()) throw Interrupted{};
   };

@@ -7,6 +7,7 @@
 #include "host/files/mesh_parts.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
+#include "host/tiles/mesh_stars.h"
 
 namespace emax {
 
@@ -24,7 +25,12 @@ struct PartwiseCheck {
 // without a name 90 to 150 bytes a triangle. The same for any number of threads and any memory.
 // O(n log n) time for the meshes of surfaces. Throws Error where the file cannot be read or was
 // changed meanwhile, or where the temporary files have no room; Interrupted.
+// `memory`: bytes.
 PartwiseCheck check_in_parts(const MeshParts& mesh, std::uint64_t memory, std::size_t threads,
                              const std::function<bool()>& interrupted = nullptr);
+
+// The topology and the size alone. Reads the mesh once.
+MeshConnectivity connectivity_in_parts(const MeshParts& mesh, std::uint64_t memory,
+                                       const std::function<bool()>& interrupted);
 
 }  // namespace emax

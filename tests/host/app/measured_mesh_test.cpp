@@ -13,6 +13,7 @@
 #include "host/geometry/bounds.h"
 #include "host/geometry/merge_vertices.h"
 #include "sw_model/base/deliberate_fault.h"
+#include "sw_model/certify/surface_distance.h"
 #include "tests/host/app/program.h"
 #include "tests/support/las_of_points.h"
 #include "tests/support/messages.h"
@@ -185,6 +186,22 @@ class MeasuredMeshProgram : public testing::Test {
     more.insert(more.begin(), {"error", "scan.xyz", mesh, "--json", "r.json"});
     return test::run_emax(more, folder_.path());
   }
+  Certificate certificate_of(const ErrorFindings& f, const char* file, const TriangleMesh& mesh) {
+    Certificate certificate;
+    certificate.mesh_file = file;
+    certificate.mesh_sha256 = sha256_of_input(folder_ / file);
+    certificate.cloud_file = "scan.xyz";
+    certificate.cloud_sha256 = sha256_of_input(folder_ / "scan.xyz");
+    certificate.epsilon = f.certified.e_max_upper;
+    certificate.error = f.certified;
+    certificate.kernel = f.measured.kept;
+    certificate.triangles = mesh.triangles.size();
+    certificate.vertices = mesh.vertices.size();
+    certificate.validity = f.validity;
+    certificate.topology = f.topology;
+    certificate.transform = f.transform;
+    return certificate;
+  }
   nlohmann::json result() { return nlohmann::json::parse(test::file_text(folder_ / "r.json")); }
 
   test::TemporaryFolder folder_;
@@ -204,6 +221,44 @@ TEST_F(MeasuredMeshProgram, KeepsToTheMemory) {
   EXPECT_LT(parts.resident_bytes, 100'000'000u);
 #endif
   EXPECT_GT(whole.resident_bytes, 100'000'000u);
+}
+
+TEST_F(MeasuredMeshProgram, VerifiesWithinTheMemory) {
+  const Scan scan = read_scan(folder_ / "scan.xyz", {});
+  // In parts: what a child process takes is counted from what this one does.
+  const ErrorFindings f = find_errors(MeasuredMesh(folder_ / "mesh.ply", 100'000'000),
+                                      ScanPieces(scan), std::nullopt, {});
+  Certificate certificate = certificate_of(f, "mesh.ply", read_mesh(folder_ / "mesh.ply"));
+  const auto verify = [&](const std::string& memory) {
+    std::ofstream(folder_ / "c.json") << to_json_text(certificate);
+    return test::run_emax({"verify", "c.json", "--memory", memory}, folder_.path());
+  };
+  const test::ProgramRun whole = verify("1GB"), parts = verify("100MB");
+  EXPECT_EQ(whole.exit_code, 0) << whole.output << whole.errors;
+  EXPECT_EQ(parts.exit_code, 0) << parts.output << parts.errors;
+  EXPECT_EQ(parts.output, whole.output);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_LT(parts.resident_bytes, 100'000'000u);
+#endif
+  EXPECT_GT(whole.resident_bytes, 100'000'000u);
+  const auto expect_refuted = [&](const char* why) {
+    const test::ProgramRun refuted = verify("100MB");
+    EXPECT_EQ(refuted.exit_code, 2) << refuted.errors;
+    EXPECT_NE(refuted.output.find(why), std::string::npos) << refuted.output;
+    EXPECT_EQ(refuted.output, verify("1GB").output);
+  };
+  const Certificate right = certificate;
+  certificate.error.e_max_upper *= 0.9;
+  expect_refuted("the certificate claims e_max");
+  certificate = right;
+  ++certificate.vertices;
+  expect_refuted("the mesh has");
+  certificate = right;
+  ++certificate.validity.boundary_edges;
+  expect_refuted("the mesh's validity differs");
+  certificate = right;
+  ++certificate.topology.genus;
+  expect_refuted("the certificate claims 1 component");
 }
 
 TEST_F(MeasuredMeshProgram, NamesWhatNeedsTheWholeMesh) {
@@ -263,54 +318,55 @@ TEST_F(MeasuredMeshProgram, TakesPointsFromAPipe) {
   }
 }
 
-TEST_F(MeasuredMeshProgram, VerifiesWithinTheMemory) {
+// The fine mesh as the reference of a coarse one.
+TEST_F(MeasuredMeshProgram, VerifiesAgainstAReferenceInParts) {
+  const test::Stimulus s = test::bumpy_sphere(60, 60, 0, 306);
+  const TriangleMesh coarse{s.vertices, s.triangles};
+  write_mesh(folder_ / "coarse.ply", coarse);
+  const TriangleMesh fine = read_mesh(folder_ / "mesh.ply");
   const Scan scan = read_scan(folder_ / "scan.xyz", {});
-  // In parts: what a child process takes is counted from what this one does.
-  const ErrorFindings f = find_errors(MeasuredMesh(folder_ / "mesh.ply", 100'000'000),
-                                      ScanPieces(scan), std::nullopt, {});
-  Certificate certificate;
-  certificate.mesh_file = "mesh.ply";
-  certificate.mesh_sha256 = sha256_of_input(folder_ / "mesh.ply");
-  certificate.cloud_file = "scan.xyz";
-  certificate.cloud_sha256 = sha256_of_input(folder_ / "scan.xyz");
-  certificate.epsilon = f.certified.e_max_upper;
-  certificate.error = f.certified;
-  certificate.kernel = f.measured.kept;
-  certificate.triangles = triangles_;
-  certificate.vertices = read_mesh(folder_ / "mesh.ply").vertices.size();
-  certificate.validity = f.validity;
-  certificate.topology = f.topology;
-  certificate.transform = f.transform;
+  const ScanPieces pieces(scan);
+  ErrorFindings f = find_errors(MeasuredMesh(coarse), pieces, std::nullopt, {});
+  Certificate certificate = certificate_of(f, "coarse.ply", coarse);
+  ReferenceBound& bound = certificate.reference.emplace();
+  bound.file = "mesh.ply";
+  bound.sha256 = sha256_of_input(folder_ / "mesh.ply");
+  bound.triangles = triangles_;
+  bound.topology = topology_of(fine.view());
+  const SurfaceDistanceOptions precise = {.relative = 1e-9};
+  bound.mesh_to_reference = bound.epsilon_back =
+      (1 + 1e-6) * surface_distance(coarse.view(), ExactMesh(fine.view()), precise).upper;
+  bound.reference_to_mesh =
+      (1 + 1e-6) * surface_distance(fine.view(), ExactMesh(coarse.view()), precise).upper;
+  certificate.epsilon = std::max(certificate.epsilon, bound.reference_to_mesh);
+  LocalPieces here;
+  bound.points_to_reference =
+      recompute(pieces, MeasuredMesh(fine), nullptr, {}, here, {}, 0).error.e_max_upper;
   const auto verify = [&](const std::string& memory) {
     std::ofstream(folder_ / "c.json") << to_json_text(certificate);
     return test::run_emax({"verify", "c.json", "--memory", memory}, folder_.path());
   };
-  const test::ProgramRun whole = verify("1GB"), parts = verify("100MB");
-  EXPECT_EQ(whole.exit_code, 0) << whole.output << whole.errors;
-  EXPECT_EQ(parts.exit_code, 0) << parts.output << parts.errors;
-  EXPECT_EQ(parts.output, whole.output);
-#ifndef __SANITIZE_ADDRESS__
-  EXPECT_LT(parts.resident_bytes, 100'000'000u);
-#endif
-  EXPECT_GT(whole.resident_bytes, 100'000'000u);
-  const auto expect_refuted = [&](const char* why) {
-    const test::ProgramRun refuted = verify("100MB");
-    EXPECT_EQ(refuted.exit_code, 2) << refuted.errors;
-    EXPECT_NE(refuted.output.find(why), std::string::npos) << refuted.output;
-    EXPECT_EQ(refuted.output, verify("1GB").output);
+  const auto expect_answer = [&](int exit_code, const std::string& what) {
+    const test::ProgramRun parts = verify("100MB"), whole = verify("1GB");
+    EXPECT_EQ(parts.exit_code, exit_code) << parts.output << parts.errors;
+    EXPECT_EQ(whole.exit_code, exit_code) << whole.output << whole.errors;
+    for (const std::string& output : {parts.output, whole.output}) {
+      EXPECT_NE(output.find(what), std::string::npos) << output;
+    }
   };
+  expect_answer(0, "yes: all of mesh.ply lies within");
   const Certificate right = certificate;
-  certificate.error.e_max_upper *= 0.9;
-  expect_refuted("the certificate claims e_max");
+  bound.mesh_to_reference *= 1 - 1e-5;
+  expect_answer(2, "for the distance of the mesh to the reference, which lies within");
   certificate = right;
-  ++certificate.vertices;
-  expect_refuted("the mesh has");
+  certificate.reference->reference_to_mesh *= 1 - 1e-5;
+  expect_answer(2, "for the distance of the reference to the mesh, which lies within");
   certificate = right;
-  ++certificate.validity.boundary_edges;
-  expect_refuted("the mesh's validity differs");
+  certificate.reference->points_to_reference *= 1 - 1e-5;
+  expect_answer(2, "for the distance of the points to the reference, which is");
   certificate = right;
-  ++certificate.topology.genus;
-  expect_refuted("the certificate claims 1 component");
+  ++certificate.reference->topology.border_loops;
+  expect_answer(2, "for the reference, which has");
 }
 
 }  // namespace
