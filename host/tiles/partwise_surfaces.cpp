@@ -78,10 +78,10 @@ class CellDistances {
         most_(std::max<std::uint64_t>(options.memory / 2 / options.threads / kBytesMeasured, 4)),
         space_(bounds_of(mesh.vertices)),
         magnitude_(space_.lower.cwiseAbs().cwiseMax(space_.upper.cwiseAbs()).maxCoeff()),
-        reach_(options.limit * (1 + 1e-9) + 1e-12 * magnitude_),
+        reach_(options.limit * (1 + 1e-9) + 0x1p-48 * magnitude_),
         stride_(*reference.promised() / std::min(kMostBoxes, options.memory / 400 + 1) + 1),
         cells_(sample(), static_cast<double>(stride_), static_cast<double>(most_) / 2, {}, kOnBoth),
-        overhang_(space_.width() / (16 * std::sqrt(static_cast<double>(cells_.cells().size())))),
+        overhang_(overhang()),
         pieces_(reference.input(), cells_.cells().size(), options.memory / 16),
         references_(reference.input(), cells_.cells().size(), options.memory / 16) {}
 
@@ -127,6 +127,12 @@ class CellDistances {
       }
     });
     return boxes;
+  }
+
+  // A fraction of a cell's side, and more than roundings.
+  double overhang() const {
+    const auto cells = static_cast<double>(cells_.cells().size());
+    return std::max(space_.width() / (16 * std::sqrt(cells)), 0x1p-48 * magnitude_ + 0x1p-1000);
   }
 
   // Cuts the longest edge until the triangle lies in one cell, or reaches little beyond that of its

@@ -27,9 +27,9 @@ SurfaceDistance distance_from_parts(const MeshParts& mesh, const ExactMesh& refe
 // beyond the limit is only known to be. Space is cut into cells. Triangles of the mesh are cut in
 // two until each lies in a cell or reaches little beyond it, and every cell is compared with the
 // triangles of the reference that come within the limit of it. Those of all cells are in a file: 72
-// bytes a triangle and cell. Roundings of the cuts are added to the interval. Reads the reference
-// twice. Throws Error where the triangles within the limit of a cell do not fit into the memory,
-// or where the file was changed meanwhile.
+// bytes a triangle and cell. Roundings of the cuts are added to the interval, so that `upper` may
+// be greater than the limit by these. Reads the reference twice. Throws Error where the triangles
+// within the limit of a cell do not fit into the memory, or where the file was changed meanwhile.
 SurfaceDistance distance_to_parts(MeshView mesh, const MeshParts& reference,
                                   const PartwiseSurfaceOptions& options);
 

@@ -104,6 +104,19 @@ TEST(PartwiseSurfaces, OfOneAndTheSame) {
   EXPECT_EQ(PartwiseSurfaces(wavy).to(wavy, 0, 300000).lower, 0);
 }
 
+// Far from the origin, where coordinates have few digits left for a small mesh.
+TEST(PartwiseSurfaces, OfCoordinatesThatAreRoundings) {
+  const auto moved = [](TriangleMesh mesh) {
+    for (Point& p : mesh.vertices) p = 1e-6 * p + Point::Constant(1e8);
+    return mesh;
+  };
+  const TriangleMesh coarse = moved(field(1, 0)), fine = moved(field(60, 0));
+  const SurfaceDistance to = PartwiseSurfaces(fine).to(coarse, 1e-6, 3000000);
+  EXPECT_TRUE(to.within(2e-6));  // the limit and the roundings of cuts
+  EXPECT_EQ(to.lower, 0);
+  EXPECT_TRUE(PartwiseSurfaces(fine).from(coarse, 1e-6, 3000000).within(1e-6));
+}
+
 TEST(PartwiseSurfaces, NameWhatTheMemoryDoesNotHold) {
   const TriangleMesh wavy = sphere(40, 50, 425);
   const std::string message =
