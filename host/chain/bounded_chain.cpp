@@ -81,6 +81,7 @@ DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& val
   settings.interrupted = options.stopped;
   settings.rival = options.rival;
   settings.threads = options.threads;
+  settings.planes = options.planes;
   const TriangleMesh& reference = stage.two_sided() ? bound.reference : start;
   DecimatedMesh made = BoundedDecimator(reference, stage.kept()).run(start, settings);
   if (stage.two_sided()) return made;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,8 +27,9 @@ struct SurfaceVerdict {
 struct RunOptions {
   // Polled now and then; true ends the work with the mesh at hand.
   std::function<bool()> stopped = nullptr;
-  std::uint64_t rival = 0;  // DecimationSettings::rival
-  std::size_t threads = 1;  // which change no byte
+  std::uint64_t rival = 0;                             // DecimationSettings::rival
+  std::size_t threads = 1;                             // which change no byte
+  std::shared_ptr<const PlaneParts> planes = nullptr;  // DecimationSettings::planes; set by Chain
 };
 
 // The bounded decimator as the end of the chain, for the surfaces of one cloud.

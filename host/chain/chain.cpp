@@ -13,6 +13,7 @@
 #include "host/surface/manifold_part.h"
 #include "host/surface/outward.h"
 #include "host/vtk_stages/vtk_stages.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -60,7 +61,8 @@ Chain::Chain(std::vector<Point> points, DecimationBound bound, std::size_t cache
       bounded_(points_, std::move(bound)),
       clouds_(cache_bytes),
       reconstructions_(cache_bytes),
-      surfaces_(cache_bytes) {}
+      surfaces_(cache_bytes),
+      planes_(cache_bytes) {}
 
 std::span<const Point> Chain::cloud(const ChainSettings& settings) {
   const ParameterValues values = cloud_key(settings);
@@ -110,6 +112,27 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
   });
 }
 
+std::size_t Chain::FoundPlanes::size_in_bytes() const {
+  return parts->points.size() * (sizeof(Point) + sizeof(std::uint32_t)) +
+         parts->planes.size() * (sizeof(Plane) + sizeof(PlaneParts::Support));
+}
+
+std::shared_ptr<const PlaneParts> Chain::planes(const ChainSettings& settings,
+                                                std::size_t threads) {
+  const ParameterValues key = features_key(settings);
+  if (key.by_name().empty()) return nullptr;
+  return planes_
+      .get(EMAX_FAULT(kForgetsThresholds) ? ParameterValues() : key,
+           [&] {
+             const PlaneThresholds thresholds = {
+                 key.at(PlaneFeatures::kBand),
+                 static_cast<std::size_t>(key.at(PlaneFeatures::kLeastPoints))};
+             return FoundPlanes{std::make_shared<const PlaneParts>(find_plane_parts(
+                 bounded_.kept(), bounded_.bound().epsilon, threads, [] {}, thresholds))};
+           })
+      .parts;
+}
+
 ChainResult Chain::run(const ChainSettings& settings, const RunOptions& options) {
   require_values(settings);
   ChainResult result;
@@ -127,7 +150,9 @@ ChainResult Chain::run(const ChainSettings& settings, const RunOptions& options)
   if (hopeful) {
     const auto decimator =
         std::ranges::find(decimator_runs(), settings.decimator, &DecimatorRun::name);
-    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, options);
+    RunOptions own = options;
+    if (bounded) own.planes = planes(settings, options.threads);
+    DecimatedMesh decimated = decimator->run(start.mesh, settings.parameters, bounded_, own);
     result.mesh = std::move(decimated.mesh);
     result.stopped = decimated.interrupted;
     result.expected_triangles = decimated.expected;

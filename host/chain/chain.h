@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -32,6 +33,7 @@ class Chain {
   std::size_t clouds() const { return clouds_.made(); }
   std::size_t reconstructions() const { return reconstructions_.made(); }
   std::size_t surfaces() const { return surfaces_.made(); }
+  std::size_t planes_found() const { return planes_.made(); }
 
  private:
   struct MovedCloud {
@@ -49,11 +51,20 @@ class Chain {
     std::size_t size_in_bytes() const { return emax::size_in_bytes(mesh); }
   };
 
+  struct FoundPlanes {
+    std::shared_ptr<const PlaneParts> parts;
+    std::size_t size_in_bytes() const;
+  };
+
   std::span<const Point> cloud(const ChainSettings& settings);
   double spacing();
   const Reconstruction& reconstruct(const ChainSettings& settings, StageSeconds& seconds,
                                     std::size_t threads);
   const Surface& surface(const ChainSettings& settings, StageSeconds& seconds, std::size_t threads);
+
+  // The planes of the points that count, for a mesh within epsilon; nullptr for a candidate that
+  // follows none.
+  std::shared_ptr<const PlaneParts> planes(const ChainSettings& settings, std::size_t threads);
 
   std::vector<Point> points_;
   std::optional<double> spacing_;  // of the points, once asked for
@@ -61,6 +72,7 @@ class Chain {
   StageCache<ParameterValues, MovedCloud> clouds_;
   StageCache<StageKey, Reconstructed> reconstructions_;
   StageCache<std::pair<StageKey, std::string>, Surface> surfaces_;  // and the decimator
+  StageCache<ParameterValues, FoundPlanes> planes_;
 };
 
 }  // namespace emax

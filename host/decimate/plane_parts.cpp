@@ -14,7 +14,6 @@
 namespace emax {
 namespace {
 
-constexpr double kBand = 0.5;            // of epsilon
 constexpr std::size_t kVotes = 5;        // points nearest to a vertex
 constexpr int kSmoothings = 3;           // rounds in which the borders between planes are smoothed
 constexpr std::size_t kVertices = 1024;  // that a thread takes at a time
@@ -145,10 +144,11 @@ class Labels {
 }  // namespace
 
 PlaneParts find_plane_parts(std::span<const Point> points, double epsilon, std::size_t threads,
-                            const std::function<void()>& check) {
+                            const std::function<void()>& check, const PlaneThresholds& thresholds) {
   FeatureSearch search;
   search.curved = false;
-  search.max_error = kBand * epsilon;
+  search.max_error = thresholds.band * epsilon;
+  search.least_support = thresholds.least_points;
   search.threads = threads;
   search.check = check;
   const Features features = find_features(points, search);

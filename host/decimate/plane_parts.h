@@ -24,12 +24,17 @@ struct PlaneParts {
   static constexpr std::uint32_t kNoPlane = ~std::uint32_t{0};
 };
 
-// The planes that find_features() finds in the points, within half of `epsilon`, which leaves a
-// mesh on them the other half. `check` is polled by any of the threads; an exception from it ends
-// the search. The result is the same for any number of threads. O(n log n).
+// What counts as a plane. The standard band leaves a mesh on the plane the other half of epsilon.
+struct PlaneThresholds {
+  double band = 0.5;               // greatest distance of a point from its plane, over epsilon
+  std::size_t least_points = 100;  // of a plane
+};
+
+// The planes that find_features() finds in the points. `check` is polled by any of the threads; an
+// exception from it ends the search. The result is the same for any number of threads. O(n log n).
 PlaneParts find_plane_parts(
     std::span<const Point> points, double epsilon, std::size_t threads,
-    const std::function<void()>& check = [] {});
+    const std::function<void()>& check = [] {}, const PlaneThresholds& thresholds = {});
 
 // The plane to which most of the five points nearest to each vertex belong, or kNoPlane. O(n log
 // n).

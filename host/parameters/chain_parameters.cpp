@@ -65,7 +65,9 @@ std::string method_for(const std::string& method, const std::string& decimator) 
   return unknown ? reconstruction_methods().front().name : method;
 }
 
-Parameters chain_parameters(std::string_view method, std::string_view decimator) {
+namespace {
+
+Parameters without_features(std::string_view method, std::string_view decimator) {
   Parameters chain;
   if (method == kAutoMethod) {
     chain = automatic();
@@ -90,7 +92,14 @@ Parameters chain_parameters(std::string_view method, std::string_view decimator)
   return chain;
 }
 
-namespace {
+Parameters features_of(std::string_view features) {
+  if (features == kNoFeatures) return {};
+  Parameters all = PlaneFeatures::parameters();
+  // Of as many triangles those on planes, which come first, are the result.
+  all.front().standard = static_cast<double>(PlaneFeatures::Method::kPlanes);
+  if (features == kOnPlanes) all.front().fixed = all.front().standard;
+  return all;
+}
 
 void add_values(const ChainSettings& settings, std::span<const Parameter> parameters,
                 ParameterValues& values) {
@@ -102,6 +111,13 @@ void add_values(const ChainSettings& settings, std::span<const Parameter> parame
 }
 
 }  // namespace
+
+Parameters chain_parameters(std::string_view method, std::string_view decimator,
+                            std::string_view features) {
+  Parameters chain = without_features(method, decimator);
+  append(chain, features_of(features));
+  return chain;
+}
 
 ParameterValues cloud_key(const ChainSettings& settings) {
   ParameterValues values;
@@ -125,6 +141,11 @@ StageKey surface_key(const ChainSettings& settings) {
 ChainSettings chain_settings(const std::string& method, const std::string& decimator,
                              const ParameterValues& values) {
   ChainSettings settings{method, decimator, values};
+  if (PlaneFeatures::method(values) == PlaneFeatures::Method::kNone) {
+    for (const Parameter& p : PlaneFeatures::parameters()) {
+      settings.parameters.by_name().erase(p.name);
+    }
+  }
   if (method != kAutoMethod && decimator != kAutoDecimator) return settings;
   auto& kept = settings.parameters.by_name();
   const Parameters chain = chain_parameters(method, decimator);
@@ -142,6 +163,13 @@ ChainSettings chain_settings(const std::string& method, const std::string& decim
   return settings;
 }
 
+ParameterValues features_key(const ChainSettings& settings) {
+  ParameterValues values;
+  if (PlaneFeatures::method(settings.parameters) == PlaneFeatures::Method::kNone) return values;
+  add_values(settings, PlaneFeatures::parameters(), values);
+  return values;
+}
+
 void require_values(const ChainSettings& settings) {
   const ParameterValues& values = settings.parameters;
   Parameters required = chain_parameters(settings.method, settings.decimator);
@@ -151,6 +179,9 @@ void require_values(const ChainSettings& settings) {
   const auto mls = static_cast<double>(Mls::method(values));
   for (Parameter& p : Mls::parameters()) {
     if (p.only_with && p.only_with->holds(mls)) required.push_back(std::move(p));
+  }
+  if (PlaneFeatures::method(values) != PlaneFeatures::Method::kNone) {
+    append(required, PlaneFeatures::parameters());
   }
   values.require(required);
 }

@@ -12,8 +12,8 @@
 namespace emax {
 
 // One candidate's way through the chain. Beside the parameters of the method there may be those of
-// Mls and Fill::kMethod; without them there are no moving least squares, and holes are filled
-// without new vertices.
+// Mls, Fill::kMethod and those of PlaneFeatures; without them there are no moving least squares,
+// holes are filled without new vertices, and no planes are followed.
 struct ChainSettings {
   std::string method;     // one of reconstruction_methods(), or kFitMethod
   std::string decimator;  // one of decimators(), or kNoDecimator
@@ -74,6 +74,12 @@ inline constexpr const char* kAutoDecimator = "auto";
 inline constexpr const char* kAutoMethod = "auto";
 // In place of a method: the bound's reference surface as it is, whatever made it. No P_R.
 inline constexpr const char* kFitMethod = "fit";
+
+// What a run's candidates do about the features of the scan: none, planes, or planes as a gene.
+inline constexpr const char* kNoFeatures = "none";
+inline constexpr const char* kOnPlanes = "planes";
+inline constexpr const char* kAutoFeatures = "auto";
+
 // The method itself, but for kFitMethod with a decimator that knows no reference: the first of
 // reconstruction_methods().
 std::string method_for(const std::string& method, const std::string& decimator);
@@ -88,12 +94,19 @@ bool keeps_bound(std::string_view decimator);
 // (paper, section 3). With kAutoMethod and kAutoDecimator the own parameters of each have a meaning
 // only with theirs; with kNoDecimator there is no P_D. Throws Error when there is no such method or
 // decimator.
-Parameters chain_parameters(std::string_view method, std::string_view decimator);
+//
+// With features other than kNoFeatures the parameters of PlaneFeatures come last; with kOnPlanes
+// the planes are always followed.
+Parameters chain_parameters(std::string_view method, std::string_view decimator,
+                            std::string_view features = kNoFeatures);
 
 // The candidate that values of chain_parameters(method, decimator) are: its method, its decimator
 // and the values that have a meaning with them.
 ChainSettings chain_settings(const std::string& method, const std::string& decimator,
                              const ParameterValues& values);
+
+// The values by which planes are found for the candidate; empty where it follows none.
+ParameterValues features_key(const ChainSettings& settings);
 
 // Throws Error when a candidate lacks a value that its stages ask for, and when there is no such
 // method or decimator.

@@ -17,4 +17,10 @@ Parameters Fill::parameters() {
   return all;
 }
 
+Parameters PlaneFeatures::parameters() {
+  Parameters all = parameters_of(kMethod, kBand, kLeastPoints);
+  all[1].only_with = all[2].only_with = {0, static_cast<double>(Method::kPlanes)};
+  return all;
+}
+
 }  // namespace emax

@@ -189,6 +189,29 @@ struct Fill {
   }
 };
 
+// Planes of the scan that the bounded decimator follows; without a value for the method, none.
+struct PlaneFeatures {
+  enum class Method { kNone, kPlanes };
+
+  static constexpr std::array<std::string_view, 2> kMethods = {"none", "planes"};
+  static constexpr ParameterKey<Method> kMethod{"features.method",
+                                                Method::kNone,
+                                                Method::kPlanes,
+                                                Method::kNone,
+                                                "the features of the scan that vertices are put on",
+                                                kMethods};
+  static constexpr ParameterKey<double> kBand{
+      "features.band", 0.25, 0.75, 0.5,
+      "greatest distance of a point from its plane, as a share of the tolerance"};
+  static constexpr ParameterKey<int> kLeastPoints{"features.least_points", 30, 1000, 100,
+                                                  "points that a plane has at least"};
+
+  static Parameters parameters();
+  static Method method(const ParameterValues& values) {
+    return values.find(kMethod).value_or(Method::kNone);
+  }
+};
+
 // Every edit keeps the bound that a run fixes before its search.
 struct Bounded {
   static constexpr std::string_view kName = "bounded";

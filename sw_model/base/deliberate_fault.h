@@ -23,6 +23,7 @@ enum class Fault {
   kSkipsIntersections,  // triangles may meet
   kClosesWideHoles,     // what closes a hole on a plane may reach anywhere
   kForgetsPlanes,       // vertices do not stay on the planes that the mesh follows
+  kForgetsThresholds,   // the planes of the thresholds before are taken for others
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change
   kTrustsJoined,        // points that a joined one moved the mesh away from are not looked for

@@ -2,19 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
 #include <set>
 
+#include "host/decimate/bounded_decimation.h"
 #include "host/decimate/far_points.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/mesh_validity.h"
 #include "host/parameters/descriptions.h"
 #include "host/surface/manifold_part.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "sw_model/certify/certificate.h"
 #include "sw_model/certify/surface_distance.h"
 #include "tests/host/support/surface_clouds.h"
 #include "tests/host/support/surfaces.h"
+#include "tests/support/stimuli.h"
 
 namespace emax::test {
 namespace {
@@ -240,6 +244,84 @@ TEST(ChainParameters, AutoHoldsEveryMethod) {
   EXPECT_FALSE(candidate.parameters.contains(Mls::kCell));
   EXPECT_TRUE(candidate.parameters.contains(Mls::kRadius));
   EXPECT_EQ(chain_settings("gp3", "bounded", standards).parameters, standards);
+}
+
+// A run without features has no gene for them; a candidate without planes no thresholds.
+TEST(ChainParameters, PlanesAreGenesWhereTheyAreAskedFor) {
+  const Parameters none = chain_parameters(kFitMethod, "bounded");
+  EXPECT_EQ(chain_parameters(kFitMethod, "bounded", kNoFeatures), none);
+  const Parameters always = chain_parameters(kFitMethod, "bounded", kOnPlanes);
+  ASSERT_EQ(always.size(), none.size() + 3);
+  EXPECT_EQ(always[none.size()].fixed, 1);
+  const Parameters free = chain_parameters(kAutoMethod, "bounded", kAutoFeatures);
+  ASSERT_EQ(free.size(), chain_parameters(kAutoMethod, "bounded").size() + 3);
+  EXPECT_FALSE(free[free.size() - 3].fixed);
+  EXPECT_EQ(free.back().only_with->gene, free.size() - 3);
+
+  ParameterValues values(free);
+  const ChainSettings on_planes = chain_settings(kAutoMethod, "bounded", values);
+  EXPECT_EQ(features_key(on_planes).by_name().size(), 3u);
+  values.set(PlaneFeatures::kMethod, PlaneFeatures::Method::kNone);
+  const ChainSettings without = chain_settings(kAutoMethod, "bounded", values);
+  EXPECT_TRUE(features_key(without).by_name().empty());
+  EXPECT_EQ(without.parameters,
+            chain_settings(kAutoMethod, "bounded",
+                           ParameterValues(chain_parameters(kAutoMethod, "bounded")))
+                .parameters);
+  ChainSettings incomplete = on_planes;
+  incomplete.parameters.by_name().erase(std::string(PlaneFeatures::kBand.name));
+  EXPECT_THROW(require_values(incomplete), Error);
+}
+
+// A noisy cube, as its own reference.
+struct NoisyCube {
+  static constexpr double kWithin = 0.03, kNoise = 0.006;
+  TriangleMesh mesh = cube(14);
+  NoisyCube() {
+    Random random(named_seed("noisy cube", 1));
+    for (Point& v : mesh.vertices) v += random.point(-kNoise, kNoise);
+  }
+  DecimationBound bound() const { return {kWithin, kWithin, mesh, {}}; }
+  static ChainSettings candidate(double band, int least_points) {
+    ChainSettings result{kFitMethod, "bounded",
+                         ParameterValues(chain_parameters(kFitMethod, "bounded", kOnPlanes))};
+    result.parameters.set(PlaneFeatures::kBand, band);
+    result.parameters.set(PlaneFeatures::kLeastPoints, least_points);
+    return result;
+  }
+  // The decimator alone on planes of these thresholds.
+  TriangleMesh twin(const PlaneThresholds& thresholds) const {
+    DecimationSettings settings;
+    settings.epsilon = settings.epsilon_back = kWithin;
+    settings.planes = std::make_shared<const PlaneParts>(find_plane_parts(
+        mesh.vertices, kWithin, 1, [] {}, thresholds));
+    return BoundedDecimator(mesh, mesh.vertices).run(settings).mesh;
+  }
+};
+
+TEST(RunChain, FollowsThePlanesOfTheCandidatesThresholds) {
+  const NoisyCube noisy;
+  Chain chain(noisy.mesh.vertices, noisy.bound());
+  const TriangleMesh standard = chain.run(NoisyCube::candidate(0.5, 100)).mesh;
+  EXPECT_EQ(standard.triangles.size(), 12u);
+  EXPECT_TRUE(same_bytes(standard, noisy.twin({})));
+  const TriangleMesh none = chain.run(NoisyCube::candidate(0.5, 1000)).mesh;
+  EXPECT_TRUE(same_bytes(none, noisy.twin({0.5, 1000})));
+  EXPECT_FALSE(same_bytes(none, standard));
+  EXPECT_TRUE(same_bytes(chain.run(NoisyCube::candidate(0.25, 100)).mesh, noisy.twin({0.25, 100})));
+  EXPECT_EQ(chain.planes_found(), 3u);
+  EXPECT_TRUE(same_bytes(chain.run(NoisyCube::candidate(0.5, 100)).mesh, standard));
+  EXPECT_EQ(chain.planes_found(), 3u);
+}
+
+TEST(RunChainFault, ThatForgetsThresholdsIsSeen) {
+  const NoisyCube noisy;
+  Chain chain(noisy.mesh.vertices, noisy.bound());
+  chain.run(NoisyCube::candidate(0.5, 100));
+  const DeliberateFault fault(Fault::kForgetsThresholds);
+  chain.run(NoisyCube::candidate(0.5, 100));
+  EXPECT_FALSE(
+      same_bytes(chain.run(NoisyCube::candidate(0.5, 1000)).mesh, noisy.twin({0.5, 1000})));
 }
 
 // Beside a method or beside all of them.
