@@ -169,6 +169,23 @@ CLI::Option& add_thin(CLI::App& command, std::optional<Tolerance>& thin,
                   standard));
 }
 
+void add_features_followed(CLI::App& command, std::string& features, std::string& hole_reach,
+                           std::string_view automatic) {
+  command
+      .add_option(
+          "--features", features,
+          fmt::format(
+              "planes: find the planes of the scan, close the flat holes that the error cannot "
+              "tell from the surface, and put vertices on the planes, on the lines where two meet "
+              "and the corners of three; {}",
+              automatic))
+      ->check(CLI::IsMember({kNoFeatures, kOnPlanes, kAutoFeatures}))
+      ->capture_default_str();
+  command.add_option("--hole-reach", hole_reach,
+                     "with --features: how far what closes a hole on a plane may be from the "
+                     "surface, N or N% or 5mm; none: all holes stay open (default: --max-error)");
+}
+
 void add_optimize(CLI::App& app, CommandLine& line) {
   auto& optimize = line.optimize;
   CLI::App& command =
@@ -231,6 +248,8 @@ void add_optimize(CLI::App& app, CommandLine& line) {
                        "stop after this many evaluations without a better mesh")
            ->check(positive("evaluations"));
   command.add_flag("--closed", optimize.closed, kClosedHelp);
+  add_features_followed(command, optimize.features, optimize.hole_reach,
+                        "auto: the search decides whether, and which planes count");
   CLI::Option& polish =
       *command.add_flag("--polish,!--no-polish", optimize.polish,
                         "at the end, decimate the four best with deep effort (default "
@@ -329,18 +348,8 @@ void add_decimate(CLI::App& app, CommandLine& line) {
                   "the error, and their corners; 40 suits machine parts; leave it out for noisy "
                   "scans")
       ->check(within(1, 180));
-  command
-      .add_option(
-          "--features", decimate.features,
-          "planes: find the planes of the scan, close the flat holes that the error cannot tell "
-          "from the surface, and put vertices on the planes, on the lines where two meet and the "
-          "corners of three; auto: vertices with and without, and take the mesh with fewer "
-          "triangles")
-      ->check(CLI::IsMember({"none", "planes", "auto"}))
-      ->capture_default_str();
-  command.add_option("--hole-reach", decimate.hole_reach,
-                     "with --features: how far what closes a hole on a plane may be from MESH, N "
-                     "or N% or 5mm; none: all holes stay open (default: --max-error)");
+  add_features_followed(command, decimate.features, decimate.hole_reach,
+                        "auto: vertices with and without, and take the mesh with fewer triangles");
   add_points_and_json(command, decimate.excluded_share, decimate.reading, decimate.json);
   add_report(command, decimate.report);
   add_unit(command, decimate.unit);
@@ -516,11 +525,16 @@ void add_config(CLI::App& app, CommandLine& line) {
   CLI::App& command =
       *app.add_subcommand("config", "print the default settings and domains, commented");
   add_chain(command, line.config_method, line.config_decimator);
+  command
+      .add_option("--features", line.config_features,
+                  "those of the search's candidates; auto: the search decides")
+      ->check(CLI::IsMember({kNoFeatures, kOnPlanes, kAutoFeatures}))
+      ->capture_default_str();
   command.callback([&] {
     line.chosen = [&line] {
-      fmt::print(
-          "{}", default_config_text(chain_parameters(
-                    method_for(line.config_method, line.config_decimator), line.config_decimator)));
+      fmt::print("{}", default_config_text(
+                           chain_parameters(method_for(line.config_method, line.config_decimator),
+                                            line.config_decimator, line.config_features)));
       return kExitOk;
     };
   });

@@ -20,7 +20,8 @@ struct CommandLine {
   InfoOptions info;
   FeaturesOptions features;
   std::string shell;
-  std::string config_method = kFitMethod, config_decimator{Bounded::kName};
+  std::string config_method = kFitMethod, config_decimator{Bounded::kName},
+              config_features{kNoFeatures};
   bool quiet = false;
   std::string progress;         // a ProgressStyle; empty: text, or none with `quiet`
   std::function<int()> chosen;  // the exit code

@@ -40,7 +40,6 @@ constexpr double kFar = 0.5, kFarInTiles = 0.99;
 constexpr std::size_t kTileTriangles = 250'000;
 // The points of a cloud in parts, and of the tiles that are worked at.
 constexpr std::uint64_t kBytesPerPointInTiles = 40;
-constexpr double kOnPlane = 1e-6;  // of the tolerance: what lies on a plane but for rounding
 
 Effort effort_named(const std::string& name) {
   return name == "quick" ? Effort::kCollapse : name == "deep" ? Effort::kDeep : Effort::kRelax;
@@ -63,14 +62,9 @@ class DecimateCommand {
     }
     tile_triangles_ = options.tile_triangles;
     if (tile_triangles_ > 0) check_tiles();
-    std::optional<Tolerance> back, reach;
+    std::optional<Tolerance> back;
     if (!options.back_error.empty()) back = parse_tolerance(options.back_error, "--back-error");
-    if (!options.hole_reach.empty() && options.features == "none") {
-      throw Error("--hole-reach: give --features planes or auto, too");
-    }
-    if (!options.hole_reach.empty() && closes_holes()) {
-      reach = parse_tolerance(options.hole_reach, "--hole-reach");
-    }
+    const std::optional<Tolerance> reach = given_hole_reach(options.hole_reach, options.features);
     const std::filesystem::path curve = several ? curve_path(options.output) : "";
     for (const ToleratedMesh& bound : bounds_) {
       check_mesh_outputs(bound.output, options.two_sided);
@@ -164,7 +158,7 @@ class DecimateCommand {
     };
     if (bounds_.size() > 1) refuse("more than one --max-error");
     if (options_.feature_angle > 0) refuse("--feature-angle");
-    if (options_.features != "none") refuse("--features");
+    if (options_.features != kNoFeatures) refuse("--features");
     if (options_.objective == "hoppe") refuse("--objective hoppe");
   }
 
@@ -240,13 +234,13 @@ class DecimateCommand {
 
   // The planes that vertices are to lie on, for the present tolerance.
   void find_planes(std::span<const Point> kept) {
-    if (options_.features == "none") return;
+    if (options_.features == kNoFeatures) return;
     progress_.begin("searching planes", joining_seconds(kept.size()));
     settings_.decimation.planes = std::make_shared<const PlaneParts>(
         find_plane_parts(kept, epsilon_, settings_.decimation.threads, [] {
           if (was_interrupted()) throw Interrupted{};
         }));
-    settings_.decimation.without_planes_too = options_.features == "auto";
+    settings_.decimation.without_planes_too = options_.features == kAutoFeatures;
   }
 
   int run_once() {
@@ -354,9 +348,8 @@ class DecimateCommand {
     proven_ = tiled_ ? tiled_->prove(result_, file_ ? &reference_.surface.mesh : nullptr)
                      : proofs_of(result_, scan());
     if (settings_.decimation.planes) {
-      const double moved = storage_displacement(reference_.surface.mesh, settings_.storage);
-      regions_ =
-          regions_of(result_.mesh, *settings_.decimation.planes, 2 * moved + kOnPlane * epsilon_);
+      regions_ = regions_of(result_.mesh, *settings_.decimation.planes,
+                            beside_plane(reference_.surface.mesh, settings_.storage, epsilon_));
     }
     feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     if (feasible_) write();
@@ -367,7 +360,7 @@ class DecimateCommand {
     return feasible && reference_.all_closed() ? kExitOk : kExitNo;
   }
 
-  bool closes_holes() const { return options_.hole_reach != "none"; }
+  bool closes_holes() const { return options_.hole_reach != kNoHoleReach; }
   const Scan& scan() const { return pieces_->scan(); }
   double epsilon_back() const { return settings_.decimation.epsilon_back; }
   std::size_t excludable() const { return excludable_points(share_, pieces_->points()); }

@@ -32,10 +32,17 @@ void print_fit(Facts& facts, const ReferenceFit& fit, double epsilon) {
   say(fit.surface.dropped_triangles, " triangle", " triangles",
       " dropped that intersected others or were not manifold");
   if (!mended.empty()) facts.add("repaired", "{}", fmt::join(mended, ", "));
+  if (fit.on_planes) print_on_planes(facts, *fit.on_planes);
   if (fit.joined + fit.left_out > 0) {
     facts.add("far points", "{} farther than {:.3g} joined to it, {} left out", grouped(fit.joined),
               fit.joined_beyond, grouped(fit.left_out));
   }
+}
+
+void print_on_planes(Facts& facts, const ClosedOnPlanes& made) {
+  if (made.on_planes + made.own + made.wide == 0) return;
+  facts.add("flat holes", "closed: {} on planes, {} others, area {:.4g}; {} wider on planes open",
+            grouped(made.on_planes), grouped(made.own), made.area, grouped(made.wide));
 }
 
 void print_closed(Facts& facts, std::size_t holes, std::span<const OpenBorder> open) {

@@ -66,12 +66,6 @@ void repair(const TriangleMesh& given, std::span<const Point> kept, double far,
   made.surface.dropped += part.dropped;
 }
 
-void print_on_planes(Facts& facts, const ClosedOnPlanes& made) {
-  if (made.on_planes + made.own + made.wide == 0) return;
-  facts.add("flat holes", "closed: {} on planes, {} others, area {:.4g}; {} wider on planes open",
-            grouped(made.on_planes), grouped(made.own), made.area, grouped(made.wide));
-}
-
 }  // namespace
 
 bool GivenReference::is_as_given() const {

@@ -17,6 +17,7 @@
 #include "host/app/search_settings.h"
 #include "host/app/standard_streams.h"
 #include "host/app/tiled_optimize.h"
+#include "host/app/tolerated_meshes.h"
 #include "host/files/atomic_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
@@ -57,6 +58,8 @@ class OptimizeCommand {
       throw Error(
           "--closed closes the reference surface: it needs --method fit and a two-sided bound");
     }
+    const std::optional<Tolerance> reach = given_hole_reach(options.hole_reach, options.features);
+    if (options.hole_reach == kNoHoleReach) settings_.hole_reach = 0;
     check_mesh_outputs(options.output, two_sided);
     if (!options.common.json.empty()) check_output(options.common.json, kJsonEndings);
     const ReportOptions& report = options.common.report;
@@ -80,6 +83,7 @@ class OptimizeCommand {
     require_unit(scan_.unit, mesh_format(options.output), options.output);
     epsilon_ = tolerance_below_width(*given, "--max-error", scan_);
     if (two_sided) settings_.epsilon_back = epsilon_;
+    if (reach) settings_.hole_reach = tolerance_below_width(*reach, "--hole-reach", scan_);
     constraint_.emplace(scan_.cloud.points, epsilon_, share, options.common.brute_force);
     suit_to_cloud(settings_, options, scan_.cloud.points.size());
     log_.emplace(folder, run_settings(options, settings_, cloud_sha256_, epsilon_));
@@ -223,6 +227,7 @@ class OptimizeCommand {
         .is_reference = is_reference,
         .shown = shown,
         .result = result,
+        .planes = files_->planes(),
         .seconds = took,
         .counters = device_ ? std::optional(device_->counters()) : std::nullopt,
         .board = address_.board,

@@ -69,8 +69,9 @@ std::vector<NamedText> parameters_of(const CertifiedResult& result) {
   std::vector<NamedText> list;
   if (chain.method != "none") list.push_back({"method", chain.method});
   list.push_back({"decimator", chain.decimator});
-  const Parameters known = chain_parameters(
-      chain.method == "none" ? std::string(kFitMethod) : chain.method, chain.decimator);
+  const Parameters known =
+      chain_parameters(chain.method == "none" ? std::string(kFitMethod) : chain.method,
+                       chain.decimator, kAutoFeatures);
   for (const auto& [name, value] : chain.parameters.by_name()) {
     const auto at = std::ranges::find(known, name, &Parameter::name);
     list.push_back({name, value_text(at == known.end() ? nullptr : &*at, value)});

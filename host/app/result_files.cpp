@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "host/files/sha256.h"
+#include "host/parameters/registry.h"
 #include "sw_model/base/error.h"
 #include "sw_model/base/parallel.h"
 #include "sw_model/certify/surface_distance.h"
@@ -75,15 +76,36 @@ ProvenMesh ResultFiles::prove(const BestMesh& best) {
   return proven;
 }
 
+// Finds the planes that the candidate's worker found.
+void ResultFiles::find_regions(const BestMesh& best) {
+  regions_.reset();
+  const ParameterValues key = features_key(best.chain);
+  if (key.by_name().empty()) return;
+  const DecimationBound& bound = settings_.bound;
+  if (key != planes_key_) {
+    const PlaneThresholds thresholds = {
+        key.at(PlaneFeatures::kBand),
+        static_cast<std::size_t>(key.at(PlaneFeatures::kLeastPoints))};
+    planes_ = find_plane_parts(
+        points_without(scan_.cloud.points, bound.outliers), bound.epsilon, processor_threads(),
+        [] {}, thresholds);
+    planes_key_ = key;
+  }
+  const Storage storage = storage_of(mesh_format(settings_.output));
+  regions_ = regions_of(best.mesh, planes_, beside_plane(best.mesh, storage, bound.epsilon));
+}
+
 CertifiedResult ResultFiles::result(const BestMesh& best, const ProvenMesh& proven,
-                                    std::uint64_t evaluations) const {
+                                    std::uint64_t evaluations) {
+  find_regions(best);
   return {.cloud = {scan_, cloud_sha256_, options_.common.reading},
           .epsilon = constraint_.epsilon(),
           .mesh = best.mesh,
           .proven = proven,
           .chain = best.chain,
           .seed = settings_.seed,
-          .evaluations = evaluations};
+          .evaluations = evaluations,
+          .regions = regions_ ? &*regions_ : nullptr};
 }
 
 ProvenMesh ResultFiles::write(const BestMesh& best, std::uint64_t evaluations) {

@@ -39,11 +39,14 @@ class ResultFiles {
   // The proofs for a mesh, whether it keeps the bounds or not; without those for the reference.
   ProvenMesh judge(const BestMesh& mesh) const;
 
-  // The result record for a mesh of the search.
-  CertifiedResult result(const BestMesh& best, const ProvenMesh& proven,
-                         std::uint64_t evaluations) const;
+  // The result record for a mesh of the search, with the regions of a mesh on planes of the scan.
+  // Valid until the next call.
+  CertifiedResult result(const BestMesh& best, const ProvenMesh& proven, std::uint64_t evaluations);
+  // The planes of the last result() with regions.
+  const PlaneParts& planes() const { return planes_; }
 
  private:
+  void find_regions(const BestMesh& best);
   ProvenMesh prove(const BestMesh& best);
   ReferenceBound bound_of_reference(const BestMesh& best);
 
@@ -57,6 +60,11 @@ class ResultFiles {
   std::tuple<std::uint64_t, std::size_t, std::uint32_t> proven_mesh_;
   std::optional<ProvenMesh> proven_;
   std::optional<WrittenResult> written_;
+  // Those of the last candidate on planes, and the values of PlaneFeatures by which they were
+  // found.
+  PlaneParts planes_;
+  ParameterValues planes_key_;
+  std::optional<ResultRegions> regions_;  // of the last result
 };
 
 }  // namespace emax

@@ -13,6 +13,7 @@ namespace emax {
 namespace {
 
 constexpr std::size_t kShownPlanes = 10;
+constexpr double kOnPlane = 1e-6;  // of the tolerance: what lies on a plane but for rounding
 
 }  // namespace
 
@@ -44,6 +45,10 @@ ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, doub
     result.groups.group_of.push_back(none ? TriangleGroups::kNone : number[plane]);
   }
   return result;
+}
+
+double beside_plane(const TriangleMesh& extent, Storage storage, double epsilon) {
+  return 2 * storage_displacement(extent, storage) + kOnPlane * epsilon;
 }
 
 void print(Facts& facts, const ResultRegions& result, const PlaneParts& parts) {

@@ -19,6 +19,9 @@ struct ResultRegions {
 // O(triangles * planes).
 ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, double apart);
 
+// What lies on a plane: `apart` of regions_of() for a mesh of that extent, which its file rounds.
+double beside_plane(const TriangleMesh& extent, Storage storage, double epsilon);
+
 // Prints how much of the result lies on planes, and the greatest of them.
 void print(Facts& facts, const ResultRegions& result, const PlaneParts& parts);
 

@@ -49,6 +49,8 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"decimator", settings.decimator},
       {"bound", settings.epsilon_back ? "two-sided" : "one-sided"},
       {"closed", settings.closed ? "true" : "false"},
+      {"features", settings.features},
+      {"hole_reach", settings.hole_reach ? fmt::format("{}", *settings.hole_reach) : "max_error"},
       {"mesh.ending", lower_case_ending(settings.output)},
       {"seed", fmt::format("{}", settings.seed)},
   };

@@ -35,6 +35,7 @@ void print_feasible(Facts& facts, const SearchOutcome& o) {
                      proven.reference ? std::optional(proven.reference->topology) : std::nullopt));
   facts.add("e_max", "{:.9g} certified, at most {:.9g} ({:.4g}% of the width)",
             proven.points.e_max_upper, epsilon, percent_of_width(o.result));
+  if (o.result.regions != nullptr) print(facts, *o.result.regions, o.planes);
   if (proven.reference) {
     print(facts, *proven.reference, epsilon, o.result.cloud.scan.width, reference_path(output));
   }

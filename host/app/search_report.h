@@ -22,6 +22,7 @@ struct SearchOutcome {
   bool is_reference;              // `shown` is the unchanged reference surface
   const BestMesh& shown;          // the mesh that the report is about
   const CertifiedResult& result;  // that mesh
+  const PlaneParts& planes;       // of its regions
   double seconds;                 // time of the search
   std::optional<DeviceCounters> counters;
   std::optional<BoardModel> board;    // the board whose time is predicted

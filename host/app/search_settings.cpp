@@ -26,8 +26,11 @@ std::uint64_t budget_of(const OptimizeOptions& options, std::uint64_t configured
   const SearchEffort effort = options.effort == "quick"  ? SearchEffort::kQuick
                               : options.effort == "deep" ? SearchEffort::kDeep
                                                          : SearchEffort::kNormal;
-  return search_budget(effort, points, space_of(options),
-                       options.config.empty() ? std::nullopt : std::optional(configured));
+  const std::uint64_t budget =
+      search_budget(effort, points, space_of(options),
+                    options.config.empty() ? std::nullopt : std::optional(configured));
+  // One candidate on planes and one without them is the least that anything is decided from.
+  return options.features == kAutoFeatures ? std::max<std::uint64_t>(budget, 2) : budget;
 }
 
 EvaluationLimits evaluation_limits(const OptimizeOptions& options, std::size_t points) {
@@ -63,7 +66,12 @@ OptimizeSettings search_settings(const OptimizeOptions& options) {
   OptimizeSettings settings;
   settings.method = method_for(options.method, options.decimator);
   settings.decimator = options.decimator;
-  const auto parameters = chain_parameters(settings.method, options.decimator);
+  if (options.features != kNoFeatures && !keeps_bound(options.decimator)) {
+    throw Error("--features needs --decimator " + alternatives(names_of_decimators(true)) +
+                "; the paper's decimation follows no planes");
+  }
+  settings.features = options.features;
+  const auto parameters = chain_parameters(settings.method, options.decimator, options.features);
   settings.config =
       options.config.empty() ? default_config(parameters) : read_config(options.config, parameters);
   settings.seed = options.seed;

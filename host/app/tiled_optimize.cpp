@@ -34,6 +34,7 @@ void check(const OptimizeOptions& options) {
     refuse("--method " + options.method);
   }
   if (options.decimator != Bounded::kName) refuse("--decimator " + options.decimator);
+  if (options.features != kNoFeatures) refuse("--features");
   if (options.common.device != "cpu") refuse("--device");
   if (options.max_error.empty() && options.level == 0) {
     throw Error("--tiles needs --max-error; `emax info` says which tolerance suits a scan");

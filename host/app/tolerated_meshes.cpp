@@ -36,4 +36,12 @@ std::string named_for(const std::filesystem::path& file, const ToleratedMesh& me
   return named.string();
 }
 
+std::optional<Tolerance> given_hole_reach(const std::string& text, const std::string& features) {
+  if (!text.empty() && features == kNoFeatures) {
+    throw Error("--hole-reach: give --features planes or auto, too");
+  }
+  if (text.empty() || text == kNoHoleReach) return std::nullopt;
+  return parse_tolerance(text, "--hole-reach");
+}
+
 }  // namespace emax

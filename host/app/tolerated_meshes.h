@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,11 @@ std::vector<ToleratedMesh> tolerated_meshes(const std::string& tolerances, int l
 
 // Another file of this tolerance, named in the same way. An empty path stays empty.
 std::string named_for(const std::filesystem::path& file, const ToleratedMesh& mesh);
+
+// In place of a length for --hole-reach: all holes stay open.
+inline constexpr const char* kNoHoleReach = "none";
+// The length of --hole-reach, if it is given and not kNoHoleReach. Throws Error where it is no
+// length, and where it is given without `features`.
+std::optional<Tolerance> given_hole_reach(const std::string& text, const std::string& features);
 
 }  // namespace emax

@@ -31,7 +31,12 @@ struct OptimizeSettings {
   // Of a two-sided bound: how far a mesh may be from the reference.
   std::optional<double> epsilon_back;
   DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings
-  bool closed = false;    // the reference of kFitMethod has its holes closed, close_surface()
+  // kNoFeatures, kOnPlanes or kAutoFeatures; all but the first need a decimator that takes a bound.
+  std::string features{kNoFeatures};
+  // With features: what closes a hole on a plane of the scan may be so far from the surface. 0:
+  // all holes stay open; nothing: epsilon.
+  std::optional<double> hole_reach;
+  bool closed = false;  // the reference of kFitMethod has its holes closed, close_surface()
   std::size_t reference_points = kReferencePoints;  // that kFitMethod first makes it of
   Config config;
   ParameterValues fitted;  // values to begin with where the configuration has the standard ones

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/decimate/close_on_planes.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/scan_estimate.h"
 #include "host/optimize/optimize.h"
@@ -59,6 +61,7 @@ struct ReferenceFit {
   // Where a closed surface was asked for: holes of the scan that were closed, and borders left.
   std::size_t closed_holes = 0;
   std::vector<OpenBorder> open;
+  std::optional<ClosedOnPlanes> on_planes;  // without its mesh, where features were asked for
 
   const TriedSurface& best() const { return tried[chosen]; }
   // Of the parameters of its method: those whose values were fitted to the scan.

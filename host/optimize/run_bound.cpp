@@ -1,9 +1,30 @@
 #include "host/optimize/run_bound.h"
 
+#include <utility>
+
 #include "host/decimate/bounded_decimation.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
+namespace {
+
+bool closes_flat_holes(const OptimizeSettings& settings) {
+  const bool closes = !settings.hole_reach || *settings.hole_reach > 0;
+  return settings.features != kNoFeatures && closes && !settings.closed;
+}
+
+// With the standard thresholds, whatever the candidates have: all share one reference.
+void close_flat_holes(ReferenceFit& fit, std::span<const Point> points, double epsilon,
+                      const OptimizeSettings& settings) {
+  const PlaneParts parts = find_plane_parts(points, epsilon, settings.jobs, [&] {
+    if (settings.interrupted()) throw Interrupted{};
+  });
+  fit.on_planes = close_on_planes(fit.surface.mesh, parts,
+                                  {epsilon, settings.hole_reach.value_or(epsilon), settings.jobs});
+  fit.surface.mesh = std::exchange(fit.on_planes->mesh, {});
+}
+
+}  // namespace
 
 DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& constraint,
                                  const OptimizeSettings& settings, ReferenceFit* made) {
@@ -29,16 +50,19 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
     fit.closed_holes = closed.closed;
     fit.open = std::move(closed.open);
   }
-  const TriangleMesh& surface = fit.surface.mesh;
   const auto beyond = [&](const TriangleMesh& mesh) {
     return constraint.excludable() > 0
                ? constraint.measure(mesh.view(), settings.interrupted).excluded
                : std::vector<std::uint32_t>{};
   };
-  bound.outliers = beyond(surface);
+  bound.outliers = beyond(fit.surface.mesh);
+  if (closes_flat_holes(settings)) {
+    close_flat_holes(fit, points_without(cloud, bound.outliers), bound.epsilon, settings);
+  }
   fit.joined_beyond = joined_beyond(fit.best().within_half, bound.epsilon);
-  ReferenceSurface joined = reference_surface(surface, points_without(cloud, bound.outliers),
-                                              fit.joined_beyond, settings.interrupted);
+  ReferenceSurface joined =
+      reference_surface(fit.surface.mesh, points_without(cloud, bound.outliers), fit.joined_beyond,
+                        settings.interrupted);
   bound.reference = std::move(joined.mesh);
   fit.joined = joined.inserted;
   fit.left_out = joined.left_out.size();

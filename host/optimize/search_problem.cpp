@@ -37,6 +37,20 @@ void begin_with_fitted(Problem& problem, const OptimizeSettings& settings) {
   if (starts.size() > before) std::rotate(starts.begin(), starts.end() - 1, starts.end());
 }
 
+// The second candidate is the first one without planes, whatever else the search begins with.
+void begin_without_planes_too(Problem& problem) {
+  const auto gene = std::ranges::find(problem.genes, PlaneFeatures::kMethod.name, &Gene::name);
+  // Linear constraints could forbid it.
+  if (gene == problem.genes.end() || !(gene->lower < gene->upper) || !problem.linear.empty()) {
+    return;
+  }
+  Genes start = problem.starts.front();
+  double& method = start[static_cast<std::size_t>(gene - problem.genes.begin())];
+  method = gene->lower + gene->upper - method;  // the other one
+  std::erase(problem.starts, start);
+  problem.starts.insert(problem.starts.begin() + 1, std::move(start));
+}
+
 // Greedy projection leaves points out where its neighbourhoods are small for the cloud, and no
 // decimation can come below the distance of such a point. So it also begins where few are left out.
 void add_generous_starts(Problem& problem) {
@@ -117,6 +131,7 @@ Problem search_problem(const OptimizeSettings& settings) {
       settings.config, named ? decimator_named(settings.decimator).monotone : std::string_view());
   problem.nonlinear.resize(settings.bound.two_sided() ? 4 : 1);
   begin_with_fitted(problem, settings);
+  begin_without_planes_too(problem);
   if (!walked) return problem;
   Gene& gene = problem.genes[*walked];
   gene.upper = gene.lower;

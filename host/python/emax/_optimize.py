@@ -74,6 +74,7 @@ def optimize(
     method: str = "fit",
     decimator: str = "bounded",
     bound: str | None = None,
+    features: str = "none",
     closed: bool = False,
     polish: bool | None = None,
     exclude_outliers: float | str = 0,
@@ -109,7 +110,7 @@ def optimize(
         one_of(effort, ("quick", "normal", "deep"), "effort")
         words = ["optimize", source, "--max-error", length_text(max_error, "max_error"), "-o", mesh,
                  "--json", report, "--progress", "json", "--effort", effort, "--seed", str(seed),
-                 "--method", method, "--decimator", decimator,
+                 "--method", method, "--decimator", decimator, "--features", features,
                  "--exclude-outliers", share_text(exclude_outliers)]
         options = {"--budget": budget, "--jobs": jobs, "--time": time, "--unit": unit, "--bound": bound,
                    "--target-triangles": target_triangles, "--stagnation": stagnation}

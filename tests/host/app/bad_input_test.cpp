@@ -164,6 +164,14 @@ TEST_F(BadInput, Options) {
   expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", "--decimator",
                            "schroeder", "--bound", "two-sided"}),
                  {"bounded"});
+  expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", "--decimator",
+                           "schroeder", "--features", "auto"}),
+                 {"--features", "bounded"});
+  expect_refusal(optimize({"scan.xyz", "--max-error", "1%", "-o", "out.ply", "--tiles", "1000",
+                           "--features", "auto"}),
+                 {"--tiles", "--features"});
+  expect_refusal(with("--features", "walls"), {"planes"});
+  expect_refusal(with("--hole-reach", "1%"), {"--hole-reach", "--features"});
   expect_refusal(with("--device", "toaster"), {"toaster", "cpu", "sim", "rtl"});
   expect_refusal(with("--device", "sim:board=toaster"), {"toaster", "ulx3s"});
   expect_refusal(with("--device", "opencl:99"), {"opencl:99", "use opencl:0"});

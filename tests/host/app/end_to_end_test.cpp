@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "tests/host/app/program.h"
+#include "tests/host/support/surfaces.h"
 #include "tests/support/board_program.h"
+#include "tests/support/stimuli.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax {
@@ -98,6 +100,41 @@ TEST_F(EndToEnd, APlanarCloudIsASurface) {
     EXPECT_EQ(emax({"verify", "plane.ply.certificate.json"}).exit_code, 0);
     EXPECT_EQ(emax({"error", "plane.xyz", "plane.ply", "--max-error", "2%"}).exit_code, 0);
   }
+}
+
+// The scan of a noisy cube.
+TEST_F(EndToEnd, FollowsThePlanesOfTheScanWhereThatIsAskedFor) {
+  const TriangleMesh cube = test::cube(16);
+  {
+    std::ofstream scan(folder_ / "cube.xyz");
+    Random random(named_seed("scan of a cube", 1));
+    for (const Point& v : cube.vertices) {
+      const Point p = v + random.point(-0.008, 0.008);
+      scan << fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
+    }
+  }
+  const auto run = [&](const std::string& output, const std::string& features,
+                       const std::string& jobs = "2") {
+    const ProgramRun made =
+        emax({"optimize", "cube.xyz", "--max-error", "2%", "-o", output, "--effort", "quick",
+              "--features", features, "--jobs", jobs, "--json", output + ".json"});
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+    return read(output + ".json");
+  };
+  const json planes = run("planes.obj", "planes");
+  EXPECT_GE(planes.at("regions").size(), 5u);
+  EXPECT_EQ(planes.at("evaluations"), 1);
+  EXPECT_NE(text("planes.obj").find("g plane_1\n"), std::string::npos);
+  EXPECT_EQ(emax({"verify", "planes.obj.certificate.json"}).exit_code, 0);
+  EXPECT_NE(text("planes.obj.certificate.json").find("features.band"), std::string::npos);
+  const json none = run("none.obj", "none");
+  EXPECT_FALSE(none.contains("regions") && !none.at("regions").empty());
+  const json decided = run("auto.obj", "auto");
+  EXPECT_EQ(decided.at("evaluations"), 2);
+  EXPECT_EQ(decided.at("triangles").get<int>(),
+            std::min(none.at("triangles").get<int>(), planes.at("triangles").get<int>()));
+  run("auto1.obj", "auto", "1");
+  EXPECT_EQ(text("auto1.obj"), text("auto.obj"));
 }
 
 // A scan that lacks what it stood on.

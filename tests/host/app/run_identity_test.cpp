@@ -58,6 +58,8 @@ TEST(RunIdentity, IsAnotherWhereAResultWouldBe) {
       {"decimator", [](Asked& a) { a.settings.decimator = "auto"; }},
       {"bound", [](Asked& a) { a.settings.epsilon_back.reset(); }},
       {"closed", [](Asked& a) { a.settings.closed = true; }},
+      {"features", [](Asked& a) { a.settings.features = kAutoFeatures; }},
+      {"hole_reach", [](Asked& a) { a.settings.hole_reach = 0; }},
       {"mesh.ending", [](Asked& a) { a.settings.output = "mesh.stl"; }},
       {"seed", [](Asked& a) { a.settings.seed = 2; }},
       {"search.look_ahead", [](Asked& a) { a.settings.config.search.look_ahead = 8; }},

@@ -9,8 +9,10 @@
 #include "host/chain/chain.h"
 #include "sw_model/base/error.h"
 #include "tests/host/support/surface_clouds.h"
+#include "tests/host/support/surfaces.h"
 #include "tests/host/worker/test_methods.h"
 #include "tests/support/messages.h"
+#include "tests/support/stimuli.h"
 #include "tests/support/temporary_folder.h"
 
 namespace emax::test {
@@ -443,6 +445,74 @@ TEST_F(DeepOptimizeTest, CandidatesThatCannotBeTheBestEndEarly) {
   const OptimizeState rest = run(&cut);
   expect_same(rest, state);
   EXPECT_EQ(rest.outpaced, state.outpaced);
+}
+
+// A search over a noisy cube that is its own reference.
+class PlanesOptimizeTest : public OptimizeTest {
+ protected:
+  static TriangleMesh rough_cube() {
+    TriangleMesh mesh = cube(12);
+    Random random(named_seed("cube of a search", 1));
+    for (Point& v : mesh.vertices) v += random.point(-0.006, 0.006);
+    return mesh;
+  }
+  PlanesOptimizeTest() : OptimizeTest(rough_cube().vertices, kEpsilon) {
+    settings_.method = kFitMethod;
+    settings_.decimator = "bounded";
+    settings_.features = kAutoFeatures;
+    settings_.config = default_config(chain_parameters(kFitMethod, "bounded", kAutoFeatures));
+    settings_.config.search.budget = 6;
+    settings_.polish = false;
+    settings_.epsilon_back = kEpsilon;
+    settings_.bound = {constraint_.provable_distance(), kEpsilon, rough_cube(), {}};
+  }
+  static constexpr double kEpsilon = 0.03;
+
+  static bool on_planes(const ChainSettings& chain) {
+    return !features_key(chain).by_name().empty();
+  }
+};
+
+// The twin is a worker's chain.
+TEST_F(PlanesOptimizeTest, ThePlanesAreAGene) {
+  RunLog log(path_, kSettings);
+  const OptimizeState whole = run(&log);
+  ASSERT_TRUE(whole.best);
+  const Problem problem = search_problem(settings_);
+  Chain chain(cloud_, settings_.bound);
+  std::size_t fewest = ~std::size_t{0}, with = 0;
+  for (const auto& [index, e] : log.evaluations()) {
+    const ChainSettings candidate = chain_of(settings_, problem, e.genes);
+    if (index < 2) {
+      EXPECT_EQ(on_planes(candidate), index == 0);
+    }
+    EXPECT_EQ(chain.run(candidate).mesh.triangles.size(), e.triangles) << index;
+    fewest = std::min(fewest, static_cast<std::size_t>(e.triangles));
+    with += on_planes(candidate) ? 1 : 0;
+  }
+  EXPECT_EQ(whole.best->triangles, fewest);
+  EXPECT_GT(with, 0u);
+  EXPECT_LT(with, log.evaluations().size());
+
+  settings_.jobs = 1;
+  expect_same(run(), whole);
+  settings_.interrupted = [this] { return measured_ >= 3; };
+  RunLog cut(folder_ / "cut", kSettings);
+  EXPECT_TRUE(run(&cut).interrupted);
+  settings_.interrupted = [] { return false; };
+  expect_same(run(&cut), whole);
+}
+
+TEST_F(PlanesOptimizeTest, MayAlwaysFollowThem) {
+  settings_.features = kOnPlanes;
+  settings_.config = default_config(chain_parameters(kFitMethod, "bounded", kOnPlanes));
+  settings_.config.search.budget = 3;
+  RunLog log(path_, kSettings);
+  run(&log);
+  EXPECT_EQ(log.evaluations().size(), 3u);
+  for (const auto& [index, e] : log.evaluations()) {
+    EXPECT_TRUE(on_planes(chain_of(settings_, search_problem(settings_), e.genes))) << index;
+  }
 }
 
 // The twin is a worker's chain, run here with the parameters of all three.

@@ -9,6 +9,7 @@
 #include "sw_model/certify/exact_distance.h"
 #include "tests/host/support/scanned_shapes.h"
 #include "tests/host/support/surface_clouds.h"
+#include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {
@@ -71,6 +72,29 @@ TEST(ReferenceFit, ComparesBordersWithThoseOfTheOtherSurface) {
               topology_of(scan.surface.view()))
         << scan.name;
   }
+}
+
+// A hole of a plate, wider than a crack, which the tolerance cannot tell from the plate.
+TEST(ReferenceFit, FlatHolesAreClosedWithFeaturesAlone) {
+  std::vector<Point> plate = sheet(81, 0).vertices;
+  std::erase_if(plate, [](const Point& p) { return p.cwiseAbs().maxCoeff() < 0.11; });
+  constexpr double kWide = 0.15;
+  const auto borders = [&](const char* features, std::optional<double> reach = {}) {
+    OptimizeSettings settings = settings_for(kFitMethod);
+    settings.epsilon_back = kWide;
+    settings.features = features;
+    settings.hole_reach = reach;
+    ErrorConstraint constraint(plate, kWide, 0);
+    ReferenceFit fit;
+    const DecimationBound bound = decimation_bound(plate, constraint, settings, &fit);
+    EXPECT_EQ(fit.on_planes ? fit.on_planes->on_planes : 0,
+              2 - topology_of(bound.reference.view()).border_loops);
+    return topology_of(bound.reference.view()).border_loops;
+  };
+  EXPECT_EQ(borders(kNoFeatures), 2u);
+  EXPECT_EQ(borders(kAutoFeatures), 1u);
+  EXPECT_EQ(borders(kOnPlanes), 1u);
+  EXPECT_EQ(borders(kOnPlanes, 0), 2u);
 }
 
 TEST(ReferenceFit, TakesTheInterpolatingMethodForACleanScanAtOnce) {
