@@ -82,6 +82,7 @@ DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& val
   settings.rival = options.rival;
   settings.threads = options.threads;
   settings.planes = options.planes;
+  settings.spread_on_planes = values.find(PlaneFeatures::kSpread).value_or(false);
   const TriangleMesh& reference = stage.two_sided() ? bound.reference : start;
   DecimatedMesh made = BoundedDecimator(reference, stage.kept()).run(start, settings);
   if (stage.two_sided()) return made;

@@ -255,6 +255,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start,
 DecimatedMesh BoundedDecimator::run_twice(const TriangleMesh& start,
                                           const DecimationSettings& settings) const {
   DecimationSettings half = settings;
+  half.spread_on_planes = true;
   double begun = 0;
   if (settings.advanced) {
     half.advanced = [&](double share, std::size_t triangles) {

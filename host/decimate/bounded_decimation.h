@@ -91,7 +91,11 @@ struct DecimationSettings {
   // Planes that parts of the start follow, if any. A vertex amid triangles of one plane lies on it,
   // one between two on their line, one between three at their corner, where the bounds permit that.
   std::shared_ptr<const PlaneParts> planes = nullptr;
-  // With planes: also decimates without them, and takes the mesh with fewer triangles.
+  // With planes: spreads the error evenly as without them. This leaves fewer triangles on smooth
+  // surfaces, and edges between a plane and a curved surface less near to the true ones.
+  bool spread_on_planes = false;
+  // With planes: spreads the error on them, also decimates without them, and takes the mesh with
+  // fewer triangles.
   bool without_planes_too = false;
 
   // Where the start has vertices that stay, with the triangles between three and the edges between

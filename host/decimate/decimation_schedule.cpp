@@ -126,7 +126,7 @@ class Schedule {
   // their place under loosened limits.
   bool may_even_out() const {
     if (!passes_.features().empty()) return false;
-    if (state_.follows_planes()) return false;
+    if (state_.follows_planes() && !settings_.spread_on_planes) return false;
     if (settings_.effort == Effort::kDeep) return true;
     return state_.back() != nullptr &&
            state_.back()->usual_rise() <= kSmooth * state_.back()->limit();

@@ -97,7 +97,11 @@ Parameters features_of(std::string_view features) {
   Parameters all = PlaneFeatures::parameters();
   // Of as many triangles those on planes, which come first, are the result.
   all.front().standard = static_cast<double>(PlaneFeatures::Method::kPlanes);
-  if (features == kOnPlanes) all.front().fixed = all.front().standard;
+  if (features != kOnPlanes) return all;
+  all.front().fixed = all.front().standard;
+  // Planes are asked for, so edges count more than triangles.
+  all.back().standard = 0;
+  all.back().fixed = 0;
   return all;
 }
 
@@ -167,6 +171,7 @@ ParameterValues features_key(const ChainSettings& settings) {
   ParameterValues values;
   if (PlaneFeatures::method(settings.parameters) == PlaneFeatures::Method::kNone) return values;
   add_values(settings, PlaneFeatures::parameters(), values);
+  values.by_name().erase(std::string(PlaneFeatures::kSpread.name));
   return values;
 }
 

@@ -205,6 +205,10 @@ struct PlaneFeatures {
       "greatest distance of a point from its plane, as a share of the tolerance"};
   static constexpr ParameterKey<int> kLeastPoints{"features.least_points", 30, 1000, 100,
                                                   "points that a plane has at least"};
+  static constexpr ParameterKey<bool> kSpread{
+      "features.spread", false, true, true,
+      "1: the error is spread evenly on planes, too: fewer triangles, and edges beside curved "
+      "surfaces less near to the true ones"};
 
   static Parameters parameters();
   static Method method(const ParameterValues& values) {

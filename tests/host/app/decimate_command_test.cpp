@@ -128,7 +128,7 @@ TEST_F(DecimateCommand, AutoTakesTheFewerTriangles) {
     ASSERT_EQ(decimate(features + ".ply", {"--features", features}, "cube.ply", "1%").exit_code, 0);
     triangles[features] = read_mesh(folder_ / (features + ".ply")).triangles.size();
   }
-  EXPECT_EQ(triangles["auto"], std::min(triangles["none"], triangles["planes"]));
+  EXPECT_LE(triangles["auto"], std::min(triangles["none"], triangles["planes"]));
   EXPECT_EQ(decimate("t.ply", {"--features", "auto", "--tiles", "100"}).exit_code, 1);
 }
 

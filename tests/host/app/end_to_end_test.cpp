@@ -131,7 +131,7 @@ TEST_F(EndToEnd, FollowsThePlanesOfTheScanWhereThatIsAskedFor) {
   EXPECT_FALSE(none.contains("regions") && !none.at("regions").empty());
   const json decided = run("auto.obj", "auto");
   EXPECT_EQ(decided.at("evaluations"), 2);
-  EXPECT_EQ(decided.at("triangles").get<int>(),
+  EXPECT_LE(decided.at("triangles").get<int>(),
             std::min(none.at("triangles").get<int>(), planes.at("triangles").get<int>()));
   run("auto1.obj", "auto", "1");
   EXPECT_EQ(text("auto1.obj"), text("auto.obj"));

@@ -251,12 +251,12 @@ TEST(ChainParameters, PlanesAreGenesWhereTheyAreAskedFor) {
   const Parameters none = chain_parameters(kFitMethod, "bounded");
   EXPECT_EQ(chain_parameters(kFitMethod, "bounded", kNoFeatures), none);
   const Parameters always = chain_parameters(kFitMethod, "bounded", kOnPlanes);
-  ASSERT_EQ(always.size(), none.size() + 3);
+  ASSERT_EQ(always.size(), none.size() + 4);
   EXPECT_EQ(always[none.size()].fixed, 1);
   const Parameters free = chain_parameters(kAutoMethod, "bounded", kAutoFeatures);
-  ASSERT_EQ(free.size(), chain_parameters(kAutoMethod, "bounded").size() + 3);
-  EXPECT_FALSE(free[free.size() - 3].fixed);
-  EXPECT_EQ(free.back().only_with->gene, free.size() - 3);
+  ASSERT_EQ(free.size(), chain_parameters(kAutoMethod, "bounded").size() + 4);
+  EXPECT_FALSE(free[free.size() - 4].fixed);
+  EXPECT_EQ(free.back().only_with->gene, free.size() - 4);
 
   ParameterValues values(free);
   const ChainSettings on_planes = chain_settings(kAutoMethod, "bounded", values);
