@@ -41,8 +41,9 @@ class DecimationPasses {
   // Moves each vertex to where the energy of its points is least. Returns the number of moved
   // vertices.
   std::size_t relocate(int power);
-  // Moves vertices onto the planes that the triangles around them follow, as far as the limits
-  // permit. Returns the number of moved vertices.
+  // Moves vertices onto the planes that the triangles around them follow, or half, a quarter or an
+  // eighth of the way there if the limits do not permit all of it. Returns the number of moved
+  // vertices.
   std::size_t move_into_place();
   // Flips each edge whose flip lowers the energy. Returns the number of flips.
   std::size_t flip(int power);

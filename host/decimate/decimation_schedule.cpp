@@ -22,6 +22,8 @@ constexpr int kHighPower = 16;
 constexpr double kMuch = 0.85;
 constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth reference
 constexpr int kSpreads = 3;      // of spreading the error
+// A vertex that comes nearer to its place makes room for those around it.
+constexpr int kMostRoundsIntoPlace = 8;
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
@@ -89,7 +91,12 @@ class Schedule {
 
   std::size_t move_into_place() {
     if (!state_.follows_planes() || passes_.stopped()) return 0;
-    return tell("vertices moved onto planes", passes_.move_into_place());
+    std::size_t moved = 0, last = 1;
+    for (int round = 0; round < kMostRoundsIntoPlace && last > 0 && !passes_.stopped(); ++round) {
+      last = passes_.move_into_place();
+      moved += last;
+    }
+    return tell("vertices moved onto planes", moved);
   }
 
   // Only once the mesh is coarse: vertices as close as their noise would fold over each other.

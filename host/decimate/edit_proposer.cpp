@@ -15,7 +15,8 @@ constexpr double kNothingOfHighPowers = 1e-30;
 // distances gain that share over the power.
 double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
 
-constexpr double kInPlace = 1e-6;  // of the limit
+constexpr double kInPlace = 1e-6;          // of the limit
+constexpr double kLeastPartOfWay = 0.125;  // to a place that cannot be reached
 
 }  // namespace
 
@@ -190,11 +191,17 @@ bool EditProposer::relocation(std::uint32_t vertex, int power, bool limit) {
 bool EditProposer::into_place(std::uint32_t vertex) {
   if (options_.features.fixed(vertex) || options_.holds(vertex)) return false;
   if (!search_.prepare_relocation(vertex) || !search_.place()) return false;
-  const Point& at = state_.mesh().position(vertex);
+  const Point at = state_.mesh().position(vertex);
   if (is_in_place(at)) return false;
-  Fit fit;
-  return search_.evaluate(search_.place()->project(at), kPower, fit) && fit.worst <= 1 &&
-         search_.finish(fit, true, edit_);
+  const Point place = search_.place()->project(at);
+  for (double part = 1; part >= kLeastPartOfWay; part /= 2) {
+    Fit fit;
+    if (search_.evaluate(at + part * (place - at), kPower, fit) && fit.worst <= 1 &&
+        search_.finish(fit, true, edit_)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool EditProposer::may_split(std::uint32_t a, std::uint32_t b) const {

@@ -97,6 +97,30 @@ TEST(PlaneDecimation, HoldsItsBoundsWherePlanesDoNot) {
   expect_bounds_kept(decimated(mesh, settings), mesh, kWithin);
 }
 
+// Planes so far from the points that no vertex can lie on them.
+TEST(PlaneDecimation, ComesNearerToPlanesThatItCannotReach) {
+  const TriangleMesh mesh = roughened(cube(12), kRoughness);
+  DecimationSettings settings = with_planes(mesh);
+  auto wrong = std::make_shared<PlaneParts>(*settings.planes);
+  for (Plane& plane : wrong->planes) plane.offset += (plane.offset > 0 ? 0.9 : -0.9) * kWithin;
+  settings.planes = wrong;
+  const auto mean_distance = [&](const TriangleMesh& result) {
+    double sum = 0;
+    for (const Point& v : result.vertices) {
+      double nearest = 1;
+      for (const Plane& p : wrong->planes) {
+        nearest = std::min(nearest, std::abs(p.signed_distance(v)));
+      }
+      sum += nearest / static_cast<double>(result.vertices.size());
+    }
+    return sum;
+  };
+  const TriangleMesh result = decimated(mesh, settings);
+  expect_bounds_kept(result, mesh, kWithin);
+  EXPECT_GT(off_planes(result, wrong->planes), 0u);
+  EXPECT_LT(mean_distance(result), 0.7 * mean_distance(decimated(mesh, with(kWithin))));
+}
+
 TEST(PlaneDecimation, KeepsWallsApartThatAreCloserThanTheBound) {
   TriangleMesh slab = cube(14);
   for (Point& v : slab.vertices) v.z() *= 0.4 * kWithin;
