@@ -4,6 +4,7 @@
 #include <span>
 
 #include "host/geometry/triangle_mesh.h"
+#include "tests/benchmarks/features/plane_tools.h"
 
 namespace emax::benchmarks {
 
@@ -20,5 +21,12 @@ struct EdgeDistance {
 // edges).
 EdgeDistance distance_of_edges(const TriangleMesh& truth, const TriangleMesh& mesh,
                                std::span<const Point> cloud, double band);
+
+// The same for a scan whose surface is not known: samples, `band` / 2 apart, of the lines where two
+// planes meet at more than 40 degrees, if both have a point within two bands of the sample and
+// `reference` is within `band` of it. O(planes^2 * points of a plane + samples * edges).
+EdgeDistance distance_of_meeting_planes(std::span<const FoundPlane> planes,
+                                        std::span<const Point> cloud, const TriangleMesh& reference,
+                                        const TriangleMesh& mesh, double band);
 
 }  // namespace emax::benchmarks

@@ -79,10 +79,18 @@ json measured(const Words& words) {
   return told;
 }
 
+// With planes in half of the band, as decimation finds them.
+EdgeDistance edges_of(const Words& words) {
+  const TriangleMesh mesh = read_mesh(words.mesh), truth = read_mesh(words.truth);
+  const std::vector<Point> cloud = read_cloud(words.cloud).points;
+  if (words.tool == "edges") return distance_of_edges(truth, mesh, cloud, words.band);
+  const std::vector<FoundPlane> planes =
+      planes_of_emax({cloud, words.band / 2, words.least_support, words.seed}, false);
+  return distance_of_meeting_planes(planes, cloud, truth, mesh, words.band);
+}
+
 json edges(const Words& words) {
-  const TriangleMesh mesh = read_mesh(words.mesh);
-  const EdgeDistance found =
-      distance_of_edges(read_mesh(words.truth), mesh, read_cloud(words.cloud).points, words.band);
+  const EdgeDistance found = edges_of(words);
   return {{"band", words.band},
           {"samples", found.samples},
           {"mean", found.mean},
@@ -99,22 +107,25 @@ int main(int argc, char** argv) {
   app.add_option("TOOL", words.tool)
       ->required()
       ->check(CLI::IsMember(
-          {"emax", "emax-hough", "cgal-ransac", "cgal-growing", "pcl-ransac", "edges"}));
+          {"emax", "emax-hough", "cgal-ransac", "cgal-growing", "pcl-ransac", "edges", "meeting"}));
   app.add_option("CLOUD", words.cloud)->required();
   app.add_option("--max-error", words.band, "in the unit of the cloud")->required();
   app.add_option("--truth", words.truth, "the surface of which the cloud is a scan");
   app.add_option("--flatness", words.flatness,
                  "how far corners of the truth may be from their plane, in widths")
       ->capture_default_str();
-  app.add_option("--mesh", words.mesh, "of which `edges` measures how far those of the truth are");
+  app.add_option("--mesh", words.mesh,
+                 "of which `edges` measures how far those of the truth are, and `meeting` how far "
+                 "the lines where planes of the cloud meet are, with a reference as the truth");
   app.add_option("--outliers", words.outliers, "to be added, as a share of the points");
   app.add_option("--least-points", words.least_support, "of a plane that a tool reports");
   app.add_option("--least-known", words.least_known, "of a plane that is to be found");
   app.add_option("--seed", words.seed);
   CLI11_PARSE(app, argc, argv);
   try {
-    fmt::print("{}\n", (words.tool == "edges" ? emax::benchmarks::edges(words)
-                                              : emax::benchmarks::measured(words))
+    fmt::print("{}\n", (words.tool == "edges" || words.tool == "meeting"
+                            ? emax::benchmarks::edges(words)
+                            : emax::benchmarks::measured(words))
                            .dump());
   } catch (const std::exception& error) {
     fmt::print(stderr, "emax_features_benchmark: {}\n", error.what());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/benchmarks/features/edge_distance.h"
 #include "tests/support/stimuli.h"
 
 namespace emax::benchmarks {
@@ -83,6 +84,36 @@ TEST_F(PlaneTruthTest, CountsWhatIsFoundAndWhatIsWrong) {
   EXPECT_EQ(score.wrong, 1u);
   EXPECT_NEAR(score.greatest_angle, 1, 1e-9);
   EXPECT_EQ(score_of(truth_, cloud_, reported, 150).known, 1u);
+}
+
+// A step of two plates that meet in a right angle, with points every 0.1.
+TEST(MeetingPlanes, AreComparedWithTheEdgesOfAMesh) {
+  constexpr double kBand = 0.2;
+  std::vector<Point> cloud;
+  std::vector<FoundPlane> planes = {{{{0, 0, 1}, 0}, {}}, {{{1, 0, 0}, 0}, {}}};
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 1; j <= 10; ++j) {
+      for (FoundPlane& plane : planes) {
+        plane.points.push_back(static_cast<std::uint32_t>(cloud.size()));
+        const double out = 0.1 * j;
+        cloud.emplace_back(&plane == planes.data() ? Point(out, 0.1 * i, 0)
+                                                   : Point(0, 0.1 * i, out));
+      }
+    }
+  }
+  const auto step = [](double at) {
+    return TriangleMesh{{{1, 0, 0}, {at, 0, at}, {0, 0, 1}, {1, 2, 0}, {at, 2, at}, {0, 2, 1}},
+                        {{0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}}};
+  };
+  const EdgeDistance exact = distance_of_meeting_planes(planes, cloud, step(0), step(0), kBand);
+  EXPECT_EQ(exact.samples, 21u);
+  EXPECT_NEAR(exact.mean, 0, 1e-12);
+  EXPECT_NEAR(exact.within_half, 1, 1e-12);
+  const EdgeDistance off = distance_of_meeting_planes(planes, cloud, step(0), step(0.1), kBand);
+  EXPECT_NEAR(off.mean, 0.1 * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(off.within_half, 0);
+  // Where the reference is far from the line there is no edge.
+  EXPECT_EQ(distance_of_meeting_planes(planes, cloud, step(0.2), step(0), kBand).samples, 0u);
 }
 
 // A plate of 1 x 1 that goes over into an arc of this radius and of length 1, tilted, with
