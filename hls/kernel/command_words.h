@@ -16,6 +16,16 @@
 //   greatest
 //                                                           result, its index in the block
 //
+// A board has both cores and a store, in which data stay. It takes the commands of both, Identify
+// and Counters of the filtering core with kOfFilter and Identify of the store with kOfStore, and
+//
+//   kStore         opcode, n         address, n - 1 words   -
+//   kRecall        opcode, n         header, n - 1 pieces   that of the command that it makes
+//   kEcho          opcode, n         n words                header, the same words
+//
+// kStore writes words of the store. kRecall makes a command: its header, then the words that the
+// pieces name.
+//
 // A header is the opcode in the upper 8 bits and a count or options in the lower 24. Loading points
 // begins a block: every point's running minimum becomes infinity. Each record then meets every
 // point of the block; kReduce sends the answer and ends the block. An answer's header repeats the
@@ -40,6 +50,9 @@ enum Opcode : Word {
   kFilterPoints = 6,
   kFilterRecords = 7,
   kFilterReduce = 8,
+  kStore = 9,
+  kRecall = 10,
+  kEcho = 11,
   kError = 0xff
 };
 
@@ -50,6 +63,8 @@ enum DeviceError : Word {
   kNoPoints = 3,
 };
 
+// Options of kIdentify and kCounters, to a board.
+constexpr Word kOfExact = 0, kOfFilter = 1, kOfStore = 2;
 constexpr Word kReduceListsPoints = 1;  // option of kReduce: also the d^2 of every point
 
 constexpr Word kMaxBlockPoints = 1024;
@@ -59,6 +74,15 @@ constexpr Word kAnswerIdentity = 5;
 constexpr Word kAnswerCounters = 6;  // cycles busy, stalled, idle: each its low and its high word
 constexpr Word kAnswerWorst = 2;     // squared distance, index
 
+// Version of the store's commands, its words.
+constexpr Word kStoreVersion = 1;
+constexpr Word kAnswerStore = 2;
+// A piece of the store: the address of its first word in the lower bits, above it the number of
+// words after the first.
+constexpr Word kPieceAddressBits = 22;
+constexpr Word kMaxPieceWords = 1u << (32 - kPieceAddressBits);
+constexpr Word kMaxStoreWords = 1u << kPieceAddressBits;
+
 constexpr Word kCountBits = 24;
 constexpr Word kMaxCount = (1u << kCountBits) - 1;
 
@@ -67,5 +91,11 @@ static_assert(kMaxBlockPoints + kAnswerWorst <= kMaxCount, "an answer's count fi
 inline Word command_header(Opcode opcode, Word count) { return (opcode << kCountBits) | count; }
 inline Word header_opcode(Word header) { return header >> kCountBits; }
 inline Word header_count(Word header) { return header & kMaxCount; }
+
+inline Word store_piece(Word address, Word words) {
+  return address | (words - 1) << kPieceAddressBits;
+}
+inline Word piece_address(Word piece) { return piece & (kMaxStoreWords - 1); }
+inline Word piece_words(Word piece) { return (piece >> kPieceAddressBits) + 1; }
 
 }  // namespace emax

@@ -87,6 +87,10 @@ package emax_mutation;
   localparam int BLOCK_KEEPS_ANY_OF_EQUALS = 127;  // core/block_answer: the first element's worst stays
   localparam int ELEMENTS_OUT_OF_TURN = 128;  // core/block_answer: one element gives the whole list
 
+  localparam int STORE_KEEPS_OLD_WORDS = 161;  // board/command_store: nothing is written
+  localparam int STORE_READS_THE_NEXT = 162;  // board/command_store: a piece begins a word late
+  localparam int ROUTER_MIXES_ANSWERS = 163;  // board/command_router: the filter's answers go first
+
   localparam int LINK_CRC_NOT_CHECKED = 201;  // link_receiver: every frame is whole
   localparam int LINK_LENGTH_NOT_CHECKED = 202;  // link_receiver: reads on after an impossible length
   localparam int LINK_GAP_IGNORED = 203;  // link_receiver: a frame that broke off swallows the next

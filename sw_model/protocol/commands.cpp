@@ -89,22 +89,45 @@ void append_filter_reduce(std::vector<Word>& words, bool list_points) {
 }
 
 std::size_t payload_words(Word header, CommandSet set) {
-  const bool filter = set == CommandSet::kFilter;
   const std::size_t count = header_count(header);
-  const Word opcode = header_opcode(header);
-  if (opcode == (filter ? kFilterPoints : kLoadPoints)) {
-    return count * (filter ? kFilterPointWords : kPointWords);
+  const bool board = set == CommandSet::kBoard, both = board || set == CommandSet::kCores;
+  const bool exact = both || set == CommandSet::kExact, filter = both || set == CommandSet::kFilter;
+  switch (header_opcode(header)) {
+    case kLoadPoints:
+      return exact ? count * kPointWords : 0;
+    case kRecords:
+      return exact ? count * kRecordWords : 0;
+    case kFilterPoints:
+      return filter ? count * kFilterPointWords : 0;
+    case kFilterRecords:
+      return filter ? count * kFilterRecordWords : 0;
+    case kStore:
+    case kRecall:
+      return board ? count : 0;
+    case kEcho:
+      return both ? count : 0;
+    case kIdentify:
+      return set == CommandSet::kCores && count == kOfStore ? kAnswerStore : 0;
+    default:
+      return 0;
   }
-  if (opcode == (filter ? kFilterRecords : kRecords)) {
-    return count * (filter ? kFilterRecordWords : kRecordWords);
-  }
-  return 0;
 }
 
 bool is_answered(Word header, CommandSet set) {
-  const Word opcode = header_opcode(header);
-  return opcode == (set == CommandSet::kFilter ? kFilterReduce : kReduce) || opcode == kIdentify ||
-         opcode == kCounters;
+  const bool both = set == CommandSet::kBoard || set == CommandSet::kCores;
+  switch (header_opcode(header)) {
+    case kIdentify:
+    case kCounters:
+      return true;
+    case kReduce:
+      return set != CommandSet::kFilter;
+    case kFilterReduce:
+      return set != CommandSet::kExact;
+    case kEcho:
+      return both;
+    default:
+      return false;
+  }
 }
 
 CommandCursor::Part CommandCursor::take(std::span<const Word>& words) {
@@ -174,6 +197,20 @@ void require_identity(Device& device, Word version, Word record_words, const std
 }
 
 }  // namespace
+
+std::size_t require_store(Device& device) {
+  device.send(std::array<Word, 1>{command_header(kIdentify, kOfStore)});
+  std::array<Word, 1 + kAnswerStore> answer;
+  device.receive(answer);
+  if (answer[0] != command_header(kIdentify, kAnswerStore)) {
+    refuse(device, "it does not say what it stores");
+  }
+  if (answer[1] != kStoreVersion) {
+    refuse(device, "its store has version " + std::to_string(answer[1]) +
+                       ", this program needs version " + std::to_string(kStoreVersion));
+  }
+  return answer[2];
+}
 
 void require_compatible(Device& device) {
   require_identity(device, kKernelVersion, kRecordWords, "kernel");

@@ -21,8 +21,10 @@ void append_filter_records(std::vector<Word>& words,
                            std::span<const TriangleRecord<FilterNumber>> records);
 void append_filter_reduce(std::vector<Word>& words, bool list_points);
 
-// Which core's commands make a block. Those of the other are unknown to it.
-enum class CommandSet { kExact, kFilter };
+// Whose commands they are: a core's, which does not know those that make a block of the other one;
+// a board's, with those of the store; or those that a board's store gives to its two cores, where
+// Identify of the store is followed by its answer.
+enum class CommandSet { kExact, kFilter, kBoard, kCores };
 
 // The number of words that follow a command's header.
 std::size_t payload_words(Word header, CommandSet set = CommandSet::kExact);
@@ -63,6 +65,10 @@ ReduceAnswer receive_reduce(Device& device, std::size_t points, bool list_points
 // Asks for the device's cycles and adds them to `counters`; a device that does not count them
 // leaves them as they are. No other answer is under way. Throws Error where it answers out of step.
 void ask_cycles(Device& device, DeviceCounters& counters);
+
+// The number of words of a board's store. Throws Error where the device is no board of this
+// version.
+std::size_t require_store(Device& device);
 
 // Asks the device for its identity. Throws Error for another kernel version or record layout.
 void require_compatible(Device& device);

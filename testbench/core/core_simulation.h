@@ -39,5 +39,8 @@ class CoreSimulation {
 std::unique_ptr<CoreSimulation> make_mutated_core();
 // The same of the filtering core.
 std::unique_ptr<CoreSimulation> make_mutated_filter();
+// The same of both cores behind a store, of one element each.
+constexpr unsigned kMutatedStoreBits = 8;
+std::unique_ptr<CoreSimulation> make_mutated_device();
 
 }  // namespace emax

@@ -1,6 +1,7 @@
 #include <Vemax_core_1.h>
 #include <Vemax_core_2.h>
 #include <Vemax_core_4.h>
+#include <Vemax_device_4.h>
 #include <Vemax_filter_1.h>
 #include <Vemax_filter_4.h>
 
@@ -56,5 +57,11 @@ std::unique_ptr<CoreSimulation> make_filter(std::uint32_t elements) {
 std::unique_ptr<Device> make_rtl_filter(std::uint32_t elements) {
   return std::make_unique<RtlDevice>(make_filter(elements));
 }
+
+std::unique_ptr<CoreSimulation> make_device() {
+  return std::make_unique<VerilatedCore<Vemax_device_4, 1>>();
+}
+
+std::unique_ptr<Device> make_rtl_board() { return std::make_unique<RtlDevice>(make_device()); }
 
 }  // namespace emax

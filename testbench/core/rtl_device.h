@@ -39,4 +39,10 @@ std::span<const std::uint32_t> rtl_filter_counts();
 std::unique_ptr<CoreSimulation> make_filter(std::uint32_t elements);
 std::unique_ptr<Device> make_rtl_filter(std::uint32_t elements);
 
+// Both cores of a board behind its store, without its link (hls/rtl/board/emax_device.sv).
+constexpr std::uint32_t kRtlBoardFilterElements = 4;  // before one exact element
+constexpr unsigned kRtlBoardStoreBits = 15;
+std::unique_ptr<CoreSimulation> make_device();
+std::unique_ptr<Device> make_rtl_board();
+
 }  // namespace emax

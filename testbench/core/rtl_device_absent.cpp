@@ -22,5 +22,6 @@ namespace {
 
 std::unique_ptr<Device> make_rtl_device(std::uint32_t) { refuse_absent_rtl(); }
 std::unique_ptr<Device> make_rtl_filter(std::uint32_t) { refuse_absent_rtl(); }
+std::unique_ptr<Device> make_rtl_board() { refuse_absent_rtl(); }
 
 }  // namespace emax

@@ -1,0 +1,144 @@
+// The Verilated cores of a board behind their store beside the twin in C++, bit for bit.
+#include <gtest/gtest.h>
+
+#include "sw_model/base/error.h"
+#include "sw_model/protocol/cpp_board.h"
+#include "testbench/core/board_stimuli.h"
+#include "testbench/core/core_driver.h"
+#include "testbench/core/rtl_device.h"
+#include "testbench/operators/mutant_list.h"
+
+namespace emax::test {
+namespace {
+
+// All answers of the twin to whole commands.
+std::vector<Word> answers_of_board(std::span<const Word> words, unsigned store_bits) {
+  CppBoard board(1, 1, store_bits);
+  board.send(words);
+  std::vector<Word> answers;
+  std::size_t questions = 0;
+  CommandCursor cursor(CommandSet::kBoard);
+  for (auto rest = words; !rest.empty();) {
+    const auto part = cursor.take(rest);
+    const bool recalls = header_opcode(part.header) == kRecall && part.words.size() > 1;
+    questions += is_answered(recalls ? part.words[1] : part.header, CommandSet::kCores) ? 1 : 0;
+  }
+  for (; questions > 0; --questions) {
+    std::vector<Word> answer(1);
+    board.receive(answer);
+    answer.resize(1 + header_count(answer[0]));
+    board.receive(std::span(answer).subspan(1));
+    answers.insert(answers.end(), answer.begin(), answer.end());
+  }
+  return answers;
+}
+
+TEST(DeviceCore, AnswersAnyCommandsAsItsTwin) {
+  const auto exact = materials(5);
+  const FilterMaterial filter = filter_material(5);
+  const auto core = make_device();
+  std::size_t answered = 0;
+  for (std::uint32_t round = 0; round < 2 * kPatterns; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    Random random(round);
+    const auto words =
+        any_board_commands(exact[round % exact.size()], filter, 25, kRtlBoardStoreBits, random);
+    const auto expected = answers_of_board(words, kRtlBoardStoreBits);
+    const CorePatterns patterns = {static_cast<Pattern>(round % kPatterns),
+                                   static_cast<Pattern>((round + round / kPatterns) % kPatterns),
+                                   round};
+    ASSERT_EQ(run_core(*core, words, patterns), expected);
+    answered += expected.size();
+  }
+  EXPECT_GT(answered, 2000u);
+}
+
+TEST(DeviceCore, SaysWhatItsPartsAre) {
+  const auto core = make_device();
+  const std::vector<Word> words = {command_header(kIdentify, kOfExact),
+                                   command_header(kIdentify, kOfFilter),
+                                   command_header(kIdentify, kOfStore)};
+  const Word five = command_header(kIdentify, kAnswerIdentity);
+  const std::vector<Word> expected = {five,
+                                      kKernelVersion,
+                                      1024,
+                                      kRecordWords,
+                                      1,
+                                      0,
+                                      five,
+                                      kFilterVersion,
+                                      1024,
+                                      kFilterRecordWords,
+                                      kRtlBoardFilterElements,
+                                      0,
+                                      command_header(kIdentify, kAnswerStore),
+                                      kStoreVersion,
+                                      1u << kRtlBoardStoreBits};
+  EXPECT_EQ(run_core(*core, words), expected);
+  // Each core counts its own cycles.
+  const auto counted = run_core(*core, std::vector<Word>{command_header(kCounters, kOfExact),
+                                                         command_header(kCounters, kOfFilter)});
+  EXPECT_EQ(counted.size(), 2u * (1 + kAnswerCounters));
+}
+
+TEST(DeviceCore, KeepsItsWordsOverAReset) {
+  const auto core = make_device();
+  EXPECT_TRUE(run_core(*core, std::vector<Word>{command_header(kStore, 3), 100, 7, 8}).empty());
+  core->clock(true);
+  core->clock(true);
+  const std::vector<Word> echo = {command_header(kRecall, 2), command_header(kEcho, 2),
+                                  store_piece(100, 2)};
+  EXPECT_EQ(run_core(*core, echo), (std::vector<Word>{command_header(kEcho, 2), 7, 8}));
+}
+
+TEST(DeviceCore, ResetInMidStreamLeavesNothingBehind) {
+  const auto exact = materials(6);
+  const FilterMaterial filter = filter_material(6);
+  const auto core = make_device();
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    Random random(i);
+    const auto broken =
+        any_board_commands(exact[i % exact.size()], filter, 4, kRtlBoardStoreBits, random);
+    const std::size_t cut = random.below(broken.size());
+    for (std::size_t sent = 0; sent < cut;) {
+      core->offer_command(&broken[sent]);
+      core->set_answer_ready(random.one_in(2));
+      sent += core->outputs().command_ready ? 1 : 0;
+      core->clock();
+    }
+    core->offer_command(nullptr);
+    core->clock(true);
+    core->clock(true);
+    const auto words = any_board_commands(exact[0], filter, 3, kRtlBoardStoreBits, random);
+    ASSERT_EQ(run_core(*core, words), answers_of_board(words, kRtlBoardStoreBits));
+  }
+}
+
+bool is_caught(std::uint32_t mutant) {
+  const auto core = make_mutated_device();
+  core->set_mutant(mutant);
+  core->clock(true);
+  const auto exact = materials(7);
+  const FilterMaterial filter = filter_material(7);
+  Random random(7);
+  const auto words = any_board_commands(exact[0], filter, 30, kMutatedStoreBits, random);
+  try {
+    return run_core(*core, words) != answers_of_board(words, kMutatedStoreBits);
+  } catch (const Error&) {
+    return true;  // an assertion, or no end
+  }
+}
+
+TEST(DeviceCoreMutants, EachIsCaught) {
+  EXPECT_FALSE(is_caught(0));
+  std::size_t mutants = 0;
+  for (const Mutant& mutant : read_mutants(EMAX_MUTATION_LIST)) {
+    if (!mutant.module.starts_with("board/")) continue;
+    ++mutants;
+    EXPECT_TRUE(is_caught(static_cast<std::uint32_t>(mutant.number))) << mutant.name;
+  }
+  EXPECT_GE(mutants, 3u);
+}
+
+}  // namespace
+}  // namespace emax::test
