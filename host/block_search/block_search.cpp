@@ -34,6 +34,12 @@ class Pipeline {
   Pipeline(const PreparedCloud& cloud, const TriangleTree& mesh, Evaluator& evaluator,
            const SearchOptions& options, std::vector<std::uint32_t>* listed)
       : evaluator_(evaluator), options_(options), listed_(listed) {
+    std::vector<std::uint32_t> order;
+    order.reserve(cloud.points().size());
+    for (const PointGroup& group : cloud.groups()) {
+      order.insert(order.end(), group.points.begin(), group.points.end());
+    }
+    evaluator_.lay_out(order);
     evaluator_.begin(cloud.points(), mesh.records());
   }
 

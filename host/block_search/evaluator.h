@@ -32,6 +32,9 @@ class Evaluator {
 
   virtual std::string name() const = 0;
   virtual std::size_t block_points() const = 0;  // the most it takes in one block
+  // Before begin(): an order of the next points in which those of a block are near each other, for
+  // evaluators that keep points. It changes no answer.
+  virtual void lay_out(std::span<const std::uint32_t> /*order*/) {}
   // Sets the points and records that blocks refer to. They must outlive the blocks' answers.
   virtual void begin(std::span<const Vector3<float>> points,
                      std::span<const TriangleRecord<float>> records) = 0;

@@ -11,8 +11,9 @@ namespace emax {
 
 // Keeps the commands whose answers a device still owes, so that all of them can be sent again to a
 // device that has lost its state. Gives each answer only once, and only whole. The commands that
-// must be sent again together are a unit: those up to a Reduce, which ends a block, or a single
-// question outside any block.
+// must be sent again together are a unit: those up to a Reduce of either core, which ends a block,
+// or a single question outside any block. What earlier units stored is kept, too, and is stored
+// again before them.
 class CommandLog {
  public:
   // Adds words of commands, cut anywhere.
@@ -41,9 +42,17 @@ class CommandLog {
   };
 
   bool finish_answer();
+  void keep_stored(const std::vector<Word>& commands);
+  void append_stored(std::vector<Word>& commands) const;
 
   std::deque<Unit> units_;  // only the last one may be incomplete
-  CommandCursor cursor_;
+  CommandCursor cursor_{CommandSet::kBoard};
+  // The words of the store after the units that are gone, those that any unit wrote; and what is to
+  // be sent of them, before all units, with the number of words sent.
+  std::vector<Word> stored_;
+  std::vector<bool> is_stored_;
+  std::vector<Word> restore_;
+  std::size_t restored_ = 0;
   std::size_t unsent_ = 0, due_ = 0;
   std::vector<Word> answer_;  // the answer that is arriving
   std::size_t answer_missing_ = 0;

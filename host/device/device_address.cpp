@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "host/device/board_ports.h"
 #include "host/device/device_evaluator.h"
 #include "host/device/filtering_evaluator.h"
 #include "host/device/link_device.h"
@@ -10,6 +11,7 @@
 #include "host/device/queued_device.h"
 #include "host/device/xrt_device.h"
 #include "sw_model/base/error.h"
+#include "sw_model/protocol/cpp_board.h"
 #include "sw_model/protocol/cpp_device.h"
 #include "testbench/core/rtl_device.h"
 
@@ -27,6 +29,7 @@ constexpr Form kForms[] = {
     {"sim:filter", "the same behind the fixed-point filter"},
     {"rtl[:pes=N]", "the Verilated core of N elements"},
     {"rtl:filter", "the core of one element behind the Verilated filter"},
+    {"rtl:board", "both cores of a board, Verilated, behind their store"},
     {"opencl[:N]", "a GPU by OpenCL, or a processor"},
     {"tty:PATH[@BAUD]", "a board on a serial port"},
     {"xrt:XCLBIN[@INDEX]", "an Alveo card; not tested on a card"},
@@ -55,7 +58,7 @@ DeviceAddress parse_rtl(std::string_view text, std::string_view options) {
     for (const std::uint32_t count : counts) {
       accepted += (accepted.empty() ? "rtl:pes=" : ", rtl:pes=") + std::to_string(count);
     }
-    refuse(text, "use rtl, rtl:filter or one of " + accepted);
+    refuse(text, "use rtl, rtl:filter, rtl:board or one of " + accepted);
   }
   return {.kind = "rtl", .elements = *elements};
 }
@@ -67,7 +70,7 @@ DeviceAddress parse_opencl(std::string_view text, std::string_view place) {
 }
 
 DeviceAddress parse_tty(std::string_view text, std::string_view place) {
-  DeviceAddress address = {.kind = "tty"};
+  DeviceAddress address = {.kind = "tty", .is_board = true};
   const std::size_t at = place.rfind('@');
   if (at != place.npos) {
     const auto baud = number(place.substr(at + 1));
@@ -89,12 +92,18 @@ std::unique_ptr<Device> make_opencl_device(std::uint32_t number) {
 }
 
 std::unique_ptr<Device> make_device(const DeviceAddress& address) {
-  if (address.kind == "rtl") return make_rtl_device(address.elements);
+  if (address.kind == "rtl") {
+    return address.is_board ? make_rtl_board() : make_rtl_device(address.elements);
+  }
   if (address.kind == "opencl") return make_opencl_device(address.number);
   if (address.kind == "tty") {
     return std::make_unique<LinkDevice>(
         std::make_unique<SerialChannel>(address.place, address.baud),
         LinkLimits::for_baud(address.baud));
+  }
+  if (address.is_board) {
+    return std::make_unique<CppBoard>(address.elements, address.filter_elements,
+                                      address.board->store_bits);
   }
   return std::make_unique<CppDevice>(address.elements);
 }
@@ -102,6 +111,16 @@ std::unique_ptr<Device> make_device(const DeviceAddress& address) {
 std::unique_ptr<Device> make_filter_device(const DeviceAddress& address) {
   if (address.kind == "rtl") return make_rtl_filter(address.filter_elements);
   return std::make_unique<CppFilter>(address.filter_elements);
+}
+
+// Both cores of a board, which share its stream of commands.
+std::unique_ptr<Evaluator> make_board_evaluator(const DeviceAddress& address) {
+  BoardPorts ports = ports_of(std::make_unique<QueuedDevice>(
+      make_device(address), QueuedDevice::kMostWords, CommandSet::kBoard));
+  const std::size_t store_words = require_store(*ports.filter);
+  auto exact = std::make_unique<DeviceEvaluator>(std::move(ports.exact));
+  return std::make_unique<FilteringEvaluator>(std::move(ports.filter), std::move(exact),
+                                              store_words);
 }
 
 }  // namespace
@@ -115,11 +134,16 @@ DeviceAddress DeviceAddress::parse(std::string_view text) {
   constexpr std::string_view kBoard = "board=";
   if (kind == "sim" && rest.starts_with(kBoard)) {
     const BoardModel board = board_model(rest.substr(kBoard.size()));
-    return {.kind = "sim", .board = board, .elements = board.elements};
+    return {.kind = "sim",
+            .board = board,
+            .elements = board.elements,
+            .filter_elements = board.filter_elements,
+            .is_board = board.store_bits > 0};
   }
   if ((kind == "sim" || kind == "rtl") && rest == "filter") {
     return {.kind = std::string(kind), .filter_elements = kFilterElements};
   }
+  if (text == "rtl:board") return {.kind = "rtl", .is_board = true};
   if (kind == "rtl" && colon != text.npos) return parse_rtl(text, rest);
   if (kind == "opencl" && colon != text.npos) return parse_opencl(text, rest);
   if (kind == "tty") return parse_tty(text, rest);
@@ -144,6 +168,7 @@ std::unique_ptr<Evaluator> make_evaluator(const DeviceAddress& address) {
     return std::make_unique<DeviceEvaluator>(
         std::make_unique<XrtDevice>(open_xrt_card(address.place)));
   }
+  if (address.is_board) return make_board_evaluator(address);
   auto exact =
       std::make_unique<DeviceEvaluator>(std::make_unique<QueuedDevice>(make_device(address)));
   if (address.filter_elements == 0) return exact;

@@ -18,6 +18,7 @@ struct DeviceAddress {
   std::optional<BoardModel> board = {};  // of sim: the board whose time is predicted
   std::uint32_t elements = 1;            // of sim and rtl
   std::uint32_t filter_elements = 0;     // of sim and rtl: of the filter before it; 0 for none
+  bool is_board = false;                 // both cores behind a store, in one stream of commands
   std::uint32_t number = 0;              // of opencl
   std::string place = {};                // of tty and xrt
   std::uint32_t baud = kDefaultBaud;

@@ -7,6 +7,7 @@
 
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
+#include "sw_model/model/error_bound.h"
 #include "sw_model/model/fixed_filter.h"
 #include "sw_model/protocol/commands.h"
 
@@ -23,6 +24,36 @@ std::optional<std::uint64_t> sum_of(const std::optional<std::uint64_t>& a,
   return *a + *b;
 }
 
+// At most the true distance of the point from the record's triangle, but for roundings: that from
+// the box of the triangle in its own frame. V1V2 is the longest edge, so the foot of V3 is on it.
+double distance_from_box(const Vector3<float>& p, const TriangleRecord<float>& r) {
+  const auto difference = [](float a, float b) {
+    return static_cast<double>(a) - static_cast<double>(b);
+  };
+  const double q[3] = {difference(p.x, r.v1.x), difference(p.y, r.v1.y), difference(p.z, r.v1.z)};
+  const auto along = [&q](const Vector3<float>& axis) {
+    return q[0] * static_cast<double>(axis.x) + q[1] * static_cast<double>(axis.y) +
+           q[2] * static_cast<double>(axis.z);
+  };
+  const auto outside = [](double at, double end) { return std::max({0.0, -at, at - end}); };
+  const double height =
+      static_cast<double>(r.edge13.length) * static_cast<double>(r.edge13.direction.y);
+  return std::hypot(along(r.normal), outside(along(r.in_plane), height),
+                    outside(along(r.along), static_cast<double>(r.length12)));
+}
+
+// Whether the kernel's distance of the pair may be at most `upper`. The margin is taken twice: once
+// for the kernel, and once for the record's roundings, which move the box by less than 7 u of the
+// lengths that the margin has.
+bool may_be_within(double upper, const Vector3<float>& p, const TriangleRecord<float>& record) {
+  const double lower = distance_from_box(p, record);
+  const double v1 = std::sqrt(3.0) * greatest_coordinate(record.v1);
+  const double reach = lower + 2 * static_cast<double>(record.length12);
+  if (EMAX_FAULT(kFilterDropsNearest)) return 2 * lower <= upper;
+  return lower - 2 * kernel_distance_margin(reach, static_cast<double>(record.length12), v1) <=
+         upper;
+}
+
 bool is_worse_than(const EmaxResult& a, const EmaxResult& b) {
   return a.squared_bits > b.squared_bits ||
          (a.squared_bits == b.squared_bits && a.worst_point < b.worst_point);
@@ -31,8 +62,8 @@ bool is_worse_than(const EmaxResult& a, const EmaxResult& b) {
 }  // namespace
 
 FilteringEvaluator::FilteringEvaluator(std::unique_ptr<Device> filter,
-                                       std::unique_ptr<Evaluator> exact)
-    : filter_(std::move(filter)), exact_(std::move(exact)) {
+                                       std::unique_ptr<Evaluator> exact, std::size_t store_words)
+    : filter_(std::move(filter)), exact_(std::move(exact)), blocks_(store_words) {
   require_filter(*filter_);
   counters_.filtered_pairs = counters_.filtered_points = counters_.points_left = 0;
 }
@@ -44,6 +75,7 @@ auto FilteringEvaluator::on_filter(Action action) {
   } catch (const Error& error) {
     failed_ = true;
     in_flight_.clear();
+    questions_.clear();
     throw DeviceFailure(error.what());
   }
 }
@@ -53,70 +85,94 @@ void FilteringEvaluator::begin(std::span<const Vector3<float>> points,
   while (!in_flight_.empty()) collect();  // blocks of a search that was interrupted
   if (!EMAX_FAULT(kFilterKeepsOldGreatest)) worst_.reset();
   exact_->begin(points, records);
+  points_ = points;
   records_ = records;
-  exponent_ = filter_exponent(points, records, kFilterBits);
-  filter_points_.clear();
-  for (const Vector3<float>& p : points) {
-    filter_points_.push_back(filter_point<kFilterBits>(p, exponent_));
-  }
-  filter_records_.clear();
-  for (const TriangleRecord<float>& record : records) {
-    filter_records_.push_back(filter_record<kFilterBits>(record, exponent_));
-  }
+  blocks_.begin(points, records);
 }
 
 void FilteringEvaluator::submit(const Block& block, bool list_points) {
-  Asked asked{block, list_points, false, 0};
-  if (list_points) {
-    exact_->submit(block, true);
-    in_flight_.push_back(std::move(asked));
-    return;
-  }
-  std::vector<TriangleRecord<FilterNumber>> candidates;
+  in_flight_.push_back({block, list_points});
+  Asked& asked = in_flight_.back();
+  if (list_points) return exact_->submit(block, true);
   for (const std::uint32_t i : block.candidates) {
-    if (!filter_records_[i]) continue;
-    candidates.push_back(*filter_records_[i]);
+    if (!blocks_.has(i)) continue;
+    ++asked.filtered;
     const auto length = static_cast<double>(records_[i].length12);
-    asked.longest = std::max(asked.longest, std::ldexp(length, exponent_));
+    asked.longest = std::max(asked.longest, std::ldexp(length, blocks_.exponent()));
   }
-  asked.filtered = !candidates.empty();
-  if (asked.filtered) {
-    std::vector<Vector3<FilterNumber>> points;
-    for (const std::uint32_t i : block.points) points.push_back(filter_points_[i]);
-    std::vector<Word> words;
-    append_filter_points(words, points);
-    append_filter_records(words, candidates);
-    append_filter_reduce(words, true);
-    on_filter([&] { filter_->send(words); });
-    counters_.words_in += words.size();
-    *counters_.filtered_pairs += points.size() * candidates.size();
+  *counters_.filtered_points += block.points.size();
+  if (asked.filtered == 0) return;
+  blocks_.arrange(asked.block.points);
+  ask(asked, !blocks_.stores() || !worst_);
+}
+
+void FilteringEvaluator::ask(Asked& asked, bool list) {
+  std::vector<Word> words;
+  blocks_.append(asked.block, words);
+  append_filter_reduce(words, list);
+  asked.answered = false;
+  asked.listed = list;
+  on_filter([&] { filter_->send(words); });
+  counters_.words_in += words.size();
+  *counters_.filtered_pairs += asked.block.points.size() * asked.filtered;
+  questions_.push_back(&asked);
+}
+
+// Takes answers up to this one.
+void FilteringEvaluator::wait_for(const Asked& asked) {
+  while (!asked.answered) {
+    Asked& next = *questions_.front();
+    next.answer = on_filter([&] {
+      return receive_reduce(*filter_, next.block.points.size(), next.listed, kFilterReduce);
+    });
+    questions_.pop_front();
+    next.answered = true;
+    counters_.words_out += 1 + kAnswerWorst + next.answer.points_squared_bits.size();
   }
-  in_flight_.push_back(std::move(asked));
 }
 
 BlockAnswer FilteringEvaluator::collect() {
-  const Asked asked = std::move(in_flight_.front());
-  in_flight_.pop_front();
   ++counters_.blocks;
-  if (asked.list_points) return exact_->collect();
-  return {settle(asked, upper_bounds(asked)), {}};
+  Asked& asked = in_flight_.front();
+  BlockAnswer answer;
+  if (asked.list_points) {
+    answer = exact_->collect();
+  } else {
+    if (asked.filtered > 0) {
+      wait_for(asked);
+      if (!is_settled(asked) && !asked.listed) {
+        ask(asked, true);
+        wait_for(asked);
+      }
+    }
+    answer = {is_settled(asked) ? *worst_ : settle(asked, upper_bounds(asked)), {}};
+  }
+  in_flight_.pop_front();
+  return answer;
 }
 
-// In normalised units: what the kernel's distance of each point does not exceed.
-std::vector<double> FilteringEvaluator::upper_bounds(const Asked& asked) {
-  const std::size_t points = asked.block.points.size();
-  std::vector<double> upper(points, std::numeric_limits<double>::infinity());
-  *counters_.filtered_points += points;
-  if (!asked.filtered) return upper;
-  const ReduceAnswer answer =
-      on_filter([&] { return receive_reduce(*filter_, points, true, kFilterReduce); });
-  counters_.words_out += 1 + kAnswerWorst + points;
-  for (std::size_t i = 0; i < points; ++i) {
-    const Word squared = answer.points_squared_bits[i];
-    const double f = std::sqrt(std::ldexp(static_cast<double>(squared), -32));
-    upper[i] = std::ldexp(filter_upper_bound(f, asked.longest, kFilterBits), -exponent_);
+// In normalised units: what the kernel's distance of a point with this result does not exceed.
+double FilteringEvaluator::upper_bound(const Asked& asked, Word squared) const {
+  const double f = std::sqrt(std::ldexp(static_cast<double>(squared), -32));
+  return std::ldexp(filter_upper_bound(f, asked.longest, kFilterBits), -blocks_.exponent());
+}
+
+std::vector<double> FilteringEvaluator::upper_bounds(const Asked& asked) const {
+  if (asked.filtered == 0) {
+    return std::vector<double>(asked.block.points.size(), std::numeric_limits<double>::infinity());
+  }
+  std::vector<double> upper;
+  for (const Word squared : asked.answer.points_squared_bits) {
+    upper.push_back(upper_bound(asked, squared));
   }
   return upper;
+}
+
+// Whether the greatest result shows that no point of the block is open.
+bool FilteringEvaluator::is_settled(const Asked& asked) const {
+  if (asked.filtered == 0 || !worst_) return false;
+  if (EMAX_FAULT(kFilterTrustsGreatest) && !asked.listed) return true;
+  return upper_bound(asked, asked.answer.squared_bits) < distance_of(worst_->squared_bits);
 }
 
 // Lets the kernel meet the block's points that are left open. Returns the greatest answer so far.
@@ -131,17 +187,26 @@ EmaxResult FilteringEvaluator::settle(const Asked& asked, const std::vector<doub
   };
   std::size_t next = 0;
   for (std::size_t chunk = kFirstChunk; next < order.size() && is_open(order[next]); chunk *= 2) {
-    Block open{{}, asked.block.candidates};
+    Block open;
+    const double greatest = upper[order[next]];
     while (next < order.size() && open.points.size() < chunk && is_open(order[next])) {
       open.points.push_back(asked.block.points[order[next++]]);
     }
     std::ranges::sort(open.points);
-    meet_exactly(std::move(open));
+    meet_exactly(std::move(open), asked.block.candidates, greatest);
   }
   return *worst_;
 }
 
-void FilteringEvaluator::meet_exactly(Block block) {
+// No minimum of the block's points is above `upper`.
+void FilteringEvaluator::meet_exactly(Block block, std::span<const std::uint32_t> candidates,
+                                      double upper) {
+  for (const std::uint32_t i : candidates) {
+    const auto is_near = [&](std::uint32_t p) {
+      return may_be_within(upper, points_[p], records_[i]);
+    };
+    if (std::ranges::any_of(block.points, is_near)) block.candidates.push_back(i);
+  }
   *counters_.points_left += block.points.size();
   exact_->submit(block, false);
   const EmaxResult answer = exact_->collect().worst;

@@ -12,6 +12,11 @@ enum class Fault {
   kFilterWithoutMargin,     // the filter's distance is taken as exact
   kFilterTrustsSaturated,   // a distance is trusted although its numbers may have left their range
   kFilterKeepsOldGreatest,  // points meet the greatest minimum of a search before
+  kFilterDropsNearest,      // the kernel goes without triangles that may be nearest
+  kFilterTrustsGreatest,    // a block is settled although its greatest result leaves points open
+  // In the store of a board.
+  kStoreTrustsOldItems,  // what was stored before counts as there
+  kLogForgetsStored,     // a board that lost its store does not get it again
   // In the distance between surfaces.
   kCutsWithoutMargin,    // the rounding of cuts is not added
   kNearestOfEachCorner,  // a bound is taken from each corner's own nearest triangle

@@ -28,7 +28,8 @@ enum class CommandSet { kExact, kFilter, kBoard, kCores };
 
 // The number of words that follow a command's header.
 std::size_t payload_words(Word header, CommandSet set = CommandSet::kExact);
-// Whether the command is answered; a command that is answered has no payload.
+// Whether the command is answered; of those that are, kEcho alone has a payload. A kRecall counts
+// as not answered: nobody here makes a command that is answered of words of a store.
 bool is_answered(Word header, CommandSet set = CommandSet::kExact);
 
 // Finds the commands in a stream of words that arrives in parts of any length.

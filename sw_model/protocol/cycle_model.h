@@ -33,6 +33,9 @@ struct BoardModel {
   double clock_hz;
   std::uint32_t elements;        // processing elements sharing one record stream
   double link_bytes_per_second;  // of the slower direction
+  // Of a board with a filtering core and a store; 0 without.
+  std::uint32_t filter_elements = 0;
+  unsigned store_bits = 0;  // the store has 2^store_bits words
 };
 
 std::span<const BoardModel> board_models();

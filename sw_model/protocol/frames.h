@@ -13,7 +13,8 @@ namespace emax {
 // The frames of the link (docs/protocol.md).
 enum class FrameKind : std::uint8_t { kReset = 1, kData = 2, kStatus = 3, kPoll = 4, kLost = 5 };
 
-constexpr std::uint8_t kLinkVersion = 1;
+// Raised whenever frames or the commands in them change.
+constexpr std::uint8_t kLinkVersion = 2;
 constexpr std::uint8_t kSync[2] = {0x4d, 0xe5};
 constexpr std::size_t kFrameHeaderBytes = 12;
 constexpr std::size_t kFrameCrcBytes = 4;

@@ -161,10 +161,10 @@ void LinkedBoardTwin::step_core() {
 void LinkedBoardTwin::take_word(Word word) {
   if (command_missing_ == 0) {
     header_ = word;
-    command_missing_ = 1 + payload_words(word);
+    command_missing_ = 1 + payload_words(word, CommandSet::kBoard);
   }
   core_->send(std::array{word});
-  if (--command_missing_ > 0 || !is_answered(header_)) return;
+  if (--command_missing_ > 0 || !is_answered(header_, CommandSet::kBoard)) return;
   std::vector<Word> answer(1);
   core_->receive(answer);
   std::vector<Word> rest(header_count(answer[0]));

@@ -23,7 +23,7 @@ struct TwinSettings {
 };
 
 // A plain and slow implementation of the device's side of the link (docs/protocol.md) in front of
-// any core. In a byte time one byte passes each way and the core makes one step. Time passes only
+// any core, or of a board's two with their store. In a byte time one byte passes each way and the core makes one step. Time passes only
 // while read() waits.
 class LinkedBoardTwin : public ByteChannel {
  public:

@@ -2,7 +2,9 @@
 // 120 MHz / CLOCKS_PER_BIT, 3 Mbaud. Lamps from the left: running, three that are off, core at work,
 // session known, bytes to the host, bytes from the host. The FIRE1 button is a reset.
 module emax_ulx3s #(
-    parameter int NUM_PE = 2,
+    parameter int NUM_PE = 1,
+    parameter int FILTER_PE = 4,
+    parameter int STORE_BITS = 15,
     parameter int CLOCKS_PER_BIT = 40
 ) (
     input  logic       clk_25mhz,
@@ -26,7 +28,8 @@ module emax_ulx3s #(
     aresetn <= runs && settling == '1;
   end
 
-  emax_board #(.NUM_PE(NUM_PE), .CLOCK_KHZ(CLOCK_KHZ), .CLOCKS_PER_BIT(CLOCKS_PER_BIT)) board (
+  emax_board #(.NUM_PE(NUM_PE), .FILTER_PE(FILTER_PE), .STORE_BITS(STORE_BITS),
+      .CLOCK_KHZ(CLOCK_KHZ), .CLOCKS_PER_BIT(CLOCKS_PER_BIT)) board (
       .clk, .aresetn, .uart_rxd(ftdi_txd), .uart_txd(ftdi_rxd), .activity);
 
   assign led = {aresetn, 3'b0, activity};

@@ -1,6 +1,6 @@
 // behavioural/block_memory.sv of DP16KD, 1024 words of 18 bits each, with the output register that
 // synthesis does not infer: without it a word leaves the memory 5.6 ns after the clock. A memory of
-// 2048 words is two of half the size, chosen between behind their output registers.
+// more words is two of half the size, chosen between behind their output registers.
 module block_memory #(
     parameter int WIDTH = 32,
     parameter int ADDRESS_BITS = 10
@@ -14,18 +14,18 @@ module block_memory #(
     input  logic                    output_enable,
     output logic [WIDTH-1:0]        read_data
 );
-  if (WIDTH < 1 || ADDRESS_BITS < 1 || ADDRESS_BITS > 11) begin : bad_size
-    $error("block_memory: WIDTH must be at least 1 and ADDRESS_BITS 1 to 11");
+  if (WIDTH < 1 || ADDRESS_BITS < 1 || ADDRESS_BITS > 17) begin : bad_size
+    $error("block_memory: WIDTH must be at least 1 and ADDRESS_BITS 1 to 17");
   end
 
   if (ADDRESS_BITS > 10) begin : halves
     logic fetched_half, half;
     logic [2*WIDTH-1:0] words;
     for (genvar i = 0; i < 2; i++) begin : each
-      block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(10)) memory (
+      block_memory #(.WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS - 1)) memory (
           .clk, .write_enable(write_enable && write_address[ADDRESS_BITS-1] == (i == 1)),
-          .write_address(write_address[9:0]), .write_data, .read_enable,
-          .read_address(read_address[9:0]), .output_enable, .read_data(words[WIDTH*i+:WIDTH]));
+          .write_address(write_address[ADDRESS_BITS-2:0]), .write_data, .read_enable,
+          .read_address(read_address[ADDRESS_BITS-2:0]), .output_enable, .read_data(words[WIDTH*i+:WIDTH]));
     end
     always_ff @(posedge clk) begin
       if (read_enable) fetched_half <= read_address[ADDRESS_BITS-1];

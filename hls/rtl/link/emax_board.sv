@@ -1,8 +1,10 @@
 // Everything of a board that is reached over a serial line, but for its clock, reset and pins: UART,
-// link and core. `activity`, for lamps: the core has work, a session is known, bytes leave, bytes
+// link, cores and store. `activity`, for lamps: the cores have work, a session is known, bytes leave, bytes
 // come; each stays for a sixteenth of a second or so.
 module emax_board #(
     parameter int NUM_PE = 1,
+    parameter int FILTER_PE = 4,
+    parameter int STORE_BITS = 15,
     parameter int CLOCK_KHZ = 0,  // 0: not known
     parameter int CLOCKS_PER_BIT = 40
 ) (
@@ -36,7 +38,8 @@ module emax_board #(
       .s_axis_answer_tdata(answer_tdata), .s_axis_answer_tvalid(answer_tvalid),
       .s_axis_answer_tready(answer_tready), .core_aresetn, .connected);
 
-  emax_core #(.NUM_PE(NUM_PE), .CLOCK_KHZ(CLOCK_KHZ)) core (
+  emax_device #(.NUM_PE(NUM_PE), .FILTER_PE(FILTER_PE), .CLOCK_KHZ(CLOCK_KHZ),
+      .STORE_BITS(STORE_BITS)) device (
       .clk, .aresetn(core_aresetn), .s_axis_command_tdata(command_tdata),
       .s_axis_command_tvalid(command_tvalid), .s_axis_command_tready(command_tready),
       .m_axis_answer_tdata(answer_tdata), .m_axis_answer_tvalid(answer_tvalid),

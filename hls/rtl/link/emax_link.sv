@@ -26,7 +26,7 @@ module emax_link #(
     output logic        core_aresetn,
     output logic        connected  // a session is known
 );
-  localparam logic [7:0] VERSION = 1, RESET = 1, DATA = 2, STATUS = 3, POLL = 4, LOST = 5;
+  localparam logic [7:0] VERSION = 2, RESET = 1, DATA = 2, STATUS = 3, POLL = 4, LOST = 5;
   localparam logic [ROOM_BITS:0] FRAME_WORDS = 256;
   if (ROOM_BITS < 9 || ROOM_BITS > 15) begin : bad_room
     $error("emax_link: ROOM_BITS must be 9 to 15");

@@ -24,7 +24,7 @@ module link_sender (
     output logic        m_byte_valid,
     input  logic        m_byte_ready
 );
-  localparam logic [7:0] VERSION = 1, DATA = 2, STATUS = 3;
+  localparam logic [7:0] VERSION = 2, DATA = 2, STATUS = 3;
 
   // A word is prepared in three cycles, as long as the memory needs, and sent byte by byte.
   typedef enum logic [2:0] {IDLE, FETCH, STORE, LOAD, SEND} state_t;

@@ -54,7 +54,7 @@ void read(Input input) {
 std::vector<std::string> seeds() {
   return {frame_item({.kind = FrameKind::kData, .payload = {1, 2, 3}}) +
               frame_item({.kind = FrameKind::kPoll}),
-          std::string{0, 3, 0x4d, static_cast<char>(0xe5), 1} +
+          std::string{0, 3, 0x4d, static_cast<char>(0xe5), 2} +
               frame_item({.kind = FrameKind::kStatus, .credit = 200})};
 }
 

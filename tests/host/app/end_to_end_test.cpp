@@ -193,11 +193,13 @@ TEST_F(EndToEnd, EveryDeviceAndBruteForceGiveTheSameBits) {
   for (const std::vector<std::string>& how :
        std::vector<std::vector<std::string>>{{"--device", "cpu"},
                                              {"--device", "sim"},
-                                             {"--device", "sim:board=ulx3s"},
+                                             {"--device", "sim:board=zynq7020"},
                                              {"--device", "cpu", "--brute-force"},
                                              {"--device", "sim", "--brute-force"},
                                              {"--device", "rtl"},
-                                             {"--device", "opencl"}}) {
+                                             {"--device", "opencl"},
+                                             {"--device", "sim:board=ulx3s"},
+                                             {"--device", "rtl:board"}}) {
     std::vector<std::string> arguments = {"error", "scan.xyz", "surface.off", "--json", "r.json"};
     arguments.insert(arguments.end(), how.begin(), how.end());
     ASSERT_EQ(emax(arguments).exit_code, 0);

@@ -79,6 +79,30 @@ TEST(CommandLog, ACommandThatIsNotWholeYetIsSentAgainToo) {
   EXPECT_EQ(log.take(100), words);
 }
 
+// Words that units which are gone have stored, the last of each address, before the units that
+// stay.
+TEST(CommandLog, StoresAgainWhatWasStored) {
+  CommandLog log;
+  const Words recall = {command_header(kRecall, 2), command_header(kFilterPoints, 1),
+                        store_piece(5, 2)};
+  const Words ask = {command_header(kFilterReduce, 0)}, answer = {command_header(kFilterReduce, 0)};
+  log.append(joined({{command_header(kStore, 4), 5, 1, 2, 3}, recall, ask}));
+  log.append(joined({{command_header(kStore, 2), 6, 9}, {command_header(kStore, 2), 20, 4}, ask}));
+  const Words third = joined({{command_header(kStore, 2), 5, 8}, recall, ask});
+  log.append(third);
+  log.take(100);
+  EXPECT_TRUE(log.add_answers(joined({answer, answer})));
+  log.rewind();
+  const Words restore = {command_header(kStore, 4), 5, 1, 9, 3, command_header(kStore, 2), 20, 4};
+  EXPECT_EQ(log.unsent(), restore.size() + third.size());
+  EXPECT_EQ(log.take(3), (Words{restore[0], restore[1], restore[2]}));
+  log.rewind();
+  EXPECT_EQ(log.take(100), joined({restore, third}));
+  EXPECT_EQ(log.unsent(), 0u);
+  EXPECT_TRUE(log.add_answers(answer));
+  EXPECT_EQ(given(log), joined({answer, answer, answer}));
+}
+
 TEST(CommandLog, RefusesAnAnswerThatNothingAskedFor) {
   CommandLog log;
   EXPECT_FALSE(log.add_answers(identity()));

@@ -44,6 +44,11 @@ const std::vector<std::pair<const char*, Engine>> kEngines = {
      [](const auto& c, const auto& m) { return on<brute_force_emax>("sim:filter", c, m); }},
     {"rtl filtered",
      [](const auto& c, const auto& m) { return on<search_emax>("rtl:filter", c, m); }},
+    {"sim board",
+     [](const auto& c, const auto& m) { return on<search_emax>("sim:board=ulx3s", c, m); }},
+    {"sim board, all pairs",
+     [](const auto& c, const auto& m) { return on<brute_force_emax>("sim:board=ulx3s", c, m); }},
+    {"rtl board", [](const auto& c, const auto& m) { return on<search_emax>("rtl:board", c, m); }},
     {"opencl searched",
      [](const auto& c, const auto& m) { return on<search_emax>("opencl", c, m); }},
     {"opencl brute force",
@@ -170,6 +175,9 @@ TEST(DeviceAddress, NamesWhatItAccepts) {
   EXPECT_EQ(DeviceAddress::parse("rtl").filter_elements, 0u);
   EXPECT_EQ(DeviceAddress::parse("rtl:filter").filter_elements, 4u);
   EXPECT_EQ(DeviceAddress::parse("sim:filter").filter_elements, 4u);
+  EXPECT_TRUE(DeviceAddress::parse("rtl:board").is_board);
+  EXPECT_TRUE(DeviceAddress::parse("sim:board=ulx3s").is_board);
+  EXPECT_FALSE(DeviceAddress::parse("sim:board=u50").is_board);
   EXPECT_EQ(DeviceAddress::parse("opencl").number, 0u);
   EXPECT_EQ(DeviceAddress::parse("opencl:12").number, 12u);
   EXPECT_EQ(DeviceAddress::parse("tty:/dev/ttyUSB0").place, "/dev/ttyUSB0");

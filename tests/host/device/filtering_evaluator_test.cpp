@@ -6,11 +6,12 @@
 
 #include "evaluator_of.h"
 #include "host/block_search/block_search.h"
+#include "host/device/board_ports.h"
 #include "host/device/device_evaluator.h"
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 #include "sw_model/model/triangle_frame.h"
-#include "sw_model/protocol/cpp_device.h"
+#include "sw_model/protocol/cpp_board.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {
@@ -87,8 +88,17 @@ EmaxResult answer_of(Evaluator& evaluator, const Pairs& pairs, std::size_t block
 
 using MakePairs = Pairs (*)(std::uint64_t);
 
-bool is_right(MakePairs make) {
-  const auto filtered = test::evaluator_of("sim:filter");
+// Behind a store of so many bits, 0 for none.
+std::unique_ptr<Evaluator> filtered_by(unsigned store_bits) {
+  if (store_bits == 0) return test::evaluator_of("sim:filter");
+  BoardPorts ports = ports_of(std::make_unique<CppBoard>(1, 4, store_bits));
+  const std::size_t words = require_store(*ports.filter);
+  return std::make_unique<FilteringEvaluator>(
+      std::move(ports.filter), std::make_unique<DeviceEvaluator>(std::move(ports.exact)), words);
+}
+
+bool is_right(MakePairs make, unsigned store_bits = 0) {
+  const auto filtered = filtered_by(store_bits);
   for (std::uint64_t seed = 70; seed < 90; ++seed) {
     const Pairs pairs = make(seed);
     const EmaxResult expected = emax_model(pairs.points, pairs.records);
@@ -103,6 +113,31 @@ TEST(FilteringEvaluator, GivesTheModelsAnswer) {
   EXPECT_TRUE(is_right(nearly_equal));
   EXPECT_TRUE(is_right(far_from_a_triangle));
   EXPECT_TRUE(is_right(beyond_the_filter));
+}
+
+// One cloud after the other behind one store, which holds all of them or a part.
+TEST(FilteringEvaluator, GivesTheModelsAnswerBehindAStore) {
+  for (const unsigned bits : {8u, 12u, 13u, 17u}) {
+    SCOPED_TRACE(bits);
+    EXPECT_TRUE(is_right(nearly_equal, bits));
+    EXPECT_TRUE(is_right(far_from_a_triangle, bits));
+    EXPECT_TRUE(is_right(beyond_the_filter, bits));
+  }
+}
+
+TEST(FilteringEvaluatorFault, OfAnOldCloudIsCaught) {
+  const DeliberateFault broken(Fault::kStoreTrustsOldItems);
+  EXPECT_FALSE(is_right(nearly_equal, 17));
+}
+
+TEST(FilteringEvaluatorFault, OfTrustInTheGreatestResultIsCaught) {
+  const DeliberateFault broken(Fault::kFilterTrustsGreatest);
+  EXPECT_FALSE(is_right(nearly_equal, 17));
+}
+
+TEST(FilteringEvaluatorFault, OfANearestThatIsDroppedIsCaught) {
+  const DeliberateFault broken(Fault::kFilterDropsNearest);
+  EXPECT_FALSE(is_right(far_from_a_triangle));
 }
 
 TEST(FilteringEvaluatorFault, OfAMissingMarginIsCaught) {
@@ -147,9 +182,30 @@ TEST(FilteringEvaluator, LeavesFewPointsToTheKernel) {
   EXPECT_LT(counters.pairs * 4, exact->counters().pairs);
 }
 
-TEST(FilteringEvaluator, CountsTheSameOnEveryDevice) {
+// The cloud stays between meshes; the mesh stays between measurements.
+TEST(FilteringEvaluator, SendsWhatStaysOnce) {
+  const Filtered work(20000, 81);
+  const auto board = filtered_by(17);
+  std::vector<std::uint64_t> words;
+  const test::Stimulus other_mesh = test::bumpy_sphere(25, 30, 100, 89);
+  const TriangleTree other(other_mesh.mesh(), work.cloud.normalization());
+  for (const TriangleTree* mesh : {&work.mesh, &work.mesh, &other}) {
+    const std::uint64_t before = board->counters().words_in;
+    EXPECT_EQ(search_emax(work.cloud, *mesh, *board),
+              search_emax(work.cloud, *mesh, *test::evaluator_of("cpu")));
+    words.push_back(board->counters().words_in - before);
+  }
+  std::printf("%llu words, then %llu, with another mesh %llu\n",
+              static_cast<unsigned long long>(words[0]), static_cast<unsigned long long>(words[1]),
+              static_cast<unsigned long long>(words[2]));
+  EXPECT_LT(words[1] * 4, words[0]);
+  EXPECT_LT(words[2], words[0]);
+}
+
+// The model's cycles are those counted but for a part of `tolerance`.
+void expect_equal_counts(const char* in_cpp, const char* verilated, double tolerance) {
   const Filtered work(5000, 82);
-  const auto sim = test::evaluator_of("sim:filter"), rtl = test::evaluator_of("rtl:filter");
+  const auto sim = test::evaluator_of(in_cpp), rtl = test::evaluator_of(verilated);
   EXPECT_EQ(search_emax(work.cloud, work.mesh, *sim), search_emax(work.cloud, work.mesh, *rtl));
   const DeviceCounters of_sim = sim->counters(), of_rtl = rtl->counters();
   EXPECT_EQ(of_sim.pairs, of_rtl.pairs);
@@ -160,7 +216,15 @@ TEST(FilteringEvaluator, CountsTheSameOnEveryDevice) {
   EXPECT_EQ(of_sim.busy, of_rtl.busy);
   // The cores count what they wait for the host as idle.
   const auto counted = static_cast<double>(*of_rtl.busy + *of_rtl.stalled);
-  EXPECT_NEAR(static_cast<double>(*of_sim.cycles) / counted, 1, 0.02);
+  EXPECT_NEAR(static_cast<double>(*of_sim.cycles) / counted, 1, tolerance);
+}
+
+TEST(FilteringEvaluator, CountsTheSameOnEveryDevice) {
+  expect_equal_counts("sim:filter", "rtl:filter", 0.02);
+}
+
+TEST(FilteringEvaluator, CountsTheSameOnEveryBoard) {
+  expect_equal_counts("sim:board=ulx3s", "rtl:board", 0.03);
 }
 
 TEST(FilteringEvaluator, ListsThePointsOfABlockByTheKernel) {

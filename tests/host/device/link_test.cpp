@@ -4,7 +4,13 @@
 
 #include <cstdio>
 
+#include "host/block_search/block_search.h"
+#include "host/device/board_ports.h"
+#include "host/device/device_evaluator.h"
+#include "host/device/filtering_evaluator.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
+#include "sw_model/protocol/cpp_board.h"
 #include "testbench/board/simulated_board.h"
 #include "testbench/link/faulty_channel.h"
 #include "testbench/link/link_twin.h"
@@ -288,9 +294,71 @@ INSTANTIATE_TEST_SUITE_P(Boards, Link, testing::Values(kTwin, kSlowTwin, kUlx3s)
                          [](const auto& board) { return board.param.name; });
 
 TEST(LinkVersion, AnotherOneIsRefused) {
-  EXPECT_EQ(error_of([] { LinkDevice(make_twin({.version = 2}).channel); }),
-            "device twin: the board speaks version 2 of the link, this program version 1; load the "
+  EXPECT_EQ(error_of([] { LinkDevice(make_twin({.version = 1}).channel); }),
+            "device twin: the board speaks version 1 of the link, this program version 2; load the "
             "bitstream that belongs to this program");
+}
+
+// A board with a store, behind the host's side of the link and the filter's.
+struct StoringBoard {
+  explicit StoringBoard(std::unique_ptr<ByteChannel> channel) {
+    auto device = std::make_unique<LinkDevice>(std::move(channel));
+    link = device.get();
+    BoardPorts ports = ports_of(std::move(device));
+    const std::size_t words = require_store(*ports.filter);
+    evaluator = std::make_unique<FilteringEvaluator>(
+        std::move(ports.filter), std::make_unique<DeviceEvaluator>(std::move(ports.exact)), words);
+  }
+  LinkDevice* link;
+  std::unique_ptr<FilteringEvaluator> evaluator;
+};
+
+// Whether the search gives the model's answer although the board loses its power, and all that it
+// stored, now and then.
+bool survives_lost_stores() {
+  auto channel = std::make_unique<LinkedBoardTwin>(
+      [] { return std::make_unique<CppBoard>(1, 4, 15); }, TwinSettings{});
+  LinkedBoardTwin& twin = *channel;
+  StoringBoard board(std::move(channel));
+  const test::Stimulus s = test::bumpy_sphere(20, 30, 6000, 91);
+  const PreparedCloud cloud(s.cloud);
+  const TriangleTree mesh(s.mesh(), cloud.normalization());
+  const EmaxResult expected = emax_model(cloud.points(), mesh.records());
+  bool right = search_emax(cloud, mesh, *board.evaluator) == expected;
+  int blocks = 0;
+  SearchOptions options;
+  options.interrupted = [&] {
+    if (++blocks % 3 == 2) twin.power_cycle();
+    return false;
+  };
+  right = search_emax(cloud, mesh, *board.evaluator, options) == expected && right;
+  EXPECT_GT(board.link->link_counters().recoveries, 0u);
+  return right;
+}
+
+TEST(LinkStore, IsFilledAgainAfterThePowerFailed) { EXPECT_TRUE(survives_lost_stores()); }
+
+TEST(LinkStoreFault, OfAStoreThatIsNotFilledAgainIsCaught) {
+  const DeliberateFault broken(Fault::kLogForgetsStored);
+  EXPECT_FALSE(survives_lost_stores());
+}
+
+// The Verilated board: its cores, its store, its line.
+TEST(LinkStore, KeepsCloudsAndMeshesOnTheSimulatedBoard) {
+  StoringBoard board(std::make_unique<SimulatedBoard>());
+  const test::Stimulus s = test::bumpy_sphere(8, 12, 400, 92),
+                       other = test::bumpy_sphere(7, 9, 300, 93);
+  std::vector<std::uint64_t> words;
+  for (const test::Stimulus* stimulus : {&s, &s, &other, &s}) {
+    const PreparedCloud cloud(stimulus->cloud);
+    const TriangleTree mesh(stimulus->mesh(), cloud.normalization());
+    const std::uint64_t before = board.evaluator->counters().words_in;
+    EXPECT_EQ(search_emax(cloud, mesh, *board.evaluator),
+              emax_model(cloud.points(), mesh.records()));
+    words.push_back(board.evaluator->counters().words_in - before);
+    std::printf("  %llu words\n", static_cast<unsigned long long>(words.back()));
+  }
+  EXPECT_LT(2 * words[1], words[0]);
 }
 
 // A core that takes so many byte times a word.

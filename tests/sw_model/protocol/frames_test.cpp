@@ -49,7 +49,7 @@ TEST(Frames, HaveTheirBytesWhereTheProtocolPutsThem) {
                        .credit = 0xabcd,
                        .payload = {0x01020304}};
   Bytes bytes = encode(frame);
-  const Bytes expected = {0x4d, 0xe5, 1, 2, 0x34, 0x12, 5, 6, 1, 0, 0xcd, 0xab, 4, 3, 2, 1};
+  const Bytes expected = {0x4d, 0xe5, 2, 2, 0x34, 0x12, 5, 6, 1, 0, 0xcd, 0xab, 4, 3, 2, 1};
   ASSERT_EQ(bytes.size(), expected.size() + 4);
   EXPECT_EQ(Bytes(bytes.begin(), bytes.end() - 4), expected);
   // The CRC of a message with its CRC behind it is the same for every message.

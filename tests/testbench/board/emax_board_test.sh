@@ -39,12 +39,12 @@ grep -qx "a simulated board is at $folder/board; try: emax error CLOUD MESH --de
 # A reset of session 7 and of session 8, and the device's status of each: its 16 bytes.
 ask() { # SESSION CRC
   exec 3<>"$folder/board"
-  printf '%b' "\\x4d\\xe5\\x01\\x01\\x$1\\x00\\x00\\x00\\x00\\x00\\xff\\xff$2" >&3
+  printf '%b' "\\x4d\\xe5\\x02\\x01\\x$1\\x00\\x00\\x00\\x00\\x00\\xff\\xff$2" >&3
   timeout 20 head -c 16 <&3 | od -An -tx1 | tr -d ' \n' || fail "no answer"
   exec 3>&-
 }
-[[ $(ask 07 '\x0f\x1b\x21\xcf') == 4de501030700000000000008* ]] || fail "no status of session 7"
-[[ $(ask 08 '\xa3\x09\x01\x16') == 4de501030800000000000008* ]] || fail "no status of session 8"
+[[ $(ask 07 '\x0c\xa0\x16\x24') == 4de502030700000000000008* ]] || fail "no status of session 7"
+[[ $(ask 08 '\xa0\xb2\x36\xfd') == 4de502030800000000000008* ]] || fail "no status of session 8"
 
 cpu() { awk '{ print $14 + $15 }' "/proc/$board/stat"; }
 sleeps() {
@@ -83,7 +83,7 @@ kill_hard() {
 start
 kill_hard
 start
-[[ $(ask 07 '\x0f\x1b\x21\xcf') == 4de501030700000000000008* ]] || fail "no status after a restart"
+[[ $(ask 07 '\x0c\xa0\x16\x24') == 4de502030700000000000008* ]] || fail "no status after a restart"
 refused "$folder/board leads to $(readlink "$folder/board"), which the emax_board of process $board serves"
 # The same while a host has it open.
 exec 3<>"$folder/board"

@@ -80,15 +80,15 @@ void unknown_sessions_are_lost(LinkBench& bench) {
 void other_versions_hear_this_one(LinkBench& bench) {
   begin_session(bench);
   Frame foreign = data_frame(0, numbered_words(3));
-  foreign.version = 2;
+  foreign.version = kLinkVersion - 1;
   bench.send(foreign);
   expect_silence(bench, "a data frame of another version");
   foreign = plain_frame(FrameKind::kPoll);
-  foreign.version = 0;
+  foreign.version = kLinkVersion + 1;
   bench.send(foreign);
   expect_silence(bench, "a poll of another version");
   foreign = plain_frame(FrameKind::kReset, 0, 77);
-  foreign.version = 2;
+  foreign.version = kLinkVersion - 1;
   const Frame status = bench.ask(foreign);
   expect(status.version == kLinkVersion && status.kind == FrameKind::kStatus,
          "not told the version");
