@@ -104,7 +104,7 @@ def arguments():
         " as synthesized and as routed. Logs and results stay in build/synth, and what has not"
         " changed since is taken from there.")
     parser.add_argument("board", choices=["ulx3s"], help="ULX3S with an ECP5-85F")
-    parser.add_argument("--elements", type=int, default=2, metavar="N", help="processing elements (2)")
+    parser.add_argument("--elements", type=int, default=1, metavar="N", help="exact elements, beside four of the filter (1)")
     parser.add_argument("--seeds", type=int, default=8, metavar="N", help="at most N placements (8)")
     parser.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="S", help=f"and the seed of the first ({FIRST_SEED})")
     parser.add_argument("--limit", type=int, default=SEED_LIMIT, metavar="MIN", help="minutes after which a placement that is"

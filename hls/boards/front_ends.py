@@ -55,11 +55,11 @@ PARAMETERS = {
 # Modules that join others and have memories too large to become registers. Their parts are proven, and
 # the netlists that are driven show how they are joined.
 PARTS_PROVEN = ["emax_element", "emax_distance", "emax_distance_unit", "emax_core", "filter_element", "emax_filter", "emax_filter_unit",
-                "filter_core", "emax_link", "emax_board", "link_answers", "link_sender", "emax_ulx3s"]
+                "filter_core", "command_store", "emax_device", "emax_link", "emax_board", "link_answers", "link_sender", "emax_ulx3s"]
 # Modules of a family without cells of the family: their other parts are driven in a simulation.
 FAMILY_PROOFS = [("signed_multiply", {"WIDTH_A": 8, "WIDTH_B": 19, "LATENCY": 4}, family) for family in ("ecp5", "xilinx")]
 PACKAGES = ["mutation"]  # no module
-SOURCES = ["", "core", "link", "filter", "filter/generated", "fixed", "stream", "generated", "behavioural"]
+SOURCES = ["", "core", "link", "board", "filter", "filter/generated", "fixed", "stream", "generated", "behavioural"]
 
 
 def script(top, parameters, files):
@@ -105,7 +105,7 @@ def proofs():
 
 def prove(runner, top, parameters, family, replaced={}):
     design = designs.Design("", top, 0, replaced=replaced)
-    more = [path for folder in ("core", "link", "filter", "filter/generated", "fixed", "stream") for path in sorted((RTL / folder).glob("*.sv"))]
+    more = [path for folder in ("core", "link", "board", "filter", "filter/generated", "fixed", "stream") for path in sorted((RTL / folder).glob("*.sv"))]
     files = " ".join(map(str, [*design.sources(family), *more]))
     name = "_".join([top, family, *(["misread"] if replaced else []), *map(str, parameters.values())]).replace('"', "")
     runner.step("yosys", f"{top} {parameters or ''}, {family}", f"front_ends/{name}",

@@ -9,7 +9,8 @@ from .tools import Failure
 
 def all_designs():
     """Designs that together contain every module with an assertion."""
-    more = [path for folder in ("core", "link") for path in sorted((designs.RTL / folder).glob("*.sv"))]
+    folders = [*(designs.RTL / name for name in ("core", "link", "board")), *designs.FILTER]
+    more = [path for folder in folders for path in sorted(folder.glob("*.sv"))]
     return [designs.Design("board", "emax_board", 0, more=more), designs.filter_core(1, 0)]
 
 

@@ -92,7 +92,8 @@ def filter_core(elements, target):
 
 def ulx3s(elements, target):
     """The whole board, its clock and pins included."""
-    more = [path for folder in ("core", "link") for path in sorted((RTL / folder).glob("*.sv"))]
+    folders = [*(RTL / name for name in ("core", "link", "board")), *FILTER]
+    more = [path for folder in folders for path in sorted(folder.glob("*.sv"))]
     return Design(f"ULX3S, elements: {elements}", "emax_ulx3s", target, {"NUM_PE": elements},
                   more=[*more, *sorted(ULX3S.glob("*.sv"))])
 
