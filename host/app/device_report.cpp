@@ -64,12 +64,14 @@ void require_same(const MeasuredError& here, const MeasuredError& by_device) {
 void print_prediction(Facts& facts, const BoardModel& board, const DeviceCounters& counters,
                       double cpu_seconds) {
   const std::uint64_t cycles = counters.cycles.value_or(0);
+  const std::string filter =
+      board.filter_elements > 0 ? fmt::format(" and {} of the filter", board.filter_elements) : "";
   facts.add_passing("predicted",
-                    "{:.3g} s on {} ({}), estimated: computing {:.3g} s ({} elements at {:.0f} "
+                    "{:.3g} s on {} ({}), estimated: computing {:.3g} s ({} elements{} at {:.0f} "
                     "MHz), link {:.3g} s ({:.6g} MB/s)",
-                    predicted_seconds(board, cycles, counters.words_in, counters.words_out),
-                    board.name, board.device, predicted_seconds(board, cycles, 0, 0),
-                    board.elements, board.clock_hz / 1e6,
+                    predicted_seconds(board, counters), board.name, board.device,
+                    predicted_seconds(board, cycles, 0, 0), board.elements, filter,
+                    board.clock_hz / 1e6,
                     predicted_seconds(board, 0, counters.words_in, counters.words_out),
                     board.link_bytes_per_second / 1e6);
   facts.add_passing("this CPU",

@@ -11,8 +11,8 @@
 #include "host/device/queued_device.h"
 #include "host/device/xrt_device.h"
 #include "sw_model/base/error.h"
-#include "sw_model/protocol/cpp_board.h"
 #include "sw_model/protocol/cpp_device.h"
+#include "sw_model/protocol/timed_board.h"
 #include "testbench/core/rtl_device.h"
 
 namespace emax {
@@ -101,10 +101,7 @@ std::unique_ptr<Device> make_device(const DeviceAddress& address) {
         std::make_unique<SerialChannel>(address.place, address.baud),
         LinkLimits::for_baud(address.baud));
   }
-  if (address.is_board) {
-    return std::make_unique<CppBoard>(address.elements, address.filter_elements,
-                                      address.board->store_bits);
-  }
+  if (address.is_board) return std::make_unique<TimedBoard>(*address.board);
   return std::make_unique<CppDevice>(address.elements);
 }
 

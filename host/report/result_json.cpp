@@ -55,17 +55,17 @@ std::string to_json_text(const ResultReport& r) {
       {"picture", r.picture.empty() ? Json() : Json(r.picture)}};
   if (r.board && r.counters && r.counters->cycles) {
     const DeviceCounters& c = *r.counters;
-    json["predicted"] = {
-        {"board", r.board->name},
-        {"clock_hz", r.board->clock_hz},
-        {"elements", r.board->elements},
-        {"link_bytes_per_second", r.board->link_bytes_per_second},
-        {"seconds", predicted_seconds(*r.board, *c.cycles, c.words_in, c.words_out)},
-        {"computing_seconds", predicted_seconds(*r.board, *c.cycles, 0, 0)},
-        {"link_seconds", predicted_seconds(*r.board, 0, c.words_in, c.words_out)},
-        {"basis", "estimated"},
-        {"cpu_seconds", or_null(r.cpu_seconds)},
-        {"cpu_basis", "measured"}};
+    json["predicted"] = {{"board", r.board->name},
+                         {"clock_hz", r.board->clock_hz},
+                         {"elements", r.board->elements},
+                         {"filter_elements", r.board->filter_elements},
+                         {"link_bytes_per_second", r.board->link_bytes_per_second},
+                         {"seconds", predicted_seconds(*r.board, c)},
+                         {"computing_seconds", predicted_seconds(*r.board, *c.cycles, 0, 0)},
+                         {"link_seconds", predicted_seconds(*r.board, 0, c.words_in, c.words_out)},
+                         {"basis", "estimated"},
+                         {"cpu_seconds", or_null(r.cpu_seconds)},
+                         {"cpu_basis", "measured"}};
   }
   if (r.regions) {
     json["regions"] = Json::array();

@@ -20,6 +20,9 @@ class CppBoard : public Device {
   void send(std::span<const Word> words) override;
   void receive(std::span<Word> words) override;
   DeviceCounters counters() const override { return {}; }  // ask for each core's: kCounters
+  // Cycles until all work of a core is done, by its model.
+  std::uint64_t exact_cycles() const { return *exact_.counters().cycles; }
+  std::uint64_t filter_cycles() const { return *filter_.counters().cycles; }
 
  private:
   void perform(std::span<const Word> command);

@@ -110,4 +110,10 @@ double predicted_seconds(const BoardModel& board, std::uint64_t cycles, std::uin
   return std::max(computing, bytes / board.link_bytes_per_second);
 }
 
+double predicted_seconds(const BoardModel& board, const DeviceCounters& counters) {
+  if (counters.predicted_seconds) return *counters.predicted_seconds;
+  return predicted_seconds(board, counters.cycles.value_or(0), counters.words_in,
+                           counters.words_out);
+}
+
 }  // namespace emax

@@ -7,6 +7,7 @@
 
 #include "hls/kernel/command_words.h"
 #include "hls/kernel/filter_words.h"
+#include "sw_model/protocol/device.h"
 
 namespace emax {
 
@@ -84,5 +85,7 @@ class CycleModel {
 // Seconds that work takes on a board whose computing and transfer overlap: the longer of the two.
 double predicted_seconds(const BoardModel& board, std::uint64_t cycles, std::uint64_t words_in,
                          std::uint64_t words_out);
+// What a device of that board predicted itself (TimedBoard), or the same of its counts.
+double predicted_seconds(const BoardModel& board, const DeviceCounters& counters);
 
 }  // namespace emax

@@ -19,6 +19,8 @@ struct DeviceCounters {
   // of them that it left to the kernel, whose pairs are `pairs`.
   std::optional<std::uint64_t> filtered_pairs, filtered_points, points_left;
   std::optional<std::uint64_t> cycles, busy, stalled, idle, resends;
+  // Of a board whose time is predicted: from the first word to the last answer that was taken.
+  std::optional<double> predicted_seconds;
   bool began_again = false;  // the device lost its work once, and its earlier counts with it
 };
 

@@ -80,8 +80,7 @@ void add_boards(json& rows, const Case& of, const EmaxResult& expected) {
          {"hardware", board.device},
          {"kind", "estimated"},
          {"pairs_per_second", of.pairs / predicted_seconds(board, cycles, 0, 0)},
-         {"pairs_per_second_with_link",
-          of.pairs / predicted_seconds(board, cycles, counters.words_in, counters.words_out)}});
+         {"pairs_per_second_with_link", of.pairs / predicted_seconds(board, counters)}});
   }
 }
 
