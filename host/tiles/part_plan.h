@@ -43,8 +43,8 @@ std::filesystem::path done_file(const std::filesystem::path& folder, PartStep st
 
 // Of the points that are no stray ones; normalised.
 struct PartExtent {
-  Eigen::Vector3f low, high;
-  float reach;  // the greatest
+  Eigen::Vector3f low = Eigen::Vector3f::Zero(), high = Eigen::Vector3f::Zero();
+  float reach = 0;  // the greatest
 };
 
 // A vertex that a neighbouring part may have too, by the same name.
