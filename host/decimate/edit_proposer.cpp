@@ -1,6 +1,7 @@
 #include "host/decimate/edit_proposer.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace emax {
@@ -15,8 +16,9 @@ constexpr double kNothingOfHighPowers = 1e-30;
 // distances gain that share over the power.
 double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
 
-constexpr double kInPlace = 1e-6;          // of the limit
-constexpr double kLeastPartOfWay = 0.125;  // to a place that cannot be reached
+constexpr double kInPlace = 1e-6;  // of the limit
+// To a place that may be out of reach.
+constexpr std::array kPartsOfWay = {1.0, 0.5, 0.25, 0.125};
 
 }  // namespace
 
@@ -194,7 +196,7 @@ bool EditProposer::into_place(std::uint32_t vertex) {
   const Point at = state_.mesh().position(vertex);
   if (is_in_place(at)) return false;
   const Point place = search_.place()->project(at);
-  for (double part = 1; part >= kLeastPartOfWay; part /= 2) {
+  for (const double part : kPartsOfWay) {
     Fit fit;
     if (search_.evaluate(at + part * (place - at), kPower, fit) && fit.worst <= 1 &&
         search_.finish(fit, true, edit_)) {

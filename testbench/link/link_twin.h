@@ -23,8 +23,8 @@ struct TwinSettings {
 };
 
 // A plain and slow implementation of the device's side of the link (docs/protocol.md) in front of
-// any core, or of a board's two with their store. In a byte time one byte passes each way and the core makes one step. Time passes only
-// while read() waits.
+// any core, or of a board's two with their store. In a byte time one byte passes each way and the
+// core makes one step. Time passes only while read() waits.
 class LinkedBoardTwin : public ByteChannel {
  public:
   using MakeCore = std::function<std::unique_ptr<Device>()>;

@@ -75,12 +75,11 @@ void add_boards(json& rows, const Case& of, const EmaxResult& expected) {
     require_equal(of.on(*evaluator), expected, device);
     const DeviceCounters counters = evaluator->counters();
     const std::uint64_t cycles = counters.cycles.value();
-    rows.push_back(
-        {{"device", board.name},
-         {"hardware", board.device},
-         {"kind", "estimated"},
-         {"pairs_per_second", of.pairs / predicted_seconds(board, cycles, 0, 0)},
-         {"pairs_per_second_with_link", of.pairs / predicted_seconds(board, counters)}});
+    rows.push_back({{"device", board.name},
+                    {"hardware", board.device},
+                    {"kind", "estimated"},
+                    {"pairs_per_second", of.pairs / predicted_seconds(board, cycles, 0, 0)},
+                    {"pairs_per_second_with_link", of.pairs / predicted_seconds(board, counters)}});
   }
 }
 

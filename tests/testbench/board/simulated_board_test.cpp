@@ -112,9 +112,10 @@ TEST(SimulatedBoard, SaysWhatItsFilterAndItsStoreAre) {
   const std::vector<Word> words = {command_header(emax::kIdentify, kOfFilter),
                                    command_header(emax::kIdentify, kOfStore)};
   SimulatedBoard board;
-  EXPECT_EQ(exchange(board, words, 9),
-            (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, 120'000,
-                               command_header(emax::kIdentify, kAnswerStore), kStoreVersion, 1u << 15}));
+  EXPECT_EQ(
+      exchange(board, words, 9),
+      (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, 120'000,
+                         command_header(emax::kIdentify, kAnswerStore), kStoreVersion, 1u << 15}));
 }
 
 TEST(SimulatedBoard, GivesEqualBytesAtEqualTimes) {
