@@ -23,7 +23,7 @@ constexpr std::uint64_t kAnswerOverhead = 4;
 // ULX3S: a serial link of 3 Mbaud, ten bits a byte. The others: a 32-bit word a cycle, which is
 // what the core takes. Elements: what their LUTs hold at about 13,000 each (docs/synthesis.md).
 constexpr std::array<BoardModel, 4> kBoards = {{
-    {"ulx3s", "Lattice ECP5-85F", 120e6, 1, 3e5, 4, 15},
+    {"ulx3s", "Lattice ECP5-85F", 120e6, 1, 3e5, 4, 14},
     {"zynq7020", "AMD Zynq-7020", 150e6, 3, 6e8},
     {"u50", "AMD Alveo U50", 300e6, 40, 1.2e9},
     {"u250", "AMD Alveo U250", 300e6, 80, 1.2e9},

@@ -10,7 +10,7 @@
 `include "mutation.svh"
 
 module command_store #(
-    parameter int STORE_BITS = 15  // at most 22
+    parameter int STORE_BITS = 14  // at most 22
 ) (
     input  logic        clk,
     input  logic        aresetn,

@@ -7,7 +7,7 @@ module emax_device #(
     parameter int NUM_PE = 1,
     parameter int FILTER_PE = 4,
     parameter int CLOCK_KHZ = 0,  // 0: not known
-    parameter int STORE_BITS = 15
+    parameter int STORE_BITS = 14
 ) (
     input  logic        clk,
     input  logic        aresetn,

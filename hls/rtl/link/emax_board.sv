@@ -4,7 +4,7 @@
 module emax_board #(
     parameter int NUM_PE = 1,
     parameter int FILTER_PE = 4,
-    parameter int STORE_BITS = 15,
+    parameter int STORE_BITS = 14,
     parameter int CLOCK_KHZ = 0,  // 0: not known
     parameter int CLOCKS_PER_BIT = 40
 ) (

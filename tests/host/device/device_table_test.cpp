@@ -127,12 +127,13 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
     }
     expect_filter_agrees(name, cloud, tree, sim);
   }
-  const auto thin = [&](const char* what, std::size_t step, const std::vector<std::string>& devices,
-                        bool all_pairs) {
+  // `twin` is the C++ of these devices.
+  const auto thin = [&](const char* what, std::size_t step, const char* twin,
+                        const std::vector<std::string>& devices, bool all_pairs) {
     const PreparedCloud cloud(every(scan, step));
     const TriangleTree tree(mesh.view(), cloud.normalization());
     const Row expected = run(what, "cpu", cloud, tree, all_pairs);
-    const Row sim = run(what, "sim", cloud, tree, all_pairs);
+    const Row sim = run(what, twin, cloud, tree, all_pairs);
     EXPECT_EQ(sim.result, expected.result);
     for (const std::string& device : devices) {
       const Row row = run(what, device, cloud, tree, all_pairs);
@@ -144,13 +145,15 @@ void expect_devices_agree(const char* name, const std::vector<Point>& scan, std:
     }
     return expected.result;
   };
-  thin("  thinned", serial_step, {"tty:" + board}, false);
+  const char* const board_twin = "sim:board=ulx3s";
+  thin("  thinned", serial_step, board_twin, {"tty:" + board}, false);
   // Every pair of a sample: what the search must give.
   const std::size_t sample = scan.size() / 100;
-  const EmaxResult all = thin("  sample, all pairs", sample, {"rtl", "rtl:pes=4", "opencl"}, true);
+  const EmaxResult all =
+      thin("  sample, all pairs", sample, "sim", {"rtl", "rtl:pes=4", "opencl"}, true);
   const EmaxResult filtered = filtered_sample(every(scan, sample), mesh);
-  const EmaxResult searched = thin("  sample", sample, {"rtl", "tty:" + board}, false);
-  EXPECT_EQ(all, searched);
+  EXPECT_EQ(all, thin("  sample", sample, "sim", {"rtl"}, false));
+  EXPECT_EQ(all, thin("  sample", sample, board_twin, {"tty:" + board}, false));
   EXPECT_EQ(all, filtered);
   // Every point's own bits.
   const PreparedCloud cloud(every(scan, sample));

@@ -317,7 +317,7 @@ struct StoringBoard {
 // stored, now and then.
 bool survives_lost_stores() {
   auto channel = std::make_unique<LinkedBoardTwin>(
-      [] { return std::make_unique<CppBoard>(1, 4, 15); }, TwinSettings{});
+      [] { return std::make_unique<CppBoard>(1, 4, 14); }, TwinSettings{});
   LinkedBoardTwin& twin = *channel;
   StoringBoard board(std::move(channel));
   const test::Stimulus s = test::bumpy_sphere(20, 30, 6000, 91);

@@ -115,7 +115,7 @@ TEST(SimulatedBoard, SaysWhatItsFilterAndItsStoreAre) {
   EXPECT_EQ(
       exchange(board, words, 9),
       (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, 120'000,
-                         command_header(emax::kIdentify, kAnswerStore), kStoreVersion, 1u << 15}));
+                         command_header(emax::kIdentify, kAnswerStore), kStoreVersion, 1u << 14}));
 }
 
 TEST(SimulatedBoard, GivesEqualBytesAtEqualTimes) {
