@@ -41,7 +41,7 @@ std::unique_ptr<Device> make_rtl_filter(std::uint32_t elements);
 
 // Both cores of a board behind its store, without its link (hls/rtl/board/emax_device.sv).
 constexpr std::uint32_t kRtlBoardFilterElements = 4;  // before one exact element
-constexpr unsigned kRtlBoardStoreBits = 15;
+constexpr unsigned kRtlBoardStoreBits = 14;
 std::unique_ptr<CoreSimulation> make_device();
 std::unique_ptr<Device> make_rtl_board();
 
