@@ -301,19 +301,22 @@ def stage_table(store):
             + "\n".join(lines) + "\n")
 
 
+def processor(result):
+    """Nanoseconds of the processor a point."""
+    return f"{1e9 * result['processor'] / result['points']:.0f}"
+
+
 def error_table(store):
     found = [result for points in MEASURED if (result := store.get("error", points))]
     if not found:
         return ""
-    lines = ["| points | s | ns a point | MB resident |", "|---:|---:|---:|---:|"]
-    lines += [f"| {r['points']} | {r['seconds']:.1f} | {1e9 * r['seconds'] / r['points']:.0f} | {r['bytes'] / 1e6:.0f} |"
-              for r in found]
+    lines = ["| points | s | ns a point | ns of processor a point | MB resident |", "|---|---:|---:|---:|---:|"]
+    lines += [f"| {r['points']} | {r['seconds']:.1f} | {1e9 * r['seconds'] / r['points']:.0f} | {processor(r)} | "
+              f"{r['bytes'] / 1e6:.0f} |" for r in found]
     streamed = [result for points in STREAMED if (result := store.get("stream", points))]
-    lines += [f"| {r['points']}, streamed | {r['seconds']:.1f} | {1e9 * r['seconds'] / r['points']:.0f} | "
-              f"{r['bytes'] / 1e6:.0f} |" for r in streamed]
-    told = "".join(f" The {r['points']} points come through a pipe from the generator and are never stored: the time has "
-                   "that of drawing them twice on the same cores, once for the box in the header; `emax error` alone took "
-                   f"{r['processor']:.0f} s of processor." for r in streamed)
+    lines += [f"| {r['points']}, streamed | – | – | {processor(r)} | {r['bytes'] / 1e6:.0f} |" for r in streamed]
+    told = "".join(f" The {r['points']} points come through a pipe from the generator and are never stored. It draws them twice "
+                   "on the same cores, once for the box in the header, so no wall time is given." for r in streamed)
     return (f"`emax error` of the hall's scans against the surface of the one of 10^6 points in cubes of two spacings, {found[0]['triangles']} "
             f"triangles, with `--memory {MEMORY}`: wall time of the whole command on two cores, which reads and checks the "
             f"mesh, and resident size as the system counts it.{told}{peer_text(store)}\n\n" + "\n".join(lines) + "\n")

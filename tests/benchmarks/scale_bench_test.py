@@ -68,12 +68,12 @@ class ScaleBenchTest(DocumentsCase):
 
     def test_tells_what_a_point_takes(self):
         self.put_reconstruction(10**6, 40)
-        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
-        self.assertIn("| 1000000 | 0.5 | 500 | 300 |", bench.section(self.store))
+        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "processor": 0.8, "bytes": 3e8, "triangles": 3 * 10**6})
+        self.assertIn("| 1000000 | 0.5 | 500 | 800 | 300 |", bench.section(self.store))
 
     def test_tells_what_a_peer_takes(self):
         self.put_reconstruction(10**6, 40)
-        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
+        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "processor": 0.8, "bytes": 3e8, "triangles": 3 * 10**6})
         self.store.put(("peer", 10**7), {"points": 10**7, "seconds": 30, "bytes": 5e8, "failed": False,
                                          "emax": {"seconds": 6, "bytes": 7e8}})
         self.store.put(("peer", 10**8), {"points": 10**8, "seconds": 9, "bytes": 5e8, "failed": True, "emax": {}})
@@ -83,12 +83,11 @@ class ScaleBenchTest(DocumentsCase):
 
     def test_tells_what_was_streamed(self):
         self.put_reconstruction(10**6, 40)
-        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "bytes": 3e8, "triangles": 3 * 10**6})
+        self.store.put(("error", 10**6), {"points": 10**6, "seconds": 0.5, "processor": 0.8, "bytes": 3e8, "triangles": 3 * 10**6})
         self.assertNotIn("streamed", bench.section(self.store))
         self.store.put(("stream", 10**9), {"points": 10**9, "seconds": 900, "processor": 600, "bytes": 4e8})
         told = bench.section(self.store)
-        self.assertIn("| 1000000000, streamed | 900.0 | 900 | 400 |", told)
-        self.assertIn("`emax error` alone took 600 s of processor.", told)
+        self.assertIn("| 1000000000, streamed | – | – | 600 | 400 |", told)
 
     def test_measures_a_stream_that_is_not_stored(self):
         programs = Path("programs")
