@@ -96,7 +96,8 @@ endmodule
 /* verilator lint_on UNUSEDPARAM */
 /* verilator lint_on UNUSEDSIGNAL */
 
-// Block RAM of 1024 words of 18 bits, written at port A, both bytes at once, and read at port B.
+// Block RAM of 1024 words of 18 bits, or of more words of 9, 4, 2 or 1, written at port A, both bytes at
+// once, and read at port B.
 /* verilator lint_off UNUSEDSIGNAL */
 /* verilator lint_off UNUSEDPARAM */
 module DP16KD #(
@@ -121,30 +122,34 @@ module DP16KD #(
         DOB0, DOB1, DOB2, DOB3, DOB4, DOB5, DOB6, DOB7, DOB8, DOB9, DOB10, DOB11, DOB12, DOB13,
         DOB14, DOB15, DOB16, DOB17
 );
-  if (DATA_WIDTH_A != 18 || DATA_WIDTH_B != 18 || CSDECODE_A != "0b000"
+  localparam int BELOW = DATA_WIDTH_A == 18 ? 4 : DATA_WIDTH_A == 9 ? 3 : DATA_WIDTH_A / 2;
+  if (DATA_WIDTH_A != DATA_WIDTH_B || !(DATA_WIDTH_A inside {18, 9, 4, 2, 1}) || CSDECODE_A != "0b000"
       || CSDECODE_B != "0b000") begin : unmodelled
-    $error("DP16KD: this model knows ports of 18 bits alone, selected by CS 000");
+    $error("DP16KD: this model knows two ports of the same 18, 9, 4, 2 or 1 bits, selected by CS 000");
   end
-  logic [17:0] words[1024];
+  localparam logic [17:0] MASK = 18'((1 << DATA_WIDTH_A) - 1);
+  logic [17:0] words[1<<(14-BELOW)];
   logic [17:0] word, held;
-  logic [9:0] write_address, read_address;
-  assign write_address =
-      {ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4};
-  assign read_address =
-      {ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4};
+  logic [13-BELOW:0] write_address, read_address;
+  assign write_address = (14-BELOW)'({
+    ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4, ADA3, ADA2, ADA1, ADA0
+  } >> BELOW);
+  assign read_address = (14-BELOW)'({
+    ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4, ADB3, ADB2, ADB1, ADB0
+  } >> BELOW);
   logic writes, reads;
   assign writes = CEA && WEA && {CSA2, CSA1, CSA0} == 0;
   assign reads = CEB && !WEB && {CSB2, CSB1, CSB0} == 0;
   always_ff @(posedge CLKA) begin
-    if (writes && ADA0 && ADA1) begin
-      words[write_address] <= {
+    if (writes && (DATA_WIDTH_A != 18 || ADA0 && ADA1)) begin
+      words[write_address] <= MASK & {
         DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9, DIA8, DIA7, DIA6, DIA5,
         DIA4, DIA3, DIA2, DIA1, DIA0
       };
     end
   end
   always_ff @(posedge CLKB) begin
-    if (reads) word <= writes && write_address == read_address ? 18'h2a5a5 : words[read_address];
+    if (reads) word <= writes && write_address == read_address ? 18'h2a5a5 & MASK : words[read_address];
     if (OCEB || RSTB) held <= RSTB ? '0 : word;
   end
   assign {

@@ -1,5 +1,5 @@
-// block_memory at a width of two pieces, one of them partly used, and, unless ADDRESS_BITS says more,
-// fewer words than a block has.
+// block_memory at a width of two pieces, one of them partly used, and, unless ADDRESS_BITS says
+// otherwise, fewer words than a block has.
 module one_block_memory #(
     parameter int ADDRESS_BITS = 9
 ) (
