@@ -29,6 +29,13 @@ SEED_LIMIT = 40
 DRIVEN = ["--frames", 30, "--blocks", 6]
 
 
+def placement(netlist, seed, target):
+    """nextpnr's arguments for a placement with the board's pins."""
+    return ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{target:g}",
+            "--placer", "static",  # a wire length of 364,000 instead of the default's 475,000 (docs/decisions/0007)
+            "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist)]
+
+
 def build(runner, options, results):
     design = designs.ulx3s(options.elements, TARGET)
     folder = f"ulx3s/{options.elements}"
@@ -40,11 +47,8 @@ def build(runner, options, results):
         try:
             report, log, placed, design_routed = runner.step(
                 "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
-                ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{TARGET:g}",
-                 "--placer", "static",  # a wire length of 364,000 instead of the default's 475,000 (docs/decisions/0007)
-                 "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist),
-                 "--textcfg", "{folder}/placed.config", "--report", "{folder}/report.json",
-                 "--write", "{folder}/routed.json"],
+                [*placement(netlist, seed, TARGET), "--textcfg", "{folder}/placed.config",
+                 "--report", "{folder}/report.json", "--write", "{folder}/routed.json"],
                 [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config", "routed.json"],
                 60 * options.limit)
         except TookTooLong as failure:
