@@ -76,3 +76,10 @@ verb_bitstream() {
   verb_build kernel emax_lower
   exec build/python/bin/python -B hls/boards/bitstream.py "$@"
 }
+
+verb_explore() {
+  verb_setup kernel synth
+  synthesis_tools hls/boards/explore.py "$@"
+  verb_build kernel emax_lower
+  exec build/python/bin/python -B hls/boards/explore.py "$@"
+}

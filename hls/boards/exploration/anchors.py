@@ -1,0 +1,78 @@
+"""Designs that were measured whole, to which the model is fitted.
+
+The element, the forms of the distance and the filtering core come from the baseline of `./dev synth`, which has
+figures of each as it was placed and routed with these tools. The exact core and the board are mapped by
+Yosys here and counted, as the tests of their netlists map them.
+"""
+
+import json
+import re
+
+from synthesis import baseline, designs, lowered, netlists
+from synthesis.tools import Failure
+
+from .model import KINDS, Anchor, Area
+from .space import Options
+
+COUNTED_LUTS = {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}  # as nextpnr counts them: a LUT RAM with its write ports
+EXACT, FILTER = Options("visible_edge"), Options("filter", width=18)
+BOARD_FILTERS = 4  # elements of the filter on the board unless told otherwise
+
+
+def counted(netlist):
+    """The area of a netlist of one module that Yosys wrote."""
+    (module,) = [each for each in json.loads(netlist.read_text())["modules"].values() if each["cells"]
+                 and not each["attributes"].get("blackbox")]
+    kinds = {}
+    for cell in module["cells"].values():
+        kinds[cell["type"]] = kinds.get(cell["type"], 0) + 1
+    return Area(sum(luts * kinds.get(kind, 0) for kind, luts in COUNTED_LUTS.items()), kinds.get("TRELLIS_FF", 0),
+                kinds.get("MULT18X18D", 0), kinds.get("DP16KD", 0))
+
+
+def parts(exact=0, filters=0, cores=0, board=0, record_bits=0, in_core=True):
+    sizes = {"record bit": record_bits, "exact element": exact, "exact element in a core": exact if in_core else 0,
+             "filter element": filters, "core": cores, "board": board}
+    return {part: count for part, count in sizes.items() if count}
+
+
+def placed(path, versions, pipelines):
+    """The anchors of the baseline."""
+    known = baseline.read(path)
+    key = baseline.key(versions)
+    if key not in known:
+        raise Failure(f"{path} has no figures of {key}; ./dev synth --update-baseline measures them")
+    figures = known[key]
+    exact = pipelines(EXACT)
+    found = []
+
+    def add(subject, made, sizes):
+        if subject not in figures:
+            raise Failure(f"{path} has no figures of {subject}; ./dev synth --update-baseline measures them")
+        was = figures[subject]
+        area = Area(*(was[kind] for kind in KINDS))
+        found.append(Anchor(subject.partition(": ")[2], made, sizes, area, was["fmax"]))
+
+    for form in lowered.FORMS:
+        pipeline = pipelines(Options(form))
+        add(f"forms: {form}", ((pipeline, 1),), parts(record_bits=pipeline.record_bits))
+    add("element: emax_element", ((exact, 1),), parts(exact=1, record_bits=exact.record_bits, in_core=False))
+    filtering = pipelines(FILTER)
+    for subject in sorted(figures):
+        elements = re.fullmatch(r"filter: filter_core, elements: (\d+)", subject)
+        if elements:
+            number = int(elements[1])
+            add(subject, ((filtering, number),), parts(filters=number, cores=1, record_bits=number * filtering.record_bits))
+    return found
+
+
+def mapped(runner, pipelines):
+    """The anchors that Yosys maps and that are counted."""
+    exact, filtering = pipelines(EXACT), pipelines(FILTER)
+    core, board = designs.core(1), designs.ulx3s(1, 0)
+    return [
+        Anchor(f"{core.name}, counted", ((exact, 1),), parts(exact=1, cores=1, record_bits=exact.record_bits),
+               counted(netlists.ecp5_top(runner, core)[0])),
+        Anchor(f"{board.name}, counted", ((exact, 1), (filtering, BOARD_FILTERS)),
+               parts(1, BOARD_FILTERS, 2, 1, exact.record_bits + BOARD_FILTERS * filtering.record_bits),
+               counted(netlists.ecp5_top(runner, board)[0]))]
