@@ -16,7 +16,7 @@ from synthesis.tools import Background, Failure, Runner, minutes, run_command
 from synthesize import Ecp5
 
 BASELINE = Path("hls/boards/synthesis_baseline.json")
-DOCUMENT = Path("docs/exploration.md")
+DOCUMENT, SYNTHESIS = Path("docs/exploration.md"), Path("docs/synthesis.md")
 TARGET = 200.0  # MHz asked of an operator, as by ./dev synth
 # Minutes of one core on a 2-core machine: an operator; the exact core and the board, mapped by Yosys.
 OPERATOR_MINUTES, MAPPING_MINUTES = 1, 5
@@ -84,7 +84,10 @@ def measure(runner, options, lowered):
 
     in_background(runner, *[work] * options.jobs)
     in_background(runner, lambda: whole.extend(anchors.mapped(runner, lowered)))
-    return measured, whole
+    of_bitstream = anchors.of_bitstream(SYNTHESIS.read_text(), runner.versions, lowered, measured)
+    if not of_bitstream:
+        runner.say(f"{SYNTHESIS} has no board of these tools, so no clock of a full device is fitted; ./dev bitstream makes one")
+    return measured, [*whole, *of_bitstream]
 
 
 def fitted(measured, measured_designs, board):

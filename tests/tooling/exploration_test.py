@@ -21,6 +21,7 @@ import explore  # noqa: E402
 from exploration import (anchors, candidates, cycles, document, frontier, model, operators, pipelines,  # noqa: E402
                          routing, space)
 from synthesis import baseline, designs, tools  # noqa: E402
+from synthesis import document as synthesis_document  # noqa: E402
 
 BOARD = space.BOARDS["ulx3s"]
 DEFAULTS = {"add": 12, "multiply": 10, "square": 10, "less": 3, "fixed_add": 1, "fixed_multiply": 5, "fixed_fit": 1}
@@ -402,6 +403,37 @@ class AnchorsTest(unittest.TestCase):
         self.assertNotIn("exact element in a core", found["emax_element"].parts)
         with self.assertRaisesRegex(tools.Failure, "no figures of nextpnr 0, yosys 0; ./dev synth --update-baseline"):
             anchors.placed(explore.BASELINE, {"yosys": "0", "nextpnr": "0"}, lowered)
+
+
+    def test_the_board_of_the_bitstream_is_read(self):
+        lowered = pipelines.Lowered(lower)
+        result = {"driven": {}, "figures": {"lut": 38792, "fmax": 122.6}, "elements": 2, "target": 120.0, "seed": 2,
+                  "tried": {"2": 122.6}, "path": None,
+                  "utilisation": {"cells": [41726, 83640], "FF": [53735, 83640], "DSP": [114, 156], "RAM": [50, 208]}}
+
+        def read(**changes):
+            used = {**result["utilisation"], **changes}
+            page = synthesis_document.board_section({**result, "utilisation": used}, {"yosys": "1", "nextpnr": "2"})
+            return anchors.of_bitstream(page, {"yosys": "1", "nextpnr": "2"}, lowered, Measured())
+
+        (old,) = read()
+        self.assertEqual((old.area, old.fmax, old.fits_area), ((38792, 53735, 114, 50), 122.6, False))
+        (new,) = read(DSP=[2 * 57 + 40, 156])
+        self.assertEqual((new.parts["filter element"], new.parts["core"], new.fits_area), (2, 2, True))
+        with self.assertRaisesRegex(tools.Failure, "2 exact elements does not have 113 multipliers"):
+            read(DSP=[113, 156])
+        text = (ROOT / "docs/synthesis.md").read_text()
+        self.assertEqual(anchors.of_bitstream(text, {"yosys": "0", "nextpnr": "0"}, lowered, Measured()), [])
+        self.assertEqual(anchors.of_bitstream("# Synthesis\n", {"yosys": "0"}, lowered, Measured()), [])
+
+    def test_a_design_of_older_sources_tells_its_clock_alone(self):
+        old = replace(known_anchors()[-1], name="old", area=model.Area(1, 1, 137, 1), fmax=50.0, fits_area=False)
+        made = [*known_anchors(), old]
+        found = model.fit(made, Measured(), BOARD.capacity)
+        for part, area in PARTS.items():
+            self.assertAlmostEqual(found.parts[part].lut, area.lut, 4)
+        self.assertEqual(model.doubts(found, made), [])
+        self.assertGreater(found.crowding[1], model.fit(made[:-1], Measured(), BOARD.capacity).crowding[1])
 
 
 class RoutingTest(unittest.TestCase):

@@ -2,16 +2,17 @@
 
 The element, the forms of the distance and the filtering core come from the baseline of `./dev synth`, which has
 figures of each as it was placed and routed with these tools. The exact core and the board are mapped by
-Yosys here and counted, as the tests of their netlists map them.
+Yosys here and counted, as the tests of their netlists map them. A board that `./dev bitstream` routed tells a
+clock of a full device.
 """
 
 import json
 import re
 
-from synthesis import baseline, designs, lowered, netlists
+from synthesis import baseline, designs, document, lowered, netlists
 from synthesis.tools import Failure
 
-from .model import KINDS, Anchor, Area
+from .model import KINDS, Anchor, Area, pipeline_area
 from .space import Options
 
 COUNTED_LUTS = {"LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}  # as nextpnr counts them: a LUT RAM with its write ports
@@ -76,3 +77,26 @@ def mapped(runner, pipelines):
         Anchor(f"{board.name}, counted", ((exact, 1), (filtering, BOARD_FILTERS)),
                parts(1, BOARD_FILTERS, 2, 1, exact.record_bits + BOARD_FILTERS * filtering.record_bits),
                counted(netlists.ecp5_top(runner, board)[0]))]
+
+
+def of_bitstream(page, versions, pipelines, measured):
+    """[the board of `./dev bitstream`] of docs/synthesis.md, or [] where it has none of these tools. The elements of
+    the filter are those that the multipliers tell. A board without them is from before the filter, and its
+    area is not fitted."""
+    text = document.board_of(page)
+    if f"Tools: {', '.join(f'{tool} {version}' for tool, version in versions.items())}." not in text:
+        return []
+    exact, filtering = pipelines(EXACT), pipelines(FILTER)
+    elements = int(re.search(r"\(elements: (\d+)\)", text)[1])
+    rows = re.findall(r"^\| (LUT|FF|DSP|RAM) +\| ([\d,]+) ", text, re.MULTILINE)
+    used = {kind.lower(): int(count.replace(",", "")) for kind, count in rows}
+    filters, rest = divmod(used["dsp"] - elements * pipeline_area(exact, measured).dsp, pipeline_area(filtering, measured).dsp)
+    if filters < 0 or rest:
+        raise Failure(f"docs/synthesis.md: a board of {elements} exact elements does not have {used['dsp']} multipliers;"
+                      " ./dev bitstream ulx3s writes it anew")
+    filters = int(filters)
+    made = ((exact, elements), (filtering, filters)) if filters else ((exact, elements),)
+    sizes = parts(elements, filters, 1 + (filters > 0), 1, elements * exact.record_bits + filters * filtering.record_bits)
+    fmax = float(re.search(r"Clock: ([\d.]+) MHz", text)[1])
+    return [Anchor(f"ULX3S of ./dev bitstream, elements: {elements} and {filters}", made, sizes,
+                   Area(*(used[kind] for kind in KINDS)), fmax, fits_area=filters > 0)]

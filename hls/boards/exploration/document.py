@@ -77,12 +77,14 @@ def anchor_section(model, anchors):
     rows = []
     for anchor in anchors:
         area, fmax = predicted(model, anchor)
-        rows.append([anchor.name, *(_beside(getattr(area, kind), getattr(anchor.area, kind)) for kind in KINDS),
+        rows.append([anchor.name, *(_beside(getattr(area, kind), getattr(anchor.area, kind)) if anchor.fits_area else
+                                    f"– / {number(getattr(anchor.area, kind))}" for kind in KINDS),
                      _beside(fmax, anchor.fmax, 1) if anchor.fmax else "not placed"])
     return "\n\n".join([
         "## Predicted beside measured",
         "The designs that the parts and the factor were fitted to: predicted / measured. Where a part stands in one of them"
-        " alone, the fit meets that design exactly and says nothing of its own error.",
+        " alone, the fit meets that design exactly and says nothing of its own error. Where no area is predicted, the design is"
+        " of older sources, and the clock alone was fitted.",
         table(["design", "LUT", "FF", "DSP", "RAM", "MHz"], rows)]) + "\n"
 
 

@@ -36,13 +36,14 @@ class Area(NamedTuple):
 @dataclass(frozen=True)
 class Anchor:
     """A design that was measured whole: its pipelines, its parts, and its figures. fmax is None where it was only
-    counted."""
+    counted. Only the clock is of use where it was made of other sources than its parts."""
 
     name: str
     pipelines: tuple  # (Pipeline, how many)
     parts: dict  # part: how many
     area: Area
     fmax: float = None
+    fits_area: bool = True
 
 
 def least_squares(rows, wanted, weights):
@@ -100,6 +101,7 @@ def slowest(pipeline, measured):
 
 def fit_parts(anchors, measured):
     """{part: Area}, DSP blocks 0: they are all in operators."""
+    anchors = [anchor for anchor in anchors if anchor.fits_area]
     used = [part for part in PARTS if any(anchor.parts.get(part) for anchor in anchors)]
     rows = [[anchor.parts.get(part, 0) for part in used] for anchor in anchors]
     fitted = {part: {"dsp": 0.0} for part in used}
@@ -190,7 +192,7 @@ def doubts(model, anchors):
         area, fmax = predicted(model, anchor)
         if round(area.dsp) != anchor.area.dsp:
             found.append(f"{anchor.name}: {area.dsp:g} multipliers by its operators, {anchor.area.dsp:g} measured")
-        for kind in ("lut", "ff"):
+        for kind in ("lut", "ff") if anchor.fits_area else ():
             model_says, was = getattr(area, kind), getattr(anchor.area, kind)
             if abs(model_says - was) > AREA_DOUBT * was:
                 found.append(f"{anchor.name}: {kind} {model_says:,.0f} by the model, {was:,.0f} measured")
