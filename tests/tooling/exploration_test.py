@@ -388,7 +388,7 @@ class AnchorsTest(unittest.TestCase):
             kinds = ["LUT4"] * 5 + ["CCU2C"] * 3 + ["TRELLIS_DPR16X4"] * 2 + ["TRELLIS_FF"] * 7 + ["MULT18X18D", "DP16KD", "PFUMX"]
             path.write_text(json.dumps({"modules": {
                 "box": {"attributes": {"blackbox": "1"}, "cells": {"a": {"type": "LUT4"}}},
-                "top": {"attributes": {}, "cells": {str(i): {"type": kind} for i, kind in enumerate(kinds)}}}}))
+                "top": {"attributes": {"top": "1"}, "cells": {str(i): {"type": kind} for i, kind in enumerate(kinds)}}}}))
             self.assertEqual(anchors.counted(path), (5 + 6 + 12, 7, 1, 1))
 
     def test_the_baseline_has_every_design_that_is_wanted(self):

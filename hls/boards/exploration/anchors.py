@@ -21,9 +21,8 @@ BOARD_FILTERS = 4  # elements of the filter on the board unless told otherwise
 
 
 def counted(netlist):
-    """The area of a netlist of one module that Yosys wrote."""
-    (module,) = [each for each in json.loads(netlist.read_text())["modules"].values() if each["cells"]
-                 and not each["attributes"].get("blackbox")]
+    """The area of the top module of a flat netlist that Yosys wrote."""
+    (module,) = [each for each in json.loads(netlist.read_text())["modules"].values() if "top" in each["attributes"]]
     kinds = {}
     for cell in module["cells"].values():
         kinds[cell["type"]] = kinds.get(cell["type"], 0) + 1
