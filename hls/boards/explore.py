@@ -9,6 +9,7 @@ import argparse
 import sys
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from exploration import anchors, candidates, document, frontier, model, operators, pipelines, routing, space
@@ -47,7 +48,8 @@ class Countdown:
 
 
 def wanted(axes, lowered):
-    """The operators that the pipelines of the space and of the anchors have."""
+    """The operators that the pipelines of the space and of the anchors have, whatever their delays and widths."""
+    axes = replace(axes, delays=(space.STANDARD_DELAYS,), widths=(space.BUILT_WIDTH,))
     options = [*space.exact_options(axes), *space.filter_options(axes), anchors.EXACT, anchors.FILTER,
                *(space.Options(form) for form in anchors.lowered.FORMS)]
     found = {operator for each in options for operator, _ in lowered(each).operators}
@@ -69,6 +71,7 @@ def in_background(runner, *functions):
 def measure(runner, options, lowered):
     """({operator: figures}, anchors)."""
     whole = anchors.placed(BASELINE, runner.versions, lowered)  # first, as it fails before anything takes time
+    runner.say("reading the operators of the lowered pipelines")
     chosen = wanted(options.axes, lowered)
     runner.say(f"{len(chosen)} operators to measure, with seed {operators.SEED}")
     countdown = Countdown(runner, len(chosen), options.jobs)

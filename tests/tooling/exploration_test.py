@@ -39,13 +39,11 @@ def lower(options, *what):
     module, folder = (("emax_filter", designs.RTL / "filter/generated") if options.form == "filter"
                       else ("emax_distance", designs.GENERATED))
     latencies = {**DEFAULTS, **dict(options.latencies)}
-    if what == ("--unit",):
-        return (folder / f"{module}_unit.sv").read_text()
     figures = {name.lower(): int(value) for name, value in
                re.findall(r"define EMAX_\w+?_(LATENCY|LAST_READ) (\d+)", (folder / f"{module}_schedule.svh").read_text())}
     figures["latency"] += sum(latencies[name] - DEFAULTS[name] for name in DEFAULTS)
-    if what == ("--report",):
-        return json.dumps(figures)
+    if what == ("--unit",):
+        return re.sub(r"(localparam int LATENCY =) \d+;", rf"\1 {figures['latency']};", (folder / f"{module}_unit.sv").read_text())
     if what == ("--schedule",):
         return f"`ifndef A\n`define {module.upper()}_LATENCY {figures['latency']}\n`endif\n"
     text = (folder / f"{module}.sv").read_text()
@@ -272,7 +270,7 @@ class PipelinesTest(unittest.TestCase):
   always_ff @(posedge clk) small <= a ? b : c;
   always_ff @(posedge clk) three <= one;
 """
-        made = pipelines.pipeline(text, "", {"latency": 3, "last_read": 1}, "dsp")
+        made = pipelines.pipeline(text, "localparam int LATENCY = 3;localparam int LAST_READ = 1;", "dsp")
         self.assertEqual(made.selected_bits, 18 + 18 + 1)
 
     def test_a_narrower_filter_keeps_its_conditions(self):

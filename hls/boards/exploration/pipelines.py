@@ -1,11 +1,10 @@
 """Lowered pipelines: which operators, delays and memories they have, read from emax_lower's text."""
 
-import json
 import math
 import re
 import subprocess
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from synthesis import lowered
@@ -68,8 +67,8 @@ def _selected_bits(text):
     return sum(widths.get(name, 1) for name in re.findall(r"always_ff @\(posedge clk\) (\w+) <=\s[^;]*\?", text))
 
 
-def pipeline(datapath, unit, report, products):
-    """The pipeline of the texts of a datapath and its unit, and of emax_lower's report."""
+def pipeline(datapath, unit, products):
+    """The pipeline of the texts of a datapath and its unit."""
     operators, delays = Counter(), Counter()
     for module, parameters in instances(datapath):
         if module == "delay_line":
@@ -78,8 +77,16 @@ def pipeline(datapath, unit, report, products):
             kept = tuple(sorted((name, value) for name, value in parameters.items() if name not in ALIKE))
             operators[Operator(module, kept, products if module in PRODUCTS else "")] += 1
     record_bits = sum(parameters["WIDTH"] for module, parameters in instances(unit) if module == "field_memory")
-    return Pipeline(report["latency"], report["last_read"], tuple(sorted(operators.items())),
+    figures = dict(re.findall(r"localparam int (LATENCY|LAST_READ) = (\d+);", unit))
+    return Pipeline(int(figures["LATENCY"]), int(figures["LAST_READ"]), tuple(sorted(operators.items())),
                     tuple((*key, count) for key, count in sorted(delays.items())), record_bits, _selected_bits(datapath))
+
+
+def made_of(pipeline, products):
+    """The pipeline with its products in LUTs or in multipliers."""
+    operators = ((operator._replace(products=products if operator.products else ""), count)
+                 for operator, count in pipeline.operators)
+    return replace(pipeline, operators=tuple(sorted(operators)))
 
 
 def scaled(of_18, width):
@@ -98,7 +105,7 @@ def arguments(options):
 
 
 def lower(options, *what):
-    """emax_lower's output: a text of SystemVerilog, or with --report JSON."""
+    """emax_lower's output: a text of SystemVerilog."""
     command = [lowered.LOWER, *arguments(options), *what]
     try:
         run = subprocess.run(command, capture_output=True, text=True)
@@ -110,15 +117,19 @@ def lower(options, *what):
 
 
 class Lowered:
-    """Pipelines by their options. Width and products do not change the text that is lowered."""
+    """Pipelines by their options. Width and products do not change what is lowered, and what is read of a unit does
+    not depend on the delays."""
 
     def __init__(self, lower=lower):
         self.lower = lower
-        self.texts = {}
+        self.units, self.made = {}, {}
 
     def __call__(self, options):
-        key = options.form, options.latencies, options.delays
-        if key not in self.texts:
-            self.texts[key] = [self.lower(options), self.lower(options, "--unit"), json.loads(self.lower(options, "--report"))]
-        made = pipeline(*self.texts[key], options.products)
+        of_unit = options.form, options.latencies
+        key = *of_unit, options.delays
+        if of_unit not in self.units:
+            self.units[of_unit] = self.lower(options, "--unit")
+        if key not in self.made:
+            self.made[key] = pipeline(self.lower(options), self.units[of_unit], "dsp")
+        made = made_of(self.made[key], options.products)
         return scaled(made, options.width) if options.form == "filter" and options.width != space.BUILT_WIDTH else made
