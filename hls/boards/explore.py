@@ -6,6 +6,7 @@ other design surpasses. What has not changed is not measured again.
 """
 
 import argparse
+import re
 import sys
 import threading
 import time
@@ -19,9 +20,9 @@ from synthesize import Ecp5
 BASELINE = Path("hls/boards/synthesis_baseline.json")
 DOCUMENT, SYNTHESIS = Path("docs/exploration.md"), Path("docs/synthesis.md")
 TARGET = 200.0  # MHz asked of an operator, as by ./dev synth
-# Minutes of one core on a 2-core machine: an operator; the exact core and the board, mapped by Yosys.
-OPERATOR_MINUTES, MAPPING_MINUTES = 1, 5
-OPERATORS = {"full": 28, "quick": 15}  # about as many as the pipelines of the space have
+# Of one core of a 2-core machine: an operator, in the mean; the exact core and the board, mapped by Yosys.
+OPERATOR_SECONDS, MAPPING_MINUTES = 20, 5
+OPERATORS = {"full": 29, "quick": 15}  # about as many as the pipelines of the space have
 STEP = 0.02  # by which pairs a second rise from row to row of the page
 ROUTED, LIMIT = 2, 60  # boards, and minutes after which one is given up
 
@@ -43,7 +44,7 @@ class Countdown:
             self.runner.say(f"{self.done} of {self.total} operators measured, about {minutes(self.left())} left")
 
     def left(self):
-        each = self.took / self.ran if self.ran else 60 * OPERATOR_MINUTES
+        each = self.took / self.ran if self.ran else OPERATOR_SECONDS
         return (self.total - self.done) * each / self.at_once
 
 
@@ -112,6 +113,14 @@ def route(runner, chosen, limit):
     return found
 
 
+def numbers(text):
+    """1+2 as (1, 2)."""
+    found = re.fullmatch(r"(\d+)\+(\d+)", text)
+    if found is None:
+        raise argparse.ArgumentTypeError(f"'{text}' is not E+F, as 1+2")
+    return int(found[1]), int(found[2])
+
+
 def arguments():
     parser = argparse.ArgumentParser(
         prog="./dev explore", description="Measures single operators with Yosys and nextpnr, fits a model of area and clock to"
@@ -120,6 +129,8 @@ def arguments():
         " there.")
     parser.add_argument("board", choices=sorted(space.BOARDS), help="ULX3S with an ECP5-85F")
     parser.add_argument("--route", type=int, default=ROUTED, metavar="N", help=f"place and route the best N ({ROUTED})")
+    parser.add_argument("--elements", type=numbers, action="append", default=[], metavar="E+F", help="route the best board of E"
+                        " exact elements and F of the filter instead, as 1+2; may be repeated")
     parser.add_argument("--limit", type=int, default=LIMIT, metavar="MIN",
                         help=f"minutes after which a placement is given up ({LIMIT})")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="tools run at a time (2; each wants a core and 2 GB)")
@@ -130,14 +141,13 @@ def arguments():
     if min(options.limit, options.jobs) < 1 or options.route < 0:
         parser.error("--limit and --jobs must be positive, --route 0 or more")
     options.axes = space.QUICK if options.quick else space.FULL
-    if options.quick:
-        options.route = 0
+    options.route = 0 if options.quick else len(options.elements) or options.route
     return options
 
 
 def plan(options):
     count = OPERATORS["quick" if options.quick else "full"]
-    measuring = -(-count * OPERATOR_MINUTES // options.jobs)
+    measuring = -(-count * OPERATOR_SECONDS // (60 * options.jobs))
     text = (f"about {count} operators, {measuring} min with {options.jobs} at a time; the exact core and the board, mapped,"
             f" {MAPPING_MINUTES} min; {space.size(options.axes):,} designs predicted, 1 min")
     if options.route:
@@ -162,10 +172,11 @@ def main():
         raise Failure(f"no design fits the {board.device} and meets a clock of {board.clocks[0]} MHz")
     shown = frontier.thinned(found, lambda each: each.pairs, STEP)
     print(f"\n{document.frontier_table(shown)}\n\n{document.anchor_section(made, whole)}", flush=True)
+    chosen = frontier.best_few(found, options.route, options.elements if options.route else ())
     if options.quick:
         runner.say(f"quick: {DOCUMENT} is not written")
         return 0
-    routed = route(runner, frontier.best_few(found, options.route), options.limit)
+    routed = route(runner, chosen, options.limit)
     DOCUMENT.write_text(document.page(options.board, board, options.axes, made, whole, (found, fitting), shown, routed,
                                       options.limit, runner.versions, STEP))
     runner.say(f"{DOCUMENT} written")

@@ -79,7 +79,7 @@ def candidate(exact, filtering, numbers, board, model):
     rate = cycles.pairs_per_cycle((numbers[0], exact.latency, exact.last_read),
                                   filtering and (numbers[1], filtering.latency, filtering.last_read),
                                   filtering.options.width if filtering else 0)
-    return Candidate(exact.options, filtering and filtering.options, *numbers, area.lut, area.lut * model.cells_per_lut,
+    return Candidate(exact.options, filtering and filtering.options, *numbers, area.lut, area.cells,
                      area.ff, round(area.dsp), area.ram, share, fmax, clock, 1e6 * clock * rate)
 
 

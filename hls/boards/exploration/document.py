@@ -18,7 +18,7 @@ Not measured: anything on a board. Not searched: seeds of the placement, forms o
 MODEL = """## The model
 
 - **Area.** LUTs, flip-flops, multipliers and block RAMs add up. A pipeline is its operators, each as measured alone; its delays, as pieces of LUT RAM (at most 17 cycles each), block RAMs or flip-flops; and a LUT and a flip-flop for each bit of a registered multiplexer. The parts below are added.
-- **Cells** are {cells_per_lut:.3f} of a LUT, by least squares over the operators.
+- **Cells** are LUTs and cells that only pass a signal on. Of the latter a design has those of its operators and delays alone.
 - **Width.** Operators of 16 and 14 bits take 16/18 and 14/18 of the LUTs and flip-flops of those of 18, and run no faster.
 - **Clock.** The slowest operator's clock alone, times a factor of {at_empty:.3f} - {slope:.3f} u, at most 1; u is the greatest share of a kind (cells, flip-flops, multipliers, block RAMs) that the design takes. The board's clock is the next multiple of 15 MHz below.
 - **Pairs a second.** The cycles are those of the model of the cores (`sw_model/protocol/cycle_model.h`), for blocks of {points:,} points and {records} candidates each, as in the search of the bunny ([0039](decisions/0039-a-filter-before-the-device.md)). The serial line is left out. A pair that the filter settles counts as a pair. The exact core meets the points that the filter leaves, which `./dev bench --filter` measured: {left}. The cores work one after the other.
@@ -39,7 +39,7 @@ def _difference(model_says, was):
 def space_section(axes, fitting, better):
     named = {"add": "exact: latency of a sum", "multiply": "exact: of a product", "square": "exact: of a square",
              "less": "exact: of a comparison", "fixed_add": "filter: latency of a sum", "fixed_multiply": "filter: of a product",
-             "fixed_fit": "filter: of a fit", "widths": "filter: bits", "delays": "delays of each", "products": "products of each",
+             "fixed_fit": "filter: of a fit", "fixed_negate": "filter: of a magnitude", "widths": "filter: bits", "delays": "delays of each", "products": "products of each",
              "exact": "exact elements", "filter": "elements of the filter, 0 for no filter"}
     rows = [[title, ", ".join(map(str, getattr(axes, axis)))] for axis, title in named.items()]
     return "\n\n".join([
@@ -53,9 +53,10 @@ def model_section(model, board):
     left = ", ".join(f"{cycles.points_left(width):.2%} at {width} bits" for width in space.FULL.widths)
     capacity = ", ".join(f"{count:,} {kind.upper() if kind in ('dsp', 'ram', 'ff') else kind}" for kind, count in board.capacity.items())
     work = cycles.Workload()
-    text = MODEL.format(cells_per_lut=model.cells_per_lut, at_empty=model.crowding[0], slope=model.crowding[1],
+    text = MODEL.format(at_empty=model.crowding[0], slope=model.crowding[1],
                         points=work.points, records=work.records, left=left, fill=space.FILL, capacity=capacity)
-    rows = [[part, *(f"{size:,.1f}" if abs(size) < 100 else number(size) for size in sizes)] for part, sizes in model.parts.items()]
+    size_of = lambda size: number(size) if abs(size) >= 100 else f"{round(size, 1) + 0.0:,.1f}"  # + 0.0: no -0.0
+    rows = [[part, *(size_of(getattr(sizes, kind)) for kind in KINDS)] for part, sizes in model.parts.items()]
     return f"{text}\n{table(['part', 'LUT', 'FF', 'DSP', 'RAM'], rows)}\n"
 
 
@@ -105,7 +106,7 @@ def frontier_section(designs, step):
     return "\n\n".join([
         "## The frontier",
         f"Predicted, in the order of pairs a second; a row has at least {step:.0%} more than the row before. Latencies are those of"
-        " sum, product, square and comparison, of the filter those of sum, product and fit. \"Built\" says whether"
+        " sum, product, square and comparison, of the filter those of sum, product, fit and magnitude. \"Built\" says whether"
         " `hls/rtl/` has such a board: its filter has 18 bits, and a board without a filter is not there.",
         frontier_table(designs)]) + "\n"
 
@@ -125,7 +126,7 @@ def routed_section(routed, limit):
                          _beside(each.dsp, figures["dsp"]), _beside(each.ram, figures["ram"]), _beside(each.fmax, figures["fmax"], 1)])
     return "\n\n".join([
         "## Routed",
-        "The designs with most pairs a second that `hls/rtl/` has, each of another number of elements: predicted / measured."
+        "Designs of the frontier that `hls/rtl/` has, each with most pairs a second of its numbers of elements: predicted / measured."
         " The model was not fitted to them.",
         table(["board", "LUT", "cells", "FF", "DSP", "RAM", "MHz"], rows)]) + "\n"
 

@@ -1,5 +1,7 @@
 """Designs that no other is better than, and the choice of those to route."""
 
+from synthesis.tools import Failure
+
 
 def dominates(a, b):
     """a is nowhere worse than b; less is better."""
@@ -26,11 +28,14 @@ def thinned(designs, figure, step):
     return kept
 
 
-def best_few(designs, count):
-    """The designs with most pairs a second, each of another number of elements. Only designs that the
-    sources build."""
+def best_few(designs, count, numbers=()):
+    """The designs with most pairs a second, each of another number of elements; or those of these numbers
+    (exact, filter). Only designs that the sources build."""
     chosen = {}
     for design in sorted(designs, key=lambda design: (-design.pairs, design.cells, design.dsp)):
         if design.buildable:
             chosen.setdefault((design.exact_elements, design.filter_elements), design)
-    return list(chosen.values())[:count]
+    if missing := [pair for pair in numbers if pair not in chosen]:
+        there = ", ".join(f"{exact}+{of_filter}" for exact, of_filter in sorted(chosen))
+        raise Failure(f"no board of the frontier has {missing[0][0]}+{missing[0][1]} elements; there are {there}")
+    return [chosen[pair] for pair in numbers] if numbers else list(chosen.values())[:count]

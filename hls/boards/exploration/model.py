@@ -28,6 +28,11 @@ class Area(NamedTuple):
     ff: float = 0.0
     dsp: float = 0.0
     ram: float = 0.0
+    through: float = 0.0  # cells that only pass a signal on, beside the LUTs
+
+    @property
+    def cells(self):
+        return self.lut + self.through
 
     def plus(self, other, times=1.0):
         return Area(*(mine + times * others for mine, others in zip(self, other)))
@@ -74,11 +79,11 @@ def delay_area(style, bits, cycles, measured):
         pieces = whole + (rest > 2)
         registers = 0 if rest > 2 else rest * bits
         share = pieces * bits / operators.DELAY_BITS
-        return Area(one["lut"] * share, one["ff"] * share + registers)
+        return Area(one["lut"] * share, one["ff"] * share + registers, through=(one["cells"] - one["lut"]) * share)
     if style == "block_ram" and cycles > 3:
         one = measured[operators.BLOCK_RAM_DELAY]
         per_block = one["ram"] / math.ceil(operators.DELAY_BITS / 18)
-        return Area(one["lut"], one["ff"], 0, per_block * math.ceil(bits / 18))
+        return Area(one["lut"], one["ff"], 0, per_block * math.ceil(bits / 18), one["cells"] - one["lut"])
     return Area(0, bits * cycles)
 
 
@@ -88,7 +93,7 @@ def pipeline_area(pipeline, measured, width=None):
     total = Area(pipeline.selected_bits, pipeline.selected_bits)
     for operator, count in pipeline.operators:
         one = measured[operator]
-        total = total.plus(Area(one["lut"] * share, one["ff"] * share, one["dsp"], one["ram"]), count)
+        total = total.plus(Area(one["lut"] * share, one["ff"] * share, one["dsp"], one["ram"], one["cells"] - one["lut"]), count)
     for style, bits, cycles, count in pipeline.delays:
         total = total.plus(delay_area(style, bits, cycles, measured), count)
     return total
@@ -115,14 +120,13 @@ def fit_parts(anchors, measured):
             raise Failure(f"the sizes of {', '.join(used)} cannot be fitted: {error}") from None
         for part, size in zip(used, solved):
             fitted[part][kind] = size
-    return {part: Area(*(sizes[kind] for kind in KINDS)) for part, sizes in fitted.items()}
+    return {part: Area(*(sizes[kind] + 0.0 for kind in KINDS)) for part, sizes in fitted.items()}
 
 
 @dataclass(frozen=True)
 class Model:
     measured: dict  # Operator: {"lut", "cells", "ff", "dsp", "ram", "fmax"}
     parts: dict  # part: Area
-    cells_per_lut: float
     crowding: tuple  # factor at an empty device, and by how much it falls to a full one
     capacity: dict
 
@@ -135,7 +139,7 @@ class Model:
         return total
 
     def utilisation(self, area):
-        return utilisation(area, self.cells_per_lut, self.capacity)
+        return utilisation(area, self.capacity)
 
     def factor(self, share):
         at_empty, slope = self.crowding
@@ -145,24 +149,18 @@ class Model:
         return alone * self.factor(share)
 
 
-def utilisation(area, cells_per_lut, capacity):
+def utilisation(area, capacity):
     """The greatest share of a kind."""
-    return max(area.lut * cells_per_lut / capacity["cells"], area.ff / capacity["ff"], area.dsp / capacity["dsp"],
-               area.ram / capacity["ram"])
+    return max(getattr(area, kind) / there for kind, there in capacity.items())
 
 
-def fit_cells(measured):
-    """Cells a LUT: those that only pass a signal on count as cells. Least squares through the origin."""
-    placed = [one for one in measured.values() if one["lut"] > 0]
-    return sum(one["cells"] * one["lut"] for one in placed) / sum(one["lut"] ** 2 for one in placed)
-
-
-def fit_crowding(anchors, measured, cells_per_lut, capacity):
+def fit_crowding(anchors, measured, capacity):
     """(at_empty, slope) of the factor; a slope below 0 counts as 0."""
     shares, factors = [], []
     for anchor in anchors:
         if anchor.fmax is not None:
-            shares.append(utilisation(anchor.area, cells_per_lut, capacity))
+            through = sum(pipeline_area(pipeline, measured).through * count for pipeline, count in anchor.pipelines)
+            shares.append(utilisation(anchor.area._replace(through=through), capacity))
             factors.append(anchor.fmax / min(slowest(pipeline, measured)[0] for pipeline, _ in anchor.pipelines))
     try:
         at_empty, slope = least_squares([[1.0, -share] for share in shares], factors, [1.0] * len(shares))
@@ -172,9 +170,7 @@ def fit_crowding(anchors, measured, cells_per_lut, capacity):
 
 
 def fit(anchors, measured, capacity):
-    parts, cells_per_lut = fit_parts(anchors, measured), fit_cells(measured)
-    return Model(measured, parts, cells_per_lut,
-                 fit_crowding(anchors, measured, cells_per_lut, capacity), capacity)
+    return Model(measured, fit_parts(anchors, measured), fit_crowding(anchors, measured, capacity), capacity)
 
 
 def predicted(model, anchor):

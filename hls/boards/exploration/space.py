@@ -36,6 +36,7 @@ class Axes:
     fixed_add: tuple
     fixed_multiply: tuple
     fixed_fit: tuple
+    fixed_negate: tuple
     widths: tuple
     delays: tuple
     products: tuple  # "dsp": multipliers of the device; "lut": inferred in LUTs
@@ -44,10 +45,10 @@ class Axes:
 
 
 FULL = Axes(add=(10, 12, 14), multiply=(8, 10, 12), square=(8, 10), less=(2, 3), fixed_add=(1, 2), fixed_multiply=(4, 5, 6),
-            fixed_fit=(1, 2), widths=(14, 16, 18), delays=tuple(DELAYS), products=("dsp", "lut"), exact=(1, 2, 3),
+            fixed_fit=(1, 2), fixed_negate=(1, 2), widths=(14, 16, 18), delays=tuple(DELAYS), products=("dsp", "lut"), exact=(1, 2, 3),
             filter=tuple(range(9)))
 QUICK = Axes(add=(12,), multiply=(10,), square=(10,), less=(3,), fixed_add=(1, 2), fixed_multiply=(5,), fixed_fit=(1,),
-             widths=(14, 16, 18), delays=tuple(DELAYS), products=("dsp",), exact=(1, 2), filter=tuple(range(9)))
+             fixed_negate=(1,), widths=(14, 16, 18), delays=tuple(DELAYS), products=("dsp",), exact=(1, 2), filter=tuple(range(9)))
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def exact_options(axes):
 
 
 def filter_options(axes):
-    latencies = {name: getattr(axes, name) for name in ("fixed_add", "fixed_multiply", "fixed_fit")}
+    latencies = {name: getattr(axes, name) for name in ("fixed_add", "fixed_multiply", "fixed_fit", "fixed_negate")}
     return [options for width in axes.widths for options in _options("filter", axes, latencies, width)]
 
 
