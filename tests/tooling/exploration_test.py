@@ -469,19 +469,31 @@ class RoutingTest(unittest.TestCase):
         with self.assertRaisesRegex(tools.Failure, "includes 0 schedules"):
             routing.with_schedule("module a;\n", "`define A 1\n")
 
-    def test_a_board_that_is_not_routed_in_time_is_none(self):
+    def test_a_board_that_is_not_routed_in_time_has_an_area_if_it_was_packed(self):
         class Slow:
-            said = []
+            said, log = [], ""
             say = said.append
 
             def step(self, tool, title, folder, arguments, inputs, outputs, limit=None):
                 if tool == "nextpnr":
+                    if self.log:
+                        path = routing.FOLDER / folder / "nextpnr.log"
+                        path.parent.mkdir(parents=True)
+                        path.write_text(self.log)
                     raise tools.TookTooLong(f"{title}: ended after {limit} s")
                 return [Path(output) for output in outputs]
 
         with (tempfile.TemporaryDirectory() as folder, mock.patch.object(routing, "FOLDER", Path(folder)),
               mock.patch.object(routing, "design", lambda each: routing.designs.ulx3s(1, 120))):
             self.assertIsNone(routing.route(Slow(), self.candidate(), 2))
+            Slow.log = ("Info:     Total LUT4s:     27428/83640    32%\nInfo: \t  DP16KD:      88/    208    42%\n"
+                        "Info: \t  MULT18X18D:      97/    156    62%\nInfo: \t  EHXPLLL:       1/      4    25%\n"
+                        "Info: \t  TRELLIS_FF:   47846/  83640    57%\nInfo: \t  TRELLIS_COMB:   29522/  83640    35%\n")
+            figures = routing.route(Slow(), self.candidate(), 2)
+            self.assertEqual(figures, {"lut": 27428, "cells": 29522, "ff": 47846, "dsp": 97, "ram": 88, "fmax": None})
+            section = document.routed_section([(self.candidate(), figures)], 2)
+            self.assertIn("43,000 / 29,522 (+46%)", section)
+            self.assertIn("121.0, not routed within 2 min", section)
         self.assertIn("ended after 120 s", Slow.said[0])
 
 
@@ -505,7 +517,7 @@ class CommandTest(unittest.TestCase):
         measured_designs = known_anchors() if designs_measured is None else designs_measured
         out = io.StringIO()
         runner = lambda jobs, fresh, name: tools.Runner(jobs, fresh, {"yosys": ["true"], "nextpnr": ["true"]}, out, name)
-        figures = {"lut": 41000, "ff": 51000, "dsp": 137, "ram": 118, "fmax": 101.5, "utilisation": {"cells": [44000, 83640]}}
+        figures = {"lut": 41000, "ff": 51000, "dsp": 137, "ram": 118, "fmax": 101.5, "cells": 44000}
         with (mock.patch.object(sys, "argv", ["explore.py", *arguments]), mock.patch.object(explore, "Ecp5", Place),
               mock.patch.object(explore, "Runner", runner), mock.patch.object(tools.Runner, "prepare"),
               mock.patch.object(pipelines.Lowered.__init__, "__defaults__", (lower,)),

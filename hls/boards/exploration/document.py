@@ -118,12 +118,11 @@ def routed_section(routed, limit):
     rows = []
     for each, figures in routed:
         name = f"{each.exact_elements} exact, {each.filter_elements} of the filter"
-        if figures is None:
-            rows.append([name, *["–"] * 5, f"not routed within {limit} min; {each.fmax:.1f} predicted"])
-        else:
-            used = figures["utilisation"]
-            rows.append([name, _beside(each.lut, figures["lut"]), _beside(each.cells, used["cells"][0]), _beside(each.ff, figures["ff"]),
-                         _beside(each.dsp, figures["dsp"]), _beside(each.ram, figures["ram"]), _beside(each.fmax, figures["fmax"], 1)])
+        kinds = ["lut", "cells", "ff", "dsp", "ram"]
+        areas = [_beside(getattr(each, kind), figures[kind]) for kind in kinds] if figures else ["–"] * len(kinds)
+        clock = (_beside(each.fmax, figures["fmax"], 1) if figures and figures["fmax"]
+                 else f"{each.fmax:.1f}, not routed within {limit} min")
+        rows.append([name, *areas, clock])
     return "\n\n".join([
         "## Routed",
         "Designs of the frontier that `hls/rtl/` has, each with most pairs a second of its numbers of elements: predicted / measured."

@@ -1,6 +1,7 @@
 """Chosen designs as boards, placed and routed with the board's pins."""
 
 import hashlib
+import re
 
 import bitstream
 from synthesis import designs, netlists
@@ -54,18 +55,31 @@ def design(candidate, lower=pipelines.lower):
     return board
 
 
+KINDS = {"TRELLIS_COMB": "cells", "TRELLIS_FF": "ff", "MULT18X18D": "dsp", "DP16KD": "ram"}
+
+
+def packed(log):
+    """Figures of a board that nextpnr packed, without a clock, by its log; None where it did not come so far."""
+    text = log.read_text() if log.exists() else ""
+    luts = re.search(r"Total LUT4s:\s+(\d+)/", text)
+    used = {KINDS[kind]: int(count) for kind, count in re.findall(r"(\w+):\s+(\d+)/\s*\d+\s+\d+%", text) if kind in KINDS}
+    return {"lut": int(luts[1]), **used, "fmax": None} if luts and used.keys() == set(KINDS.values()) else None
+
+
 def route(runner, candidate, limit):
-    """Figures and utilisation of the routed board; None where it was not routed within `limit` minutes."""
+    """Figures of the routed board; without a clock where it was not routed within `limit` minutes, None where it
+    was not even packed."""
     board = design(candidate)
     netlist, _ = netlists.ecp5_top(runner, board)
+    folder = f"explored/{slug(candidate)}/seed{SEED}"
     try:
         report, log = runner.step(
-            "nextpnr", f"{board.name}, place and route with seed {SEED}", f"explored/{slug(candidate)}/seed{SEED}",
+            "nextpnr", f"{board.name}, place and route with seed {SEED}", folder,
             [*bitstream.placement(netlist, SEED, candidate.clock), "--report", "{folder}/report.json"],
             [netlist, bitstream.CONSTRAINTS], ["report.json", "nextpnr.log"], 60 * limit)
     except TookTooLong as failure:
         runner.say(str(failure))
-        return None
+        return packed(FOLDER / folder / "nextpnr.log")
     figures, detail = designs.board_figures(report, log)
     runner.say(f"{board.name}: {figures['fmax']:.1f} MHz, {candidate.fmax:.1f} predicted")
-    return {**figures, **detail}
+    return {**figures, "cells": detail["utilisation"]["cells"][0]}
