@@ -29,10 +29,10 @@ SEED_LIMIT = 40
 DRIVEN = ["--frames", 30, "--blocks", 6]
 
 
-def placement(netlist, seed, target):
+def placement(netlist, seed, target, placer="static"):
     """nextpnr's arguments for a placement with the board's pins."""
     return ["--85k", "--speed", "6", "--package", "CABGA381", "--timing-allow-fail", "--freq", f"{target:g}",
-            "--placer", "static",  # a wire length of 364,000 instead of the default's 475,000 (docs/decisions/0007)
+            "--placer", placer,  # static: a wire length of 364,000 instead of the default's 475,000 (docs/decisions/0007)
             "--seed", str(seed), "--lpf", str(CONSTRAINTS), "--json", str(netlist)]
 
 
