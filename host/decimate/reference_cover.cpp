@@ -199,7 +199,7 @@ bool ReferenceCover::prove(std::uint32_t triangle, const EditableMesh& mesh, con
       corner.near = around.nearest(corner.at);
       if (corner.near == kNoIndex) return false;
     }
-    if (!prove_piece(whole, around) && !prove_parts(whole, around)) return false;
+    if (!prove_thoroughly(whole, around)) return false;
   }
   for (const std::uint32_t slot : used_) add_support(triangle, slot);
   --unproven_;
@@ -280,6 +280,16 @@ bool ReferenceCover::prove_piece(const Piece& whole, Around& around) {
   used_.clear();
   cuts_ = 0;
   return cover(whole, around);
+}
+
+// For what an edit affects this would take too long.
+bool ReferenceCover::prove_thoroughly(const Piece& whole, Around& around) {
+  if (prove_piece(whole, around) || prove_parts(whole, around)) return true;
+  used_.clear();
+  cuts_elsewhere_ = true;
+  const bool proven = prove_piece(whole, around) || prove_parts(whole, around);
+  cuts_elsewhere_ = false;
+  return proven;
 }
 
 bool ReferenceCover::prove_parts(const Piece& whole, Around& around) {
@@ -439,12 +449,13 @@ std::array<double, 3> ReferenceCover::sides_by_distance(const Piece& piece, cons
 // Cuts the piece between two triangles of the mesh that its corners are near to. If they share an
 // edge, the cut is along the plane that halves the angle between them, else where their distances
 // are equal. Corners that an earlier cut put onto that plane may be beyond the limit of one of the
-// triangles, as it ends before them; cut there again the piece would stay as it is.
+// triangles, as it ends before them; cut there again the piece mostly stays as it is, and
+// cuts_elsewhere_ cuts where the distances are equal.
 bool ReferenceCover::cut(const Piece& piece, Around& around) {
   const Seam seam = seam_under(piece, around);
   if (seam.adjacent) {
     const std::optional<std::array<double, 3>> side = sides_of_plane(piece, seam, around);
-    if (side && (lone_of(*side) == 3 || separates(*side))) {
+    if (side && (!cuts_elsewhere_ || lone_of(*side) == 3 || separates(*side))) {
       return cut(piece, seam, *side, 0, around);
     }
   }

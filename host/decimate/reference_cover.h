@@ -80,6 +80,7 @@ class ReferenceCover {
 
   bool prove_after(std::uint32_t triangle, const AssignedPoints& assigned, Around& around);
   bool prove_piece(const Piece& whole, Around& around);
+  bool prove_thoroughly(const Piece& whole, Around& around);
   bool prove_parts(const Piece& whole, Around& around);
   bool follow(const TrianglePlane& plane, std::uint32_t from, Around& around);
   bool part_within(const TrianglePlane& plane, const std::vector<PlanarCorner>& part,
@@ -124,6 +125,7 @@ class ReferenceCover {
   std::unique_ptr<Around> around_;
   std::unique_ptr<SheetWalk<Around>> walk_;
   int cuts_ = 0;  // made for the present triangle
+  bool cuts_elsewhere_ = false;  // where a plane between two triangles cuts nothing
   std::vector<std::uint32_t> used_;
   std::vector<Corner> corners_;
   std::vector<Piece> pieces_;
