@@ -124,7 +124,7 @@ class ReferenceCover {
   // Scratch.
   std::unique_ptr<Around> around_;
   std::unique_ptr<SheetWalk<Around>> walk_;
-  int cuts_ = 0;  // made for the present triangle
+  int cuts_ = 0;                 // made for the present triangle
   bool cuts_elsewhere_ = false;  // where a plane between two triangles cuts nothing
   std::vector<std::uint32_t> used_;
   std::vector<Corner> corners_;
