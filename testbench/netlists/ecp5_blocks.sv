@@ -123,8 +123,10 @@ module DP16KD #(
         DOB14, DOB15, DOB16, DOB17
 );
   localparam int BELOW = DATA_WIDTH_A == 18 ? 4 : DATA_WIDTH_A == 9 ? 3 : DATA_WIDTH_A / 2;
-  if (DATA_WIDTH_A != DATA_WIDTH_B || !(DATA_WIDTH_A inside {18, 9, 4, 2, 1}) || CSDECODE_A != "0b000"
-      || CSDECODE_B != "0b000") begin : unmodelled
+  localparam bit MODELLED = DATA_WIDTH_A == 18 || DATA_WIDTH_A == 9 || DATA_WIDTH_A == 4
+      || DATA_WIDTH_A == 2 || DATA_WIDTH_A == 1;
+  if (DATA_WIDTH_A != DATA_WIDTH_B || !MODELLED || CSDECODE_A != "0b000" || CSDECODE_B != "0b000")
+  begin : unmodelled
     $error("DP16KD: this model knows two ports of the same 18, 9, 4, 2 or 1 bits, selected by CS 000");
   end
   localparam logic [17:0] MASK = 18'((1 << DATA_WIDTH_A) - 1);
