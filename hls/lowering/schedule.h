@@ -29,10 +29,10 @@ struct Latencies {
   int levels = 2;        // of lookup tables
   int divide = 27;
   int square_root = 26;
-  int fixed_add = 1;  // and subtract
-  int fixed_multiply = 5;
-  int fixed_negate = 1;  // and magnitude
-  int fixed_fit = 1;
+  int fixed_add = 2;  // and subtract
+  int fixed_multiply = 4;
+  int fixed_negate = 2;  // and magnitude
+  int fixed_fit = 2;
   int fixed_less = 1;
 
   int of(Operation operation) const;

@@ -65,7 +65,7 @@ module command_router (
   place_t queue[1<<QUEUE_BITS];
   logic [QUEUE_BITS:0] queued;
   logic [QUEUE_BITS-1:0] write_place, read_place;
-  logic note, noted, next, may_pass, exact_free, filter_free, echo_ready;
+  logic note, noted, fetch, may_pass, exact_free, filter_free, echo_ready;
   assign note = word_valid && at_header && asks && !noted && !queued[QUEUE_BITS];
   assign may_pass = word_valid && (!at_header || !asks || noted);
   assign take = may_pass && (place == EXACT ? exact_free : place == FILTER ? filter_free : echo_ready);
@@ -80,9 +80,9 @@ module command_router (
       read_place <= '0;
     end else begin
       noted <= note || (noted && !take);
-      queued <= queued + (QUEUE_BITS + 1)'(note) - (QUEUE_BITS + 1)'(next);
+      queued <= queued + (QUEUE_BITS + 1)'(note) - (QUEUE_BITS + 1)'(fetch);
       if (note) write_place <= write_place + 1'b1;
-      if (next) read_place <= read_place + 1'b1;
+      if (fetch) read_place <= read_place + 1'b1;
     end
   end
 
@@ -95,13 +95,14 @@ module command_router (
       .s_axis_tready(filter_free), .m_axis_tdata(m_axis_filter_tdata),
       .m_axis_tvalid(m_axis_filter_tvalid), .m_axis_tready(m_axis_filter_tready));
 
-  // The answers. A header counts the words after it.
-  place_t from;
-  logic waits, answers, answer_valid, answer_free, sent;
+  // The answers. A header counts the words after it. The place that answers is fetched from the queue a
+  // cycle before, so that the words of its answer do not wait for the queue within their own cycle.
+  place_t fetched, from;
+  logic waits, answers, answer_valid, answer_free, sent, next;
   logic [31:0] answer;
   logic [23:0] left;
-  assign from = `MUTATED(ROUTER_MIXES_ANSWERS, queue[read_place], s_axis_filter_tvalid ? FILTER : queue[read_place]);
-  assign waits = queued != '0;
+  assign fetch = queued != '0 && !waits;
+  assign from = `MUTATED(ROUTER_MIXES_ANSWERS, fetched, s_axis_filter_tvalid ? FILTER : fetched);
   assign answer_valid = waits && (from == EXACT ? s_axis_exact_tvalid
       : from == FILTER ? s_axis_filter_tvalid : may_pass && place == ITSELF);
   assign answer = from == EXACT ? s_axis_exact_tdata : from == FILTER ? s_axis_filter_tdata : word;
@@ -111,11 +112,16 @@ module command_router (
   assign sent = answer_valid && answer_free;
   assign next = sent && (answers ? left == 24'd1 : answer[23:0] == '0);
   always_ff @(posedge clk) begin
+    if (fetch) fetched <= queue[read_place];
+    waits <= fetch || (waits && !next);
     if (sent) begin
       left <= answers ? left - 1'b1 : answer[23:0];
       answers <= !next;
     end
-    if (!aresetn) answers <= 1'b0;
+    if (!aresetn) begin
+      waits <= 1'b0;
+      answers <= 1'b0;
+    end
   end
 
   axis_register #(.WIDTH(32)) answer_register (
@@ -123,6 +129,6 @@ module command_router (
       .s_axis_tready(answer_free), .m_axis_tdata(m_axis_answer_tdata),
       .m_axis_tvalid(m_axis_answer_tvalid), .m_axis_tready(m_axis_answer_tready));
 
-  assign under_way = word_valid || !at_header || waits || m_axis_exact_tvalid || m_axis_filter_tvalid
+  assign under_way = word_valid || !at_header || queued != '0 || waits || m_axis_exact_tvalid || m_axis_filter_tvalid
       || m_axis_answer_tvalid;
 endmodule

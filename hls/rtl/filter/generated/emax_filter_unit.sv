@@ -18,11 +18,11 @@ module emax_filter_unit #(
     input  logic [17:0] p_x,  // cycle 0
     input  logic [17:0] p_y,  // cycle 0
     input  logic [17:0] p_z,  // cycle 0
-    output logic [32:0] squared_distance  // cycle 40
+    output logic [32:0] squared_distance  // cycle 50
 );
-  localparam int LATENCY = 40;
-  localparam int LAST_READ = 22;
-  logic [SLOT_BITS-1:0] slot_at_1, slot_at_2, slot_at_9, slot_at_10, slot_at_17, slot_at_22;
+  localparam int LATENCY = 50;
+  localparam int LAST_READ = 29;
+  logic [SLOT_BITS-1:0] slot_at_2, slot_at_4, slot_at_12, slot_at_14, slot_at_22, slot_at_29;
   logic [17:0] t_v1_x, t_v1_y, t_v1_z, t_normal_x, t_normal_y, t_normal_z, t_in_plane_x,
       t_in_plane_y, t_in_plane_z, t_along_x, t_along_y, t_along_z, t_length12, t_edge13_direction_y,
       t_edge13_direction_z, t_edge13_length, t_edge23_direction_y, t_edge23_direction_z,
@@ -38,18 +38,18 @@ module emax_filter_unit #(
   logic [SLOT_BITS-1:0] write_slot_1, write_slot_2, write_slot_3, write_slot_4, write_slot_5,
       write_slot_6;
 
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(1), .STYLE("registers")) slot_at_1_delay (
-      .clk, .d(slot), .q(slot_at_1));
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(1), .STYLE("registers")) slot_at_2_delay (
-      .clk, .d(slot_at_1), .q(slot_at_2));
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(7), .STYLE("registers")) slot_at_9_delay (
-      .clk, .d(slot_at_2), .q(slot_at_9));
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(1), .STYLE("registers")) slot_at_10_delay (
-      .clk, .d(slot_at_9), .q(slot_at_10));
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(7), .STYLE("registers")) slot_at_17_delay (
-      .clk, .d(slot_at_10), .q(slot_at_17));
-  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(5), .STYLE("registers")) slot_at_22_delay (
-      .clk, .d(slot_at_17), .q(slot_at_22));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(2), .STYLE("registers")) slot_at_2_delay (
+      .clk, .d(slot), .q(slot_at_2));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(2), .STYLE("registers")) slot_at_4_delay (
+      .clk, .d(slot_at_2), .q(slot_at_4));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(8), .STYLE("registers")) slot_at_12_delay (
+      .clk, .d(slot_at_4), .q(slot_at_12));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(2), .STYLE("registers")) slot_at_14_delay (
+      .clk, .d(slot_at_12), .q(slot_at_14));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(8), .STYLE("registers")) slot_at_22_delay (
+      .clk, .d(slot_at_14), .q(slot_at_22));
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(7), .STYLE("registers")) slot_at_29_delay (
+      .clk, .d(slot_at_22), .q(slot_at_29));
 
   always_ff @(posedge clk) begin
     write_enable_1 <= write_enable;
@@ -79,87 +79,87 @@ module emax_filter_unit #(
       .clk, .d(write_record[71:54]), .q(t_normal_x_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_normal_x_memory (
       .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_normal_x_late),
-      .read_slot(slot_at_1), .read_data(t_normal_x));
+      .read_slot(slot_at_2), .read_data(t_normal_x));
   delay_line #(.WIDTH(18), .DEPTH(1)) t_normal_y_late_delay (
       .clk, .d(write_record[89:72]), .q(t_normal_y_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_normal_y_memory (
       .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_normal_y_late),
-      .read_slot(slot_at_1), .read_data(t_normal_y));
+      .read_slot(slot_at_2), .read_data(t_normal_y));
   delay_line #(.WIDTH(18), .DEPTH(2)) t_normal_z_late_delay (
       .clk, .d(write_record[107:90]), .q(t_normal_z_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_normal_z_memory (
       .clk, .write_enable(write_enable_2), .write_slot(write_slot_2), .write_data(t_normal_z_late),
-      .read_slot(slot_at_2), .read_data(t_normal_z));
+      .read_slot(slot_at_4), .read_data(t_normal_z));
   delay_line #(.WIDTH(18), .DEPTH(1)) t_in_plane_x_late_delay (
       .clk, .d(write_record[125:108]), .q(t_in_plane_x_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_in_plane_x_memory (
       .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_in_plane_x_late),
-      .read_slot(slot_at_1), .read_data(t_in_plane_x));
+      .read_slot(slot_at_2), .read_data(t_in_plane_x));
   delay_line #(.WIDTH(18), .DEPTH(1)) t_in_plane_y_late_delay (
       .clk, .d(write_record[143:126]), .q(t_in_plane_y_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_in_plane_y_memory (
       .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_in_plane_y_late),
-      .read_slot(slot_at_1), .read_data(t_in_plane_y));
+      .read_slot(slot_at_2), .read_data(t_in_plane_y));
   delay_line #(.WIDTH(18), .DEPTH(2)) t_in_plane_z_late_delay (
       .clk, .d(write_record[161:144]), .q(t_in_plane_z_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_in_plane_z_memory (
       .clk, .write_enable(write_enable_2), .write_slot(write_slot_2), .write_data(t_in_plane_z_late),
-      .read_slot(slot_at_2), .read_data(t_in_plane_z));
+      .read_slot(slot_at_4), .read_data(t_in_plane_z));
   delay_line #(.WIDTH(18), .DEPTH(1)) t_along_x_late_delay (
       .clk, .d(write_record[179:162]), .q(t_along_x_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_along_x_memory (
       .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_along_x_late),
-      .read_slot(slot_at_1), .read_data(t_along_x));
+      .read_slot(slot_at_2), .read_data(t_along_x));
   delay_line #(.WIDTH(18), .DEPTH(1)) t_along_y_late_delay (
       .clk, .d(write_record[197:180]), .q(t_along_y_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_along_y_memory (
       .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(t_along_y_late),
-      .read_slot(slot_at_1), .read_data(t_along_y));
+      .read_slot(slot_at_2), .read_data(t_along_y));
   delay_line #(.WIDTH(18), .DEPTH(2)) t_along_z_late_delay (
       .clk, .d(write_record[215:198]), .q(t_along_z_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_along_z_memory (
       .clk, .write_enable(write_enable_2), .write_slot(write_slot_2), .write_data(t_along_z_late),
-      .read_slot(slot_at_2), .read_data(t_along_z));
+      .read_slot(slot_at_4), .read_data(t_along_z));
   delay_line #(.WIDTH(18), .DEPTH(3)) t_length12_late_delay (
       .clk, .d(write_record[233:216]), .q(t_length12_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_length12_memory (
       .clk, .write_enable(write_enable_3), .write_slot(write_slot_3), .write_data(t_length12_late),
-      .read_slot(slot_at_9), .read_data(t_length12));
+      .read_slot(slot_at_12), .read_data(t_length12));
   delay_line #(.WIDTH(18), .DEPTH(4)) t_edge13_direction_y_late_delay (
       .clk, .d(write_record[251:234]), .q(t_edge13_direction_y_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_edge13_direction_y_memory (
       .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge13_direction_y_late),
-      .read_slot(slot_at_10), .read_data(t_edge13_direction_y));
+      .read_slot(slot_at_14), .read_data(t_edge13_direction_y));
   delay_line #(.WIDTH(18), .DEPTH(4)) t_edge13_direction_z_late_delay (
       .clk, .d(write_record[269:252]), .q(t_edge13_direction_z_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_edge13_direction_z_memory (
       .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge13_direction_z_late),
-      .read_slot(slot_at_10), .read_data(t_edge13_direction_z));
+      .read_slot(slot_at_14), .read_data(t_edge13_direction_z));
   delay_line #(.WIDTH(18), .DEPTH(5)) t_edge13_length_late_delay (
       .clk, .d(write_record[287:270]), .q(t_edge13_length_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_edge13_length_memory (
       .clk, .write_enable(write_enable_5), .write_slot(write_slot_5), .write_data(t_edge13_length_late),
-      .read_slot(slot_at_17), .read_data(t_edge13_length));
+      .read_slot(slot_at_22), .read_data(t_edge13_length));
   delay_line #(.WIDTH(18), .DEPTH(4)) t_edge23_direction_y_late_delay (
       .clk, .d(write_record[305:288]), .q(t_edge23_direction_y_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_edge23_direction_y_memory (
       .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge23_direction_y_late),
-      .read_slot(slot_at_10), .read_data(t_edge23_direction_y));
+      .read_slot(slot_at_14), .read_data(t_edge23_direction_y));
   delay_line #(.WIDTH(18), .DEPTH(4)) t_edge23_direction_z_late_delay (
       .clk, .d(write_record[323:306]), .q(t_edge23_direction_z_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_edge23_direction_z_memory (
       .clk, .write_enable(write_enable_4), .write_slot(write_slot_4), .write_data(t_edge23_direction_z_late),
-      .read_slot(slot_at_10), .read_data(t_edge23_direction_z));
+      .read_slot(slot_at_14), .read_data(t_edge23_direction_z));
   delay_line #(.WIDTH(18), .DEPTH(5)) t_edge23_length_late_delay (
       .clk, .d(write_record[341:324]), .q(t_edge23_length_late));
   field_memory #(.WIDTH(18), .SLOT_BITS(SLOT_BITS)) t_edge23_length_memory (
       .clk, .write_enable(write_enable_5), .write_slot(write_slot_5), .write_data(t_edge23_length_late),
-      .read_slot(slot_at_17), .read_data(t_edge23_length));
+      .read_slot(slot_at_22), .read_data(t_edge23_length));
   delay_line #(.WIDTH(1), .DEPTH(6)) segment_late_delay (
       .clk, .d(write_record[342]), .q(segment_late));
   field_memory #(.WIDTH(1), .SLOT_BITS(SLOT_BITS)) segment_memory (
       .clk, .write_enable(write_enable_6), .write_slot(write_slot_6), .write_data(segment_late),
-      .read_slot(slot_at_22), .read_data(segment));
+      .read_slot(slot_at_29), .read_data(segment));
 
 `ifdef EMAX_PROBES
   logic [2815:0] unused_probes;
