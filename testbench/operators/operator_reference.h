@@ -11,9 +11,10 @@ namespace emax {
 // 0x7fc00000. Sets the flush mode while it runs.
 void host_results(std::span<const OperandPair> pairs, std::span<OperatorResults> results);
 
-// A format of 1 + exponent + fraction bits, at most 8 in all, under the rules of docs/numerics.md.
-// Results are computed exactly in double (which must not flush) and rounded here. No code or method
-// is shared with the RTL, and the processor rounds nothing.
+// A format of 1 + exponent + fraction bits, at most 32 in all with at most 10 of exponent, under
+// the rules of docs/numerics.md. `rounded` rounds an exact result once. `results` computes in
+// double (which must not flush), which is exact in formats of at most 8 bits: there the processor
+// rounds nothing. No code or method is shared with the RTL.
 struct SmallFormat {
   int exponent, fraction;
 
