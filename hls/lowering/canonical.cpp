@@ -3,10 +3,10 @@
 namespace emax {
 namespace {
 
-bool is_canonical_word(std::uint64_t word) {
-  const std::uint64_t magnitude = word & 0x7fffffffu;
-  const bool subnormal = magnitude != 0 && magnitude < 0x00800000u;
-  const bool other_nan = magnitude > 0x7f800000u && word != 0x7fc00000u;
+bool is_canonical_word(std::uint64_t word, const BinaryFormat& format) {
+  const std::uint64_t magnitude = word & (format.sign() - 1);
+  const bool subnormal = magnitude != 0 && magnitude < format.least_normal();
+  const bool other_nan = magnitude > format.infinity() && word != format.nan();
   return !subnormal && !other_nan;
 }
 
@@ -22,7 +22,7 @@ std::vector<bool> canonical_nodes(const DataflowGraph& graph) {
         is = false;
         break;
       case Operation::kConstant:
-        is = is && is_canonical_word(node.word);
+        is = is && is_canonical_word(node.word, node.type.binary());
         break;
       case Operation::kMagnitude:
         is = canonical[node.operands[0]];

@@ -108,9 +108,9 @@ NodeId DataflowGraph::add_constant(ValueType type, std::uint64_t word) {
 
 bool DataflowGraph::is_zero(NodeId id) const {
   const Node& node = nodes_[id];
-  const std::uint64_t value =
-      node.type.kind == ValueKind::kFixed ? node.word : node.word & 0x7fffffffu;
-  return node.operation == Operation::kConstant && value == 0;
+  const bool negative_zero =
+      node.type.kind == ValueKind::kReal && node.word == node.type.binary().sign();
+  return node.operation == Operation::kConstant && (node.word == 0 || negative_zero);
 }
 
 void DataflowGraph::check_operands(Operation operation,
@@ -143,7 +143,8 @@ ValueType DataflowGraph::type_of(Operation operation, const std::array<NodeId, 3
   }
   if (result) return *result;
   if (operation == Operation::kSelect) return nodes_[operands[1]].type;
-  return of.kind == ValueKind::kFixed ? nodes_[operands[0]].type : ValueType(of.kind);
+  const bool has_format = of.kind == ValueKind::kFixed || of.kind == ValueKind::kReal;
+  return has_format ? nodes_[operands[0]].type : ValueType(of.kind);
 }
 
 void DataflowGraph::rewrite(Node& node) const {

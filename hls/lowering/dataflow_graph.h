@@ -25,6 +25,7 @@
 #include <tuple>
 #include <vector>
 
+#include "hls/kernel/binary.h"
 #include "hls/kernel/fixed.h"
 
 namespace emax {
@@ -34,11 +35,16 @@ constexpr NodeId kNoNode = ~NodeId{0};
 
 enum class ValueKind : std::uint8_t { kReal, kCondition, kWord, kFixed };
 
-// A kind of value with its format: binary32, a bit, a word of 32 bits, a fixed-point number.
+// A kind of value with its format: a binary floating-point number, a bit, a word of 32 bits, a
+// fixed-point number.
 struct ValueType {
-  // Implicit: the kinds with one format.
+  // Implicit: the kinds with one format, and binary32.
   constexpr ValueType(ValueKind of)  // NOLINT(google-explicit-constructor)
-      : kind(of), width(of == ValueKind::kCondition ? 1 : 32) {}
+      : kind(of),
+        width(of == ValueKind::kCondition ? 1 : 32),
+        fraction(of == ValueKind::kReal ? 23 : 0) {}
+  explicit constexpr ValueType(const BinaryFormat& format)
+      : kind(ValueKind::kReal), width(format.width()), fraction(format.mantissa) {}
   explicit constexpr ValueType(const FixedFormat& format)
       : kind(ValueKind::kFixed),
         width(format.width),
@@ -47,6 +53,8 @@ struct ValueType {
         overflow(format.overflow) {}
 
   FixedFormat fixed() const { return {width, fraction, rounding, overflow}; }
+  BinaryFormat binary() const { return {width - 1 - fraction, fraction}; }
+  bool is_binary32() const { return *this == ValueType(ValueKind::kReal); }
   // Whether words of the two types stand for the same values.
   bool reads_like(const ValueType& other) const {
     return kind == other.kind && width == other.width && fraction == other.fraction;
@@ -54,8 +62,8 @@ struct ValueType {
   auto operator<=>(const ValueType&) const = default;
 
   ValueKind kind;
-  int width;  // bits
-  int fraction = 0;
+  int width;         // bits
+  int fraction = 0;  // bits: behind the point, or stored of a mantissa
   Rounding rounding = Rounding::kHalfUp;
   Overflow overflow = Overflow::kSaturate;
 };

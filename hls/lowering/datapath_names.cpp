@@ -40,10 +40,11 @@ std::string_view instance_suffix(Operation operation) {
 }
 
 std::string constant_name(const Node& node) {
-  const bool fixed = node.type.kind == ValueKind::kFixed;
   if (node.word == 0) return "ZERO";
-  if (!fixed && node.word == 0x3f800000u) return "ONE";
-  return (fixed ? "FIXED_" : "WORD_") + hexadecimal(node.word, node.type.width, true);
+  const bool real = node.type.kind == ValueKind::kReal;
+  if (real && node.word == node.type.binary().one()) return "ONE";
+  return (node.type.kind == ValueKind::kFixed ? "FIXED_" : "WORD_") +
+         hexadecimal(node.word, node.type.width, true);
 }
 
 DatapathNames::ConstantKey key_of(const Node& node) { return {node.type.width, node.word}; }

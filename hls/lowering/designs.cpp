@@ -40,7 +40,7 @@ class Inputs {
   explicit Inputs(DataflowGraph& graph) : graph_(graph) {}
 
   RecordedValue sample(const std::string& name) {
-    return RecordedValue(graph_.add_input(name, ValueKind::kReal, Arrival::kSample));
+    return RecordedValue::of(graph_.add_input(name, ValueKind::kReal, Arrival::kSample));
   }
   RecordedWord word(const std::string& name) {
     return RecordedWord(graph_.add_input(name, ValueKind::kWord, Arrival::kSample));
@@ -49,7 +49,8 @@ class Inputs {
     return {sample(name + "_x"), sample(name + "_y"), sample(name + "_z")};
   }
   RecordedValue field(const std::string& name) {
-    return RecordedValue(graph_.add_input(name, ValueKind::kReal, Arrival::kMemory, 32 * words_++));
+    return RecordedValue::of(
+        graph_.add_input(name, ValueKind::kReal, Arrival::kMemory, 32 * words_++));
   }
   Vector2<RecordedValue> vector2(const std::string& name) {
     return {field(name + "_y"), field(name + "_z")};
@@ -212,7 +213,8 @@ LoweredDesign lower_graph(const FormInfo& about, DataflowGraph graph, const Sour
   for (const auto& [node, label] : labels) {
     if (renamed[node] != kNoNode) live[renamed[node]] = label;
   }
-  design.schedule = make_schedule(design.graph, options.latencies);
+  design.options.latencies = latencies_for(design.graph, options.latencies);
+  design.schedule = make_schedule(design.graph, design.options.latencies);
   name_nodes(design.graph, design.schedule, source_text, live, design.options.module);
   for (NodeId id = 0; id < design.graph.nodes().size(); ++id) {
     if (design.graph.is_operation(id)) design.probes.push_back(id);

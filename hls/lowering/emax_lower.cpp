@@ -20,7 +20,8 @@ constexpr std::string_view kFileHelp = R"(
 
 Lowers a function of one's own and compares the pipeline, simulated, with the function itself. The
 files come into FOLDER (lowered/FUNCTION); --stream adds the pipeline between two AXI4-Streams.
-SCALAR is binary32, or fixed:WIDTH:FRACTION[:down][:wrap].)";
+SCALAR is binary32, float:EXPONENT:MANTISSA, where MANTISSA is the number of bits that are stored
+of it (float:5:10 is binary16, float:8:7 bfloat16), or fixed:WIDTH:FRACTION[:down][:wrap].)";
 
 // The value that follows an option, which both are taken out of the arguments; empty if the option
 // is not there, or is the last one.

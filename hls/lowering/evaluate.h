@@ -13,15 +13,23 @@
 
 namespace emax {
 
+// Whether a node is an operation on numbers of another binary format than binary32.
+bool is_of_other_format(const DataflowGraph& graph, const Node& node);
+
+// What such an operation gives: its bits, or a condition. `bits` are those of its operands.
+std::uint64_t evaluate_binary(const DataflowGraph& graph, const Node& node,
+                              const std::array<std::uint64_t, 2>& bits);
+
 // What a fixed-point operation gives: the low bits of its result, or a condition. `numbers` are its
 // operands.
 std::uint64_t evaluate_fixed(const DataflowGraph& graph, const Node& node,
                              const std::array<std::int64_t, 2>& numbers);
 
-// The word of each node (a condition as 0 or 1, a fixed-point number as its bits) for the words of
-// the inputs, in the order of graph.inputs(). With the model's flushing scalar these are the words
-// of the hardware. Scalar must be constructible from float and have to_word, magnitude, square_root
-// and the operators. Bits is 64 bits wide where numbers of a graph have more than 32. O(nodes).
+// The word of each node (a condition as 0 or 1, a number of another format than binary32 as its
+// bits) for the words of the inputs, in the order of graph.inputs(). With the model's flushing
+// scalar these are the words of the hardware. Scalar is that of binary32; it must be constructible
+// from float and have to_word, magnitude, square_root and the operators. Bits is 64 bits wide where
+// numbers of a graph have more than 32. O(nodes).
 template <class Scalar, class Bits = Word>
 std::vector<Bits> evaluate(const DataflowGraph& graph,
                            std::span<const std::type_identity_t<Bits>> inputs) {
@@ -36,6 +44,11 @@ std::vector<Bits> evaluate(const DataflowGraph& graph,
       if (operand >= info(node.operation).operands) return 0;
       return fixed_wrapped(word(operand), graph.node(node.operands[operand]).type.width);
     };
+    if (is_of_other_format(graph, node)) {
+      const std::uint64_t second = info(node.operation).operands > 1 ? word(1) : 0;
+      words.push_back(static_cast<Bits>(evaluate_binary(graph, node, {word(0), second})));
+      continue;
+    }
     const Scalar zero(0.0f);
     Bits result = 0;
     switch (node.operation) {

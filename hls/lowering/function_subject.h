@@ -28,8 +28,11 @@ class FunctionRecorder {
   FunctionRecorder(std::string_view function, std::string_view header, std::string_view scalar)
       : function_(function), header_(header), scalar_(scalar), recording_(graph_) {}
 
-  void give(RecordedValue& value) { value = RecordedValue(input(ValueKind::kReal)); }
   void give(RecordedCondition& value) { value = RecordedCondition(input(ValueKind::kCondition)); }
+  template <int kExponent, int kMantissa>
+  void give(RecordedBinary<kExponent, kMantissa>& value) {
+    value = value.of(input(value.type()));
+  }
   template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
   void give(RecordedFixed<kWidth, kFraction, kRounding, kOverflow>& value) {
     value = value.of(input(value.type()));
@@ -73,10 +76,11 @@ LoweringSubject function_subject(Result (*function)(Arguments...), std::string_v
 #define EMAX_FUNCTION(function, header) \
   ::emax::function_subject(&function<::emax::RecordedValue>, #function, header)
 
-// The same on a scalar of fixed-point numbers: EMAX_FUNCTION_ON(f, "f.h", emax::Fixed<18, 16>).
-#define EMAX_FUNCTION_ON(function, header, ...)                                             \
-  ::emax::function_subject(&function<::emax::RecordedScalar<__VA_ARGS__>::Type>, #function, \
-                           header, #__VA_ARGS__)
+// The same on another scalar: EMAX_FUNCTION_ON(f, "f.h", emax::Fixed<18, 16>), or with
+// emax::Binary<5, 10>.
+#define EMAX_FUNCTION_ON(function, header, ...)                                           \
+  ::emax::function_subject(&function<typename ::emax::RecordedScalar<__VA_ARGS__>::Type>, \
+                           #function, header, #__VA_ARGS__)
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace emax

@@ -3,8 +3,13 @@
 namespace emax {
 namespace {
 
-// Of a fixed-point number: how results are fitted to it.
+// Of a fixed-point number: how results are fitted to it. Of a binary one, unless it is binary32:
+// the stored bits of its fields.
 std::string format_of(const ValueType& type) {
+  if (type.kind == ValueKind::kReal && !type.is_binary32()) {
+    return ", \"exponent\": " + std::to_string(type.binary().exponent) +
+           ", \"mantissa\": " + std::to_string(type.binary().mantissa);
+  }
   if (type.kind != ValueKind::kFixed) return "";
   const auto boolean = [](bool value) { return std::string(value ? "true" : "false"); };
   return ", \"fraction\": " + std::to_string(type.fraction) +

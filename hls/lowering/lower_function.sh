@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [--stream] [OPTION...]: lowers a
 # function of a header, and runs the testbench of its pipeline. BUILD is a build folder of emax;
-# options are emax_lower's. SCALAR is binary32, which is the default, or fixed:WIDTH:FRACTION[:down][:wrap].
+# options are emax_lower's. SCALAR is binary32, which is the default, float:EXPONENT:MANTISSA or
+# fixed:WIDTH:FRACTION[:down][:wrap]. float:5:10 is binary16, float:8:7 bfloat16: MANTISSA is the number of bits
+# that are stored of it.
 # CXX, VERILATOR and OBJCACHE may name the tools. Into FOLDER:
 #   FUNCTION.sv             the pipeline
 #   FUNCTION.cl             the function in OpenCL C, if the scalar is binary32
@@ -12,7 +14,7 @@
 # and with --stream, the pipeline between two AXI4-Streams:
 #   FUNCTION_stream.sv, FUNCTION_stream_testbench.cpp, stream_bench
 set -euo pipefail
-[ $# -ge 4 ] || { sed -n '2,4s/^# //p' "$0" >&2 && exit 2; }
+[ $# -ge 4 ] || { sed -n '2,6s/^# //p' "$0" >&2 && exit 2; }
 build=$(realpath "$1") header=$(realpath "$2") function=$3 folder=$4
 shift 4
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -34,6 +36,32 @@ fixed_type() {
   echo "emax::Fixed<$width, $fraction, emax::Rounding::$rounding, emax::Overflow::$overflow>"
 }
 
+# float_type TEXT: the type in C++ of float:EXPONENT:MANTISSA; nothing if it is none that the operators take.
+float_type() {
+  local exponent mantissa
+  [[ $1 =~ ^float:([0-9]{1,2}):([0-9]{1,2})$ ]] || return 0
+  exponent=$((10#${BASH_REMATCH[1]})) mantissa=$((10#${BASH_REMATCH[2]}))
+  [ $exponent -ge 3 ] && [ $exponent -le 10 ] && [ $mantissa -ge 2 ] && [ $mantissa -le 23 ] || return 0
+  [ $mantissa -le $(((1 << exponent) - 4)) ] || return 0
+  echo "emax::Binary<$exponent, $mantissa>"
+}
+
+# scalar_type TEXT: the type in C++ of another scalar than binary32; says what is wrong with it and fails.
+scalar_type() {
+  local type known="binary32, float:EXPONENT:MANTISSA or fixed:WIDTH:FRACTION[:down][:wrap]"
+  case $1 in
+    float:*)
+      type=$(float_type "$1")
+      [ -n "$type" ] || fail 2 "--scalar $1: take float:EXPONENT:MANTISSA with an EXPONENT of 3 to 10 bits and a MANTISSA of 2 to 23 stored bits, at most 2^EXPONENT - 4"
+      ;;
+    *)
+      type=$(fixed_type "$1")
+      [ -n "$type" ] || fail 2 "--scalar $1: take $known with a WIDTH of 2 to 62 and a smaller FRACTION"
+      ;;
+  esac
+  echo "$type"
+}
+
 scalar=binary32 stream=no options=()
 while [ $# -gt 0 ]; do
   case $1 in
@@ -41,7 +69,7 @@ while [ $# -gt 0 ]; do
       fail 2 "the module has the name of the function, and the files are in $folder; leave out --module and -o"
       ;;
     --scalar)
-      [ $# -ge 2 ] || fail 2 "--scalar needs a value: binary32 or fixed:WIDTH:FRACTION[:down][:wrap]"
+      [ $# -ge 2 ] || fail 2 "--scalar needs a value: binary32, float:EXPONENT:MANTISSA or fixed:WIDTH:FRACTION[:down][:wrap]"
       scalar=$2
       shift
       ;;
@@ -52,8 +80,7 @@ while [ $# -gt 0 ]; do
 done
 recorded="EMAX_FUNCTION($function, \"$header\")"
 if [ "$scalar" != binary32 ]; then
-  type=$(fixed_type "$scalar")
-  [ -n "$type" ] || fail 2 "--scalar $scalar: take binary32, or fixed:WIDTH:FRACTION[:down][:wrap] with a WIDTH of 2 to 62 and a smaller FRACTION"
+  type=$(scalar_type "$scalar") || exit
   recorded="EMAX_FUNCTION_ON($function, \"$header\", $type)"
 fi
 [ -f "$header" ] || fail 1 "$header: no such file; check the path"

@@ -39,7 +39,9 @@ what to write (the datapath unless one of these is given)
 how to lower
   --module NAME       name of the datapath's module: an identifier of SystemVerilog
   --latency K=N,...   cycles of each operator, and levels of lookup tables between registers:
-LATENCIES  --family FAMILY     ecp5 (the default) or xilinx: how delays are built
+LATENCIES                      of numbers with a mantissa of M stored bits, divide takes at most
+                      M + 4 and square_root at most M + 3
+  --family FAMILY     ecp5 (the default) or xilinx: how delays are built
   --delay K=N,...     longest delay in registers, narrow_registers (of conditions and slots) and
                       memory; longer ones of wide values take block RAM
   -o FILE             written whole or not at all

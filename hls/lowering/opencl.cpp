@@ -28,8 +28,9 @@ class OpenclWriter {
   explicit OpenclWriter(const LoweredDesign& design)
       : design_(design), graph_(design.graph), canonical_(canonical_nodes(design.graph)) {
     for (const Node& node : graph_.nodes()) {
-      if (node.type.kind != ValueKind::kFixed) continue;
-      throw std::invalid_argument("--opencl is for binary32; leave it out for fixed-point numbers");
+      const bool is_other = node.type.kind == ValueKind::kReal && !node.type.is_binary32();
+      if (node.type.kind != ValueKind::kFixed && !is_other) continue;
+      throw std::invalid_argument("--opencl is for binary32; leave it out for other numbers");
     }
     std::set<std::string, std::less<>> taken(kOpenclWords.begin(), kOpenclWords.end());
     taken.insert(design.options.module);
@@ -196,7 +197,7 @@ class OpenclWriter {
       case Operation::kWordLess:
         return in(0) + " < " + in(1);
       default:
-        break;  // fixed-point numbers are refused
+        break;  // other numbers are refused
     }
     return "";
   }

@@ -11,7 +11,7 @@ namespace emax {
 // as many lanes as the text that includes it says. Inputs of a sample are parameters in their
 // order; those of a memory are read from the words of the parameter `record`. A single output is
 // returned; several are written through pointers. Throws std::invalid_argument for a design with
-// fixed-point numbers.
+// numbers of another format than binary32.
 std::string opencl_function(const LoweredDesign& design);
 
 }  // namespace emax

@@ -108,13 +108,6 @@ struct FormatOf<RecordedFixed<kOther, kOthers, kRounding, kOverflow>, kWidth, kF
   using Type = RecordedFixed<kWidth, kFraction, kRounding, kOverflow>;
 };
 
-// The scalar that records what functions do on `Scalar`.
-template <class Scalar>
-struct RecordedScalar;
-template <>
-struct RecordedScalar<float> {
-  using Type = RecordedValue;
-};
 template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
 struct RecordedScalar<Fixed<kWidth, kFraction, kRounding, kOverflow>> {
   using Type = RecordedFixed<kWidth, kFraction, kRounding, kOverflow>;

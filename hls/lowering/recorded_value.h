@@ -8,7 +8,7 @@
 
 #include <source_location>
 
-#include "hls/kernel/word.h"
+#include "hls/kernel/binary.h"
 #include "hls/lowering/dataflow_graph.h"
 
 namespace emax {
@@ -100,83 +100,89 @@ class RecordedCondition : public RecordedNode<RecordedCondition> {
   }
 };
 
-// A binary32 value.
-class RecordedValue : public RecordedNode<RecordedValue> {
-  using Here = Located<RecordedValue>;
+// A binary floating-point value: the operations of Binary with the same parameters.
+template <int kExponent, int kMantissa>
+class RecordedBinary : public RecordedNode<RecordedBinary<kExponent, kMantissa>> {
+  using Base = RecordedNode<RecordedBinary>;
+  using Number = Binary<kExponent, kMantissa>;
+  using Here = Located<RecordedBinary>;
 
  public:
-  using RecordedNode::RecordedNode;
-  explicit RecordedValue(float value)
-      : RecordedNode(Recording::graph().add_constant(ValueKind::kReal, to_word(value))) {}
+  static ValueType type() { return ValueType(Number::format()); }
+  static RecordedBinary of(NodeId node) { return RecordedBinary(node, IsNode()); }
 
-  friend RecordedValue operator+(const Here& a, const RecordedValue& b) {
-    return recorded<RecordedValue>(Operation::kAdd, a, b.node());
+  RecordedBinary() = default;
+  explicit RecordedBinary(double constant)
+      : Base(Recording::graph().add_constant(type(), Number(constant).bits())) {}
+  explicit RecordedBinary(NodeId node) = delete;  // a node is no constant: of(node)
+
+  friend RecordedBinary operator+(const Here& a, const RecordedBinary& b) {
+    return of(add(a, Operation::kAdd, a.node, b.node()));
   }
-  friend RecordedValue operator-(const Here& a, const RecordedValue& b) {
-    return recorded<RecordedValue>(Operation::kSubtract, a, b.node());
+  friend RecordedBinary operator-(const Here& a, const RecordedBinary& b) {
+    return of(add(a, Operation::kSubtract, a.node, b.node()));
   }
-  friend RecordedValue operator*(const Here& a, const RecordedValue& b) {
-    return recorded<RecordedValue>(Operation::kMultiply, a, b.node());
+  friend RecordedBinary operator*(const Here& a, const RecordedBinary& b) {
+    return of(add(a, Operation::kMultiply, a.node, b.node()));
   }
-  friend RecordedValue operator/(const Here& a, const RecordedValue& b) {
-    return recorded<RecordedValue>(Operation::kDivide, a, b.node());
+  friend RecordedBinary operator/(const Here& a, const RecordedBinary& b) {
+    return of(add(a, Operation::kDivide, a.node, b.node()));
   }
-  friend RecordedValue square_root(const Here& a) {
-    return recorded<RecordedValue>(Operation::kSquareRoot, a);
+  friend RecordedBinary square_root(const Here& a) {
+    return of(add(a, Operation::kSquareRoot, a.node));
   }
-  friend RecordedValue operator-(const Here& a) {
-    return recorded<RecordedValue>(Operation::kNegate, a);
+  friend RecordedBinary operator-(const Here& a) { return of(add(a, Operation::kNegate, a.node)); }
+  friend RecordedBinary magnitude(const Here& a) {
+    return of(add(a, Operation::kMagnitude, a.node));
   }
-  friend RecordedCondition operator<(const Here& a, const RecordedValue& b) {
-    return recorded<RecordedCondition>(Operation::kLess, a, b.node());
+  friend RecordedCondition operator<(const Here& a, const RecordedBinary& b) {
+    return RecordedCondition(add(a, Operation::kLess, a.node, b.node()));
   }
   // The other comparisons are made of this one. Nothing is less than, equal to or greater than a
   // NaN, so `a <= b` is not the opposite of `b < a` alone.
-  friend RecordedCondition operator>(const Here& a, const RecordedValue& b) {
-    return at(a, Operation::kLess, b, RecordedValue(a.node));
+  friend RecordedCondition operator>(const Here& a, const RecordedBinary& b) {
+    return RecordedCondition(add(a, Operation::kLess, b.node(), a.node));
   }
-  friend RecordedCondition operator<=(const Here& a, const RecordedValue& b) {
-    return not_less(a, b, RecordedValue(a.node));
+  friend RecordedCondition operator<=(const Here& a, const RecordedBinary& b) {
+    return RecordedCondition(not_less(a, b.node(), a.node));
   }
-  friend RecordedCondition operator>=(const Here& a, const RecordedValue& b) {
-    return not_less(a, RecordedValue(a.node), b);
+  friend RecordedCondition operator>=(const Here& a, const RecordedBinary& b) {
+    return RecordedCondition(not_less(a, a.node, b.node()));
   }
-  friend RecordedCondition operator==(const Here& a, const RecordedValue& b) {
-    return logic(a, Operation::kBoth, a <= b, a >= b);
+  // Both sides alike: an operand order that C++20 may reverse.
+  friend RecordedCondition operator==(const Here& a, const Here& b) {
+    return RecordedCondition(equal(a, b.node));
   }
-  friend RecordedCondition operator!=(const Here& a, const RecordedValue& b) {
-    return logic(a, Operation::kNegated, a == b);
+  friend RecordedCondition operator!=(const Here& a, const Here& b) {
+    return RecordedCondition(add(a, Operation::kNegated, equal(a, b.node)));
   }
-  friend RecordedValue magnitude(const Here& a) {
-    return recorded<RecordedValue>(Operation::kMagnitude, a);
-  }
-  friend RecordedValue select(const Located<RecordedCondition>& condition,
-                              const RecordedValue& if_true, const RecordedValue& if_false) {
-    return recorded<RecordedValue>(Operation::kSelect, condition, if_true.node(), if_false.node());
+  friend RecordedBinary select(const Located<RecordedCondition>& condition,
+                               const RecordedBinary& if_true, const RecordedBinary& if_false) {
+    return of(Recording::graph().add_operation(
+        Operation::kSelect, {condition.node, if_true.node(), if_false.node()}, condition.place));
   }
 
  private:
-  // Operations at the place of a comparison that they are made for.
-  static RecordedCondition at(const Here& place, Operation operation, const RecordedValue& a,
-                              const RecordedValue& b = RecordedValue()) {
-    return RecordedCondition(
-        Recording::graph().add_operation(operation, {a.node(), b.node(), kNoNode}, place.place));
+  struct IsNode {};
+  RecordedBinary(NodeId node, IsNode /*tag*/) : Base(node) {}
+
+  // An operation at the place of `at`, which it is made for.
+  static NodeId add(const Here& at, Operation operation, NodeId a, NodeId b = kNoNode) {
+    return Recording::graph().add_operation(operation, {a, b, kNoNode}, at.place);
   }
-  static RecordedCondition logic(const Here& place, Operation operation, const RecordedCondition& a,
-                                 const RecordedCondition& b = RecordedCondition()) {
-    return RecordedCondition(
-        Recording::graph().add_operation(operation, {a.node(), b.node(), kNoNode}, place.place));
+  // Whether x and y are numbers and x is not less than y.
+  static NodeId not_less(const Here& at, NodeId x, NodeId y) {
+    const NodeId numbers = add(at, Operation::kBoth, add(at, Operation::kIsNumber, x),
+                               add(at, Operation::kIsNumber, y));
+    return add(at, Operation::kBoth, numbers,
+               add(at, Operation::kNegated, add(at, Operation::kLess, x, y)));
   }
-  // Whether a and b are numbers and a is not less than b.
-  static RecordedCondition not_less(const Here& place, const RecordedValue& a,
-                                    const RecordedValue& b) {
-    const RecordedCondition numbers =
-        logic(place, Operation::kBoth, at(place, Operation::kIsNumber, a),
-              at(place, Operation::kIsNumber, b));
-    return logic(place, Operation::kBoth, numbers,
-                 logic(place, Operation::kNegated, at(place, Operation::kLess, a, b)));
+  static NodeId equal(const Here& a, NodeId b) {
+    return add(a, Operation::kBoth, not_less(a, b, a.node), not_less(a, a.node, b));
   }
 };
+
+using RecordedValue = RecordedBinary<8, 23>;  // binary32
 
 // An unsigned 32-bit integer.
 class RecordedWord : public RecordedNode<RecordedWord> {
@@ -191,6 +197,18 @@ class RecordedWord : public RecordedNode<RecordedWord> {
     return recorded<RecordedWord>(Operation::kWordSelect, condition, if_true.node(),
                                   if_false.node());
   }
+};
+
+// The scalar that records what functions do on `Scalar`.
+template <class Scalar>
+struct RecordedScalar;
+template <>
+struct RecordedScalar<float> {
+  using Type = RecordedValue;
+};
+template <int kExponent, int kMantissa>
+struct RecordedScalar<Binary<kExponent, kMantissa>> {
+  using Type = RecordedBinary<kExponent, kMantissa>;
 };
 
 }  // namespace emax

@@ -89,6 +89,28 @@ void check_latencies(const Latencies& latencies) {
   }
 }
 
+Latencies latencies_for(const DataflowGraph& graph, Latencies latencies) {
+  const auto limit = [&](const char* name, int Latencies::*cycles, const ValueType& type,
+                         int most) {
+    if (latencies.*cycles <= most) return;
+    if (latencies.*cycles != Latencies{}.*cycles) {
+      throw std::invalid_argument(std::string(name) + " must be 1 to " + std::to_string(most) +
+                                  " for a mantissa of " + std::to_string(type.fraction) +
+                                  " stored bits, not " + std::to_string(latencies.*cycles));
+    }
+    latencies.*cycles = most;
+  };
+  for (const Node& node : graph.nodes()) {
+    const int digits = node.type.fraction;
+    if (node.operation == Operation::kDivide) {
+      limit("divide", &Latencies::divide, node.type, digits + 4);
+    } else if (node.operation == Operation::kSquareRoot) {
+      limit("square_root", &Latencies::square_root, node.type, digits + 3);
+    }
+  }
+  return latencies;
+}
+
 namespace {
 
 // A value, the node that uses it, and the least number of cycles from the value's ready cycle to

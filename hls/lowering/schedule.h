@@ -70,6 +70,11 @@ constexpr LatencyLimits kLatencyLimits[] = {
 // Throws std::invalid_argument, with name, value and limits, for a latency outside its limits.
 void check_latencies(const Latencies& latencies);
 
+// The latencies with which the modules of a graph can be built. Division and square root take at
+// most a cycle a digit: of numbers with a mantissa of M stored bits at most M + 4 and M + 3 cycles.
+// A default that is greater becomes that; another number throws std::invalid_argument.
+Latencies latencies_for(const DataflowGraph& graph, Latencies latencies);
+
 struct Schedule {
   std::vector<int> start, ready;  // by node; constants at 0
   std::vector<int> last_use;  // the cycle of a node's last use; its ready cycle if there is none

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "hls/lowering/binary_text.h"
 #include "hls/lowering/canonical.h"
 #include "hls/lowering/datapath_names.h"
 #include "hls/lowering/fixed_text.h"
@@ -169,41 +170,16 @@ class DatapathWriter {
     const auto in = [&](std::size_t operand) {
       return names_.signal(node.operands[operand], schedule_.start[id]);
     };
-    const auto binary = [&](const std::string& module, const char* result) {
-      return instance(
-          module, names_.instance(id),
-          ".clk, .a(" + in(0) + "), .b(" + in(1) + "), ." + result + "(" + node.name + ")");
-    };
     switch (node.operation) {
       case Operation::kInput:
       case Operation::kConstant:
         return "";
-      case Operation::kAdd:
-        return binary("fp_add #(.LATENCY(ADD_LATENCY))", "sum");
-      case Operation::kSubtract:
-        return binary("fp_add #(.SUBTRACT(1'b1), .LATENCY(ADD_LATENCY))", "sum");
-      case Operation::kMultiply:
-        return binary("fp_multiply #(.LATENCY(MULTIPLY_LATENCY))", "product");
-      case Operation::kSquare:
-        return instance("fp_square #(.LATENCY(SQUARE_LATENCY))", names_.instance(id),
-                        ".clk, .a(" + in(0) + "), .square(" + node.name + ")");
-      case Operation::kLess:
-        return binary("fp_less #(.LATENCY(LESS_LATENCY))", "less");
-      case Operation::kDivide:
-        return binary("fp_divide #(.LATENCY(DIVIDE_LATENCY))", "quotient");
-      case Operation::kSquareRoot:
-        return instance("fp_square_root #(.LATENCY(SQUARE_ROOT_LATENCY))", names_.instance(id),
-                        ".clk, .a(" + in(0) + "), .root(" + node.name + ")");
       case Operation::kNegate:
-        return logic(id, "{~" + in(0) + "[31], " + in(0) + "[30:0]}");
       case Operation::kIsNumber:
-        return logic(id, "~(&" + in(0) + "[30:23] & |" + in(0) + "[22:0])");
       case Operation::kMagnitude:
-        return logic(id, "{1'b0, " + in(0) + "[30:0]}");
       case Operation::kLessZero:
-        return logic(id, against_zero(node.operands[0], in(0), true));
       case Operation::kGreaterZero:
-        return logic(id, against_zero(node.operands[0], in(0), false));
+        return logic(id, binary_logic(design_, id, in(0), canonical_[node.operands[0]]));
       case Operation::kSelect:
       case Operation::kWordSelect:
         return logic(id, in(0) + " ? " + in(1) + " : " + in(2));
@@ -222,11 +198,14 @@ class DatapathWriter {
       default:
         break;
     }
-    std::string connections = ".clk, .a(" + in(0) + ")";
-    if (info(node.operation).operands == 2) connections += ", .b(" + in(1) + ")";
-    return instance(fixed_module(design_, id), names_.instance(id),
-                    connections + ", ." + std::string(fixed_result_port(node.operation)) + "(" +
-                        node.name + ")");
+    const bool fixed = node.operation >= Operation::kFixedAdd;
+    const std::string_view result =
+        fixed ? fixed_result_port(node.operation) : binary_result_port(node.operation);
+    return instance(fixed ? fixed_module(design_, id) : binary_module(design_, id),
+                    names_.instance(id),
+                    ".clk, .a(" + in(0) + ")" +
+                        (info(node.operation).operands == 2 ? ", .b(" + in(1) + ")" : "") + ", ." +
+                        std::string(result) + "(" + node.name + ")");
   }
 
   const ValueType& operand_type(const Node& node) const {
@@ -251,16 +230,6 @@ class DatapathWriter {
                                  : "  assign " + name + " =";
     const bool fits = head.size() + expression.size() + 2 <= kLineLength;
     return head + (fits ? " " : "\n      ") + expression + ";\n";
-  }
-
-  // Neither less nor greater than zero are: zero of either sign, subnormals (which count as zero)
-  // and NaN.
-  std::string against_zero(NodeId id, const std::string& value, bool less) const {
-    const std::string sign = (less ? "" : "~") + value + "[31] & |" + value + "[30:23]";
-    if (canonical_[id]) {
-      return less ? sign : sign + " & ~(&" + value + "[30:22])";
-    }
-    return sign + " & ~(&" + value + "[30:23] & |" + value + "[22:0])";
   }
 
   std::string delays(NodeId id) const {

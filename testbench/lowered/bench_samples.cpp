@@ -52,7 +52,27 @@ Bits drawn_fixed(Random& random, const ValueType& type, bool ordinary) {
   }
 }
 
+// Ordinary numbers are of the size of one. The others are words at or beside the ends of the
+// format's kinds of numbers, any words, or small.
+Bits drawn_binary(Random& random, const BinaryFormat& format, bool ordinary) {
+  if (ordinary) return binary_constant(random.uniform(-2, 2), format);
+  const Bits sign = random.one_in(2) ? format.sign() : 0;
+  const Bits kinds[] = {0, format.least_normal(), format.one(), format.infinity(), format.nan()};
+  const Bits kind = kinds[random.below(5)];
+  switch (random.below(4)) {
+    case 0:
+      return sign | ((kind + random.below(3) - 1) & (format.sign() - 1));
+    case 1:
+      return random.bits() & (2 * format.sign() - 1);
+    default:
+      return binary_constant(random.uniform(-1, 1), format);
+  }
+}
+
 Bits drawn_bits(Random& random, const ValueType& type, bool ordinary) {
+  if (type.kind == ValueKind::kReal && !type.is_binary32()) {
+    return drawn_binary(random, type.binary(), ordinary);
+  }
   switch (type.kind) {
     case ValueKind::kCondition:
       return random.below(2);
@@ -65,8 +85,13 @@ Bits drawn_bits(Random& random, const ValueType& type, bool ordinary) {
 
 std::string described(const ValueType& type, Bits bits) {
   if (type.kind == ValueKind::kCondition) return bits != 0 ? "true" : "false";
-  if (type.kind != ValueKind::kFixed) return describe_bits(static_cast<Word>(bits));
   char text[80];
+  if (type.kind == ValueKind::kReal && !type.is_binary32()) {
+    std::snprintf(text, sizeof text, "0x%0*llx = %.9g", (type.width + 3) / 4,
+                  static_cast<unsigned long long>(bits), binary_value(bits, type.binary()));
+    return text;
+  }
+  if (type.kind != ValueKind::kFixed) return describe_bits(static_cast<Word>(bits));
   const std::int64_t number = fixed_wrapped(bits, type.width);
   std::snprintf(text, sizeof text, "%lld/2^%d = %.12g", static_cast<long long>(number),
                 type.fraction, std::ldexp(static_cast<double>(number), -type.fraction));

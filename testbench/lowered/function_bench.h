@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "hls/kernel/binary.h"
 #include "hls/kernel/fixed.h"
 #include "hls/kernel/word.h"
 #include "hls/lowering/dataflow_graph.h"
@@ -18,7 +19,7 @@
 
 namespace emax {
 
-// The bits of a value: a condition as 0 or 1, a fixed-point number in the low bits.
+// The bits of a value: a condition as 0 or 1, a number in the low bits.
 using Bits = std::uint64_t;
 
 // A port of a Verilated module, which has one of four sizes.
@@ -91,6 +92,10 @@ inline void set_scalar(FlushedFloat& scalar, Bits bits) {
   scalar = FlushedFloat(to_float(static_cast<Word>(bits)));
 }
 inline void set_scalar(bool& condition, Bits bits) { condition = (bits & 1u) != 0; }
+template <int kExponent, int kMantissa>
+void set_scalar(Binary<kExponent, kMantissa>& number, Bits bits) {
+  number = number.from_bits(bits);
+}
 template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
 void set_scalar(Fixed<kWidth, kFraction, kRounding, kOverflow>& number, Bits bits) {
   number = number.from_raw(static_cast<std::int64_t>(bits));
@@ -98,6 +103,10 @@ void set_scalar(Fixed<kWidth, kFraction, kRounding, kOverflow>& number, Bits bit
 
 inline Bits bits_of_scalar(FlushedFloat scalar) { return to_word(scalar); }
 inline Bits bits_of_scalar(bool condition) { return condition ? 1 : 0; }
+template <int kExponent, int kMantissa>
+Bits bits_of_scalar(const Binary<kExponent, kMantissa>& number) {
+  return number.bits();
+}
 template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
 Bits bits_of_scalar(const Fixed<kWidth, kFraction, kRounding, kOverflow>& number) {
   return static_cast<Bits>(number.raw()) & ((Bits{1} << kWidth) - 1);
@@ -105,6 +114,10 @@ Bits bits_of_scalar(const Fixed<kWidth, kFraction, kRounding, kOverflow>& number
 
 inline ValueType type_of_scalar(FlushedFloat /*scalar*/) { return ValueKind::kReal; }
 inline ValueType type_of_scalar(bool /*condition*/) { return ValueKind::kCondition; }
+template <int kExponent, int kMantissa>
+ValueType type_of_scalar(const Binary<kExponent, kMantissa>& number) {
+  return ValueType(number.format());
+}
 template <int kWidth, int kFraction, Rounding kRounding, Overflow kOverflow>
 ValueType type_of_scalar(const Fixed<kWidth, kFraction, kRounding, kOverflow>& number) {
   return ValueType(number.format());

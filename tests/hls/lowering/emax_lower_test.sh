@@ -36,8 +36,12 @@ expect fail "no function 'kalman'; check the name" "a function that is not there
   "$script" . "$example" kalman none
 expect fail "leave out --module and -o" "another name of the module" \
   "$script" . "$example" kalman_update none --module other
-for scalar in binary16 fixed fixed:18 fixed:1:0 fixed:63:0 fixed:18:18 fixed:18:16:up fixed:18:16:wrap:down ""; do
-  expect fail "--scalar $scalar: take binary32, or fixed:" "the scalar '$scalar'" \
+for scalar in binary16 float fixed fixed:18 fixed:1:0 fixed:63:0 fixed:18:18 fixed:18:16:up fixed:18:16:wrap:down ""; do
+  expect fail "--scalar $scalar: take binary32, float:EXPONENT:MANTISSA or fixed:" "the scalar '$scalar'" \
+    "$script" . "$example" kalman_update none --scalar "$scalar"
+done
+for scalar in float: float:5 float:2:2 float:11:10 float:8:1 float:8:24 float:3:5 float:4:13 float:5:10:down float:5:x; do
+  expect fail "--scalar $scalar: take float:EXPONENT:MANTISSA with" "the scalar '$scalar'" \
     "$script" . "$example" kalman_update none --scalar "$scalar"
 done
 expect fail "kalman_update.h: no function 'kalman'; check the name" "another function of a header" \

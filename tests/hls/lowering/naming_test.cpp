@@ -75,8 +75,8 @@ TEST(Naming, FindsTheFunctionInASignature) {
 TEST(Naming, GivesUniqueLegalNames) {
   DataflowGraph graph;
   const Recording recording(graph);
-  const RecordedValue a(graph.add_input("a", ValueKind::kReal, Arrival::kSample));
-  const RecordedValue b(graph.add_input("edge", ValueKind::kReal, Arrival::kSample));
+  const auto a = RecordedValue::of(graph.add_input("a", ValueKind::kReal, Arrival::kSample));
+  const auto b = RecordedValue::of(graph.add_input("edge", ValueKind::kReal, Arrival::kSample));
   const std::string source = "  const Scalar edge = a + b;\n  const Scalar a = b - a;\n";
   const auto at = [](std::uint32_t line) { return SourcePlace{"source.h", line, 23, "f()"}; };
   const NodeId sum = graph.add_operation(Operation::kAdd, {a.node(), b.node(), kNoNode}, at(1));
