@@ -39,6 +39,22 @@ std::string against_zero(const BinaryFields& of, bool less, bool canonical) {
   return less ? sign : sign + " & ~(&" + of.exponent_and_quiet_bit + ")";
 }
 
+// The bits of its operand that an operation looks at.
+std::uint64_t bits_in_use(Operation operation, const ValueType& operand, bool canonical) {
+  const BinaryFormat format = operand.binary();
+  switch (operation) {
+    case Operation::kMagnitude:
+    case Operation::kIsNumber:
+      return format.sign() - 1;
+    case Operation::kLessZero:
+      return canonical ? format.sign() | format.infinity() : ~std::uint64_t{0};
+    case Operation::kGreaterZero:
+      return canonical ? format.sign() | format.nan() : ~std::uint64_t{0};
+    default:
+      return ~std::uint64_t{0};
+  }
+}
+
 }  // namespace
 
 std::string binary_module(const LoweredDesign& design, NodeId id) {
@@ -95,6 +111,23 @@ std::string binary_logic(const LoweredDesign& design, NodeId id, const std::stri
     default:
       return against_zero(of, node.operation == Operation::kLessZero, canonical);
   }
+}
+
+bool leaves_bits(const DataflowGraph& graph, const std::vector<bool>& canonical) {
+  std::vector<std::uint64_t> used(graph.nodes().size(), 0);
+  for (NodeId id = 0; id < graph.nodes().size(); ++id) {
+    for (const NodeId operand : graph.operands(id)) {
+      used[operand] |=
+          bits_in_use(graph.node(id).operation, graph.node(operand).type, canonical[operand]);
+    }
+  }
+  for (const Output& output : graph.outputs()) used[output.node] = ~std::uint64_t{0};
+  for (NodeId id = 0; id < graph.nodes().size(); ++id) {
+    const Node& node = graph.node(id);
+    if (node.type.kind != ValueKind::kReal || node.operation == Operation::kConstant) continue;
+    if ((~used[id] & (2 * node.type.binary().sign() - 1)) != 0) return true;
+  }
+  return false;
 }
 
 }  // namespace emax

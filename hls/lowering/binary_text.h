@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hls/lowering/designs.h"
 
@@ -20,5 +21,9 @@ std::string_view binary_result_port(Operation operation);
 // (canonical.h).
 std::string binary_logic(const LoweredDesign& design, NodeId id, const std::string& value,
                          bool canonical);
+
+// Whether some bits of a binary number are used by no one: its sign where only magnitudes are
+// taken, a part of its fraction where it is only compared with zero.
+bool leaves_bits(const DataflowGraph& graph, const std::vector<bool>& canonical);
 
 }  // namespace emax

@@ -214,7 +214,8 @@ class DatapathWriter {
 
   // Whether the design takes some bits of a number and leaves others, which is no mistake.
   bool cuts_numbers() const {
-    return graph_.count(Operation::kFixedWires) + graph_.count(Operation::kFixedNegative) > 0;
+    return graph_.count(Operation::kFixedWires) + graph_.count(Operation::kFixedNegative) > 0 ||
+           leaves_bits(graph_, canonical_);
   }
 
   bool has_words() const {
