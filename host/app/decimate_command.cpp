@@ -19,6 +19,7 @@
 #include "host/app/tolerated_meshes.h"
 #include "host/decimate/certified_decimation.h"
 #include "host/decimate/decimation_sequence.h"
+#include "host/decimate/joining_distance.h"
 #include "host/files/atomic_file.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
@@ -33,9 +34,9 @@ namespace {
 
 using Effort = DecimationSettings::Effort;
 
-// Points of the cloud farther than this from the mesh, as a share of the tolerance, are joined to
-// it. In tiles, whose surfaces average noise away, nearer ones are mostly noise.
-constexpr double kFar = 0.5, kFarInTiles = 0.99;
+// In tiles, whose surfaces average noise away, points of the cloud farther than this share of the
+// tolerance from the mesh are joined to it: nearer ones are mostly noise.
+constexpr double kFarInTiles = 0.99, kLeastFarInTiles = 0.5;
 // Where tiles are needed and not asked for.
 constexpr std::size_t kTileTriangles = 250'000;
 // The points of a cloud in parts, and of the tiles that are worked at.
@@ -197,7 +198,9 @@ class DecimateCommand {
     wishes.plane_epsilon = epsilon_;
     wishes.plane_farthest = hole_reach_.value_or(epsilon_);
     progress_.begin("making the reference surface", joining_seconds(pieces_->points()));
-    return emax::make_reference(given_, kept, kFar * epsilon_, wishes, was_interrupted);
+    return emax::make_reference(given_, kept,
+                                joining_distance(given_, kept, epsilon_, was_interrupted), wishes,
+                                was_interrupted);
   }
 
   void begin_tiles() {
@@ -205,7 +208,7 @@ class DecimateCommand {
     wanted.epsilon = epsilon_;
     // The decimation keeps a distance from the tolerance that allows for what the file rounds.
     const double rounding = storage_displacement(given_, settings_.storage);
-    wanted.far = std::max(kFarInTiles * epsilon_ - 4 * rounding, kFar * epsilon_);
+    wanted.far = std::max(kFarInTiles * epsilon_ - 4 * rounding, kLeastFarInTiles * epsilon_);
     wanted.excludable = excludable();
     wanted.triangles_of_a_tile = tile_triangles_;
     wanted.threads = settings_.decimation.threads;

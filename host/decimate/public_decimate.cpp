@@ -1,6 +1,7 @@
 #include <emax/decimate.h>
 
 #include "host/decimate/certified_decimation.h"
+#include "host/decimate/joining_distance.h"
 #include "host/geometry/merge_vertices.h"
 #include "sw_model/base/public_arguments.h"
 
@@ -38,8 +39,8 @@ Decimation decimate(OwnedSurface given, const std::vector<Point>& cloud,
 
   TriangleMesh mesh = {std::move(given.vertices), std::move(given.triangles)};
   drop_unused_vertices(mesh.vertices, mesh.triangles);
-  const ReferenceSurface reference =
-      reference_surface(mesh, cloud, options.max_error / 2, options.interrupted);
+  const double far = joining_distance(mesh, cloud, options.max_error, options.interrupted);
+  const ReferenceSurface reference = reference_surface(mesh, cloud, far, options.interrupted);
   const CertifiedDecimation made = decimate_certified(reference.mesh, cloud, settings);
   Decimation result;
   result.surface = as_public(made.mesh.view());

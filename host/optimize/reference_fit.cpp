@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 
+#include "host/decimate/joining_distance.h"
 #include "host/geometry/bounds.h"
 #include "host/geometry/disjoint_sets.h"
 #include "host/geometry/mesh_topology.h"
@@ -18,18 +19,16 @@
 #include "host/surface/outward.h"
 #include "host/worker_pool/worker_pool.h"
 #include "sw_model/base/error.h"
-#include "sw_model/certify/exact_distance.h"
 
 namespace emax {
 namespace {
 
-constexpr double kFill = 0.2;              // of the width: no crack's size is bounded by that
-constexpr double kClean = 0.04;            // noise, in point spacings
-constexpr double kFew = 0.002;             // share of the points that a good surface may leave,
-constexpr double kMany = 0.02;             // and one that calls for another,
-constexpr double kSlack = 1.5;             // beyond so many times what noise explains
-constexpr std::size_t kMeasured = 50'000;  // points whose distance is looked at
-constexpr std::size_t kRefined = 4;        // times as many points after a part was not enough
+constexpr double kFill = 0.2;        // of the width: no crack's size is bounded by that
+constexpr double kClean = 0.04;      // noise, in point spacings
+constexpr double kFew = 0.002;       // share of the points that a good surface may leave,
+constexpr double kMany = 0.02;       // and one that calls for another,
+constexpr double kSlack = 1.5;       // beyond so many times what noise explains
+constexpr std::size_t kRefined = 4;  // times as many points after a part was not enough
 
 constexpr std::string_view kLastMethod = Poisson::kName;  // where the others have faults
 
@@ -56,7 +55,7 @@ std::size_t small_pieces(const TriangleMesh& mesh) {
 
 // The share of the points that noise alone puts where points are joined.
 double explained_by_noise(const TriedSurface& tried, const ScanEstimate& scan, double epsilon) {
-  return std::erfc(joined_beyond(tried.within_half, epsilon) / scan.noise / std::numbers::sqrt2);
+  return std::erfc(joining_distance(tried.within_half, epsilon) / scan.noise / std::numbers::sqrt2);
 }
 
 class Fit {
@@ -193,19 +192,11 @@ class Fit {
   }
 
   void measure(const TriangleMesh& mesh, TriedSurface& tried) const {
-    const ExactMesh exact(mesh.view());
-    const std::size_t step = (all_.size() + kMeasured - 1) / kMeasured;
-    std::vector<double> distances;
-    for (std::size_t i = 0; i < all_.size(); i += step) {
-      distances.push_back(exact.nearest(all_[i], epsilon_ / 2).distance.upper);
-      if (settings_.interrupted()) throw Interrupted{};
-    }
-    const auto share_beyond = [&](double most) {
-      const auto beyond = std::ranges::count_if(distances, [&](double d) { return d > most; });
-      return static_cast<double>(beyond) / static_cast<double>(distances.size());
-    };
-    tried.within_half = 1 - share_beyond(epsilon_ / 2);
-    tried.joined = share_beyond(joined_beyond(tried.within_half, epsilon_));
+    const std::vector<double> distances =
+        sampled_distances(mesh, all_, epsilon_ / 2, settings_.interrupted);
+    if (distances.empty()) throw Interrupted{};
+    tried.within_half = 1 - share_beyond(distances, epsilon_ / 2);
+    tried.joined = share_beyond(distances, joining_distance(tried.within_half, epsilon_));
     tried.points = all_.size();
     // What interpolates the points has their noise.
     if (interpolates(tried.chain)) tried.roughness = scan_.noise / epsilon_;
@@ -258,11 +249,6 @@ double TriedSurface::cost() const {
   const double own = interpolates(chain) ? kRough * std::min(1.0, roughness * roughness) : kRounded;
   return kFault * static_cast<double>(cracks + pieces + excess) +
          (kJoined * joined + own) * static_cast<double>(points);
-}
-
-double joined_beyond(double within_half, double epsilon) {
-  constexpr double kNearly = 0.9;
-  return epsilon * (1 - within_half > kMany ? kNearly : 0.5);
 }
 
 ParameterValues ReferenceFit::fitted_values() const {

@@ -44,11 +44,6 @@ ChainSettings fitted_chain(const std::string& method, const ScanEstimate& scan, 
 std::string describe(const TriedSurface& tried);
 
 // The surface that a run holds on to, before its far points are joined.
-// Points farther than this from a surface become its vertices: half of epsilon, which leaves
-// decimation room; where noise alone puts many points there, joining them would only make the
-// surface rough, and it is nearly epsilon.
-double joined_beyond(double within_half, double epsilon);
-
 struct ReferenceFit {
   ScanEstimate scan;
   std::size_t made_of = 0;  // points

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "host/decimate/bounded_decimation.h"
+#include "host/decimate/joining_distance.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -59,7 +60,7 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
   if (closes_flat_holes(settings)) {
     close_flat_holes(fit, points_without(cloud, bound.outliers), bound.epsilon, settings);
   }
-  fit.joined_beyond = joined_beyond(fit.best().within_half, bound.epsilon);
+  fit.joined_beyond = joining_distance(fit.best().within_half, bound.epsilon);
   ReferenceSurface joined =
       reference_surface(fit.surface.mesh, points_without(cloud, bound.outliers), fit.joined_beyond,
                         settings.interrupted);

@@ -8,6 +8,7 @@
 
 #include "host/app/given_reference.h"
 #include "host/app/proven_decimation.h"
+#include "host/decimate/joining_distance.h"
 #include "host/files/mesh_file.h"
 #include "host/files/sha256.h"
 #include "host/files/tolerance.h"
@@ -59,7 +60,8 @@ class ArrayDecimation {
     const auto stopped = [this] { return watch_.stopped(); };
     const auto [kept, reference] = reference_with_room(
         scan_, mesh_.view(), epsilon_, excludable_, 1, [&](const KeptPoints& points) {
-          return make_reference(mesh_, points.points, epsilon_ / 2,
+          return make_reference(mesh_, points.points,
+                                joining_distance(mesh_, points.points, epsilon_, stopped),
                                 {.repair = question_.repair, .closed = question_.closed}, stopped);
         });
     if (stopped()) throw Interrupted{};
