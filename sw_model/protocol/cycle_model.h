@@ -25,7 +25,7 @@ struct CoreFigures {
 inline constexpr CoreFigures kExactCore = {kPointWords, kRecordWords, kDistanceLatency,
                                            kDistanceLastRead, 255};
 // Its pipeline is in hls/rtl/filter/generated.
-inline constexpr CoreFigures kFilterCore = {kFilterPointWords, kFilterRecordWords, 40, 22, 90};
+inline constexpr CoreFigures kFilterCore = {kFilterPointWords, kFilterRecordWords, 50, 29, 154};
 
 // A board as the model sees it. All figures here are estimates until a board has been measured.
 struct BoardModel {

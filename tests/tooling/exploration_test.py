@@ -263,7 +263,7 @@ class PipelinesTest(unittest.TestCase):
             bits = sum(width * length * count for _, width, length, count in made.delays)
             self.assertEqual(bits, int(re.search(r"Delays: (\d+) bits", lower(options))[1]))
         self.assertEqual(made.record_bits, 19 * 18 + 1)
-        self.assertEqual(made.latency, 40)
+        self.assertEqual(made.latency, 50)
 
     def test_registered_choices_are_counted_by_their_bits(self):
         text = """  logic small;
