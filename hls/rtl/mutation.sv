@@ -78,7 +78,7 @@ package emax_mutation;
   localparam int LAST_LOST = 115;  // emax_element: the last beat of a block is not marked
   localparam int EDGES_SWAPPED = 116;  // emax_element: fields of edge13 and edge23 change places
 
-  localparam int ONE_POINT_TOO_MANY = 121;  // core/command_decoder: takes a block of 1,025 points
+  localparam int ONE_POINT_TOO_MANY = 121;  // core/command_header: takes a block of 1,025 points
   localparam int REDUCE_LEAVES_BLOCK_OPEN = 122;  // core/command_decoder: a block can be reduced twice
   localparam int PASS_NOT_PADDED = 123;  // core/pair_sequencer: a point's pairs follow too closely
   localparam int PADDING_IS_FINAL = 124;  // core/pair_sequencer: rows beyond the points come out

@@ -85,7 +85,7 @@ def core(elements):
 
 def filter_core(elements, target):
     """The core of the fixed-point filter, its memories and FIFOs included."""
-    core_parts = [RTL / "core" / f"{name}.sv" for name in ("axis_register", "block_answer", "command_decoder", "pair_sequencer")]
+    core_parts = [RTL / "core" / f"{name}.sv" for name in ("axis_register", "block_answer", "command_decoder", "command_header", "pair_sequencer")]
     more = [*core_parts, *(path for folder in FILTER for path in sorted(folder.glob("*.sv")))]
     return Design(f"filter_core, elements: {elements}", "filter_core", target, {"NUM_PE": elements}, more=more)
 

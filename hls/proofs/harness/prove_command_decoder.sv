@@ -31,9 +31,11 @@ module prove_command_decoder #(
   logic [1:0] request_kind;
   logic [10:0] request_count;
   check_reset resets (.clk, .aresetn, .reset, .clear, .silent);
-  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .LOAD_POINTS(LOAD), .RECORDS(MEET), .REDUCE(ASK),
-      .POINT_WORDS(POINT_WORDS), .RECORD_WORDS(RECORD_WORDS)) dut (
-      .clk, .aresetn, .word, .word_valid, .take, .point_write, .point_row, .point, .record,
+  logic [6:0] said;
+  command_header #(.LOAD_POINTS(LOAD), .RECORDS(MEET), .REDUCE(ASK)) headers (.word, .header(said));
+  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .POINT_WORDS(POINT_WORDS),
+      .RECORD_WORDS(RECORD_WORDS)) dut (
+      .clk, .aresetn, .word, .header(said), .word_valid, .take, .point_write, .point_row, .point, .record,
       .record_valid, .record_taken, .last_row, .last_row_in, .finish, .drop, .sequencer_idle,
       .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
       .under_way);

@@ -5,32 +5,21 @@ module command_payload (
     input  logic        clk,
     input  logic        reset,
     input  logic        take,  // the word passes
-    input  logic [31:0] word,
+    input  logic [23:0] count,   // of the word, if it is a header
+    input  logic [5:0]  extent,  // command_extent of the word
     output logic        at_header
 );
-  localparam logic [7:0] IDENTIFY = 8'd1, LOAD_POINTS = 8'd2, RECORDS = 8'd3;
-  localparam logic [7:0] FILTER_POINTS = 8'd6, FILTER_RECORDS = 8'd7, ECHO = 8'd11;
-
   logic [4:0] size, each, left;  // words of an item, and those of the present one to come
   logic [23:0] items;
-  always_comb begin
-    case (word[31:24])
-      LOAD_POINTS: size = 5'd3;
-      RECORDS: size = 5'd20;
-      FILTER_POINTS: size = 5'd2;
-      FILTER_RECORDS: size = 5'd11;
-      ECHO: size = 5'd1;
-      IDENTIFY: size = 5'(word[23:0] == 24'd2);  // what the store says of itself
-      default: size = '0;
-    endcase
-  end
+  logic follows;
+  assign {follows, size} = extent;
 
   always_ff @(posedge clk) begin
     if (take && at_header) begin
-      items <= word[23:0];
+      items <= count;
       each <= size;
       left <= size;
-      at_header <= size == '0 || word[23:0] == '0;
+      at_header <= !follows;
     end else if (take) begin
       left <= left - 1'b1;
       if (left == 5'd1) begin

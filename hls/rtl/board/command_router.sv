@@ -33,31 +33,37 @@ module command_router (
   localparam int QUEUE_BITS = 3;
   typedef enum logic [1:0] {EXACT, FILTER, ITSELF} place_t;
 
-  logic [31:0] word;
-  logic word_valid, take, at_header;
-  axis_register #(.WIDTH(32)) commands (
-      .clk, .aresetn, .s_axis_tdata(s_axis_command_tdata), .s_axis_tvalid(s_axis_command_tvalid),
-      .s_axis_tready(s_axis_command_tready), .m_axis_tdata(word), .m_axis_tvalid(word_valid),
-      .m_axis_tready(take));
-  command_payload payload (.clk, .reset(!aresetn), .take, .word, .at_header);
-
-  // Where the word goes: by its header, which asks for an answer or not.
-  place_t header_place, payload_place, place;
-  logic asks, option;
-  assign option = word[23:0] == 24'd1;
+  // Where a command goes, and whether it asks for an answer: of its header, as it arrives.
+  place_t arriving_place, header_place, payload_place, place;
+  logic arriving_asks, asks, option;
+  logic [5:0] arriving_extent, extent;
+  assign option = s_axis_command_tdata[23:0] == 24'd1;
   always_comb begin
-    case (word[31:24])
-      FILTER_POINTS, FILTER_RECORDS, FILTER_REDUCE: header_place = FILTER;
-      ECHO: header_place = ITSELF;
-      IDENTIFY: header_place = option ? FILTER : word[23:0] == 24'd2 ? ITSELF : EXACT;
-      COUNTERS: header_place = option ? FILTER : EXACT;
-      default: header_place = EXACT;
+    case (s_axis_command_tdata[31:24])
+      FILTER_POINTS, FILTER_RECORDS, FILTER_REDUCE: arriving_place = FILTER;
+      ECHO: arriving_place = ITSELF;
+      IDENTIFY: arriving_place = option ? FILTER : s_axis_command_tdata[23:0] == 24'd2 ? ITSELF : EXACT;
+      COUNTERS: arriving_place = option ? FILTER : EXACT;
+      default: arriving_place = EXACT;
     endcase
-    case (word[31:24])
-      IDENTIFY, REDUCE, COUNTERS, FILTER_REDUCE, ECHO: asks = 1'b1;
-      default: asks = 1'b0;
+    case (s_axis_command_tdata[31:24])
+      IDENTIFY, REDUCE, COUNTERS, FILTER_REDUCE, ECHO: arriving_asks = 1'b1;
+      default: arriving_asks = 1'b0;
     endcase
   end
+  command_extent extents (.word(s_axis_command_tdata), .extent(arriving_extent));
+
+  logic [31:0] word;
+  logic [1:0] place_bits;
+  logic word_valid, take, at_header;
+  axis_register #(.WIDTH(41)) commands (
+      .clk, .aresetn,
+      .s_axis_tdata({arriving_extent, arriving_asks, arriving_place, s_axis_command_tdata}),
+      .s_axis_tvalid(s_axis_command_tvalid), .s_axis_tready(s_axis_command_tready),
+      .m_axis_tdata({extent, asks, place_bits, word}), .m_axis_tvalid(word_valid),
+      .m_axis_tready(take));
+  assign header_place = place_t'(place_bits);
+  command_payload payload (.clk, .reset(!aresetn), .take, .count(word[23:0]), .extent, .at_header);
   assign place = at_header ? header_place : payload_place;
 
   // The places that owe answers, in the order in which they are asked. A header that asks waits for room

@@ -34,10 +34,19 @@ module command_store #(
   logic reset;
   always_ff @(posedge clk) reset <= !aresetn;
 
+  // What a header says is told before the register.
   logic [31:0] word;
-  logic word_valid, take;
-  axis_register #(.WIDTH(32)) commands (
-      .clk, .aresetn, .s_axis_tdata, .s_axis_tvalid, .s_axis_tready, .m_axis_tdata(word),
+  logic [9:0] arriving_header;
+  logic [5:0] extent;
+  logic says_store, says_recall, says_question, none, word_valid, take;
+  assign arriving_header[9:6] = {
+    s_axis_tdata[31:24] == STORE, s_axis_tdata[31:24] == RECALL, s_axis_tdata == {IDENTIFY, 24'd2},
+    s_axis_tdata[23:0] == '0
+  };
+  command_extent extents (.word(s_axis_tdata), .extent(arriving_header[5:0]));
+  axis_register #(.WIDTH(42)) commands (
+      .clk, .aresetn, .s_axis_tdata({arriving_header, s_axis_tdata}), .s_axis_tvalid, .s_axis_tready,
+      .m_axis_tdata({says_store, says_recall, says_question, none, extent, word}),
       .m_axis_tvalid(word_valid), .m_axis_tready(take));
 
   typedef enum logic [2:0] {PASS, ADDRESS, WRITE, MAKE, PIECE, READ, SAY_VERSION, SAY_SIZE} state_t;
@@ -48,21 +57,23 @@ module command_store #(
   logic at_header, room, room_next, gives_word, gives, passes, last;
   logic is_store, is_recall, is_question;
 
-  assign is_store = state == PASS && at_header && word[31:24] == STORE;
-  assign is_recall = state == PASS && at_header && word[31:24] == RECALL;
-  assign is_question = state == PASS && at_header && word == {IDENTIFY, 24'd2};
+  assign is_store = at_header && says_store;
+  assign is_recall = at_header && says_recall;
+  assign is_question = at_header && says_question;
   assign gives_word = (state == PASS && !is_store && !is_recall) || state == MAKE;
+  // Words that give none wait for room as well: that decides soon.
   always_comb begin
     case (state)
       READ, SAY_VERSION, SAY_SIZE: take = 1'b0;
-      default: take = word_valid && (!gives_word || room);
+      default: take = word_valid && room;
     endcase
   end
   assign passes = take && state == PASS && gives_word && !is_question;
   assign gives = gives_word ? take : room && (state == READ || state == SAY_VERSION || state == SAY_SIZE);
   assign last = left == 24'd1;
 
-  command_payload payload (.clk, .reset(!aresetn), .take(passes), .word, .at_header);
+  command_payload payload (
+      .clk, .reset(!aresetn), .take(passes), .count(word[23:0]), .extent, .at_header);
 
   logic write_enable;
   logic [STORE_BITS-1:0] write_address;
@@ -74,8 +85,8 @@ module command_store #(
     case (state)
       PASS: if (take) begin
         left <= word[23:0];
-        if (is_store && word[23:0] != '0) state <= ADDRESS;
-        if (is_recall && word[23:0] != '0) state <= MAKE;
+        if (is_store && !none) state <= ADDRESS;
+        if (is_recall && !none) state <= MAKE;
         if (is_question) state <= SAY_VERSION;
       end
       ADDRESS: if (take) begin
@@ -135,11 +146,11 @@ module command_store #(
   credit_counter #(.CREDIT_BITS(ROOM_BITS)) credit (
       .clk, .reset, .take(gives), .give(m_axis_tvalid && m_axis_tready), .room_next);
 
-  // Words on their way are counted: the credits that are out.
+  // Words on their way are counted, from a cycle after they are given: the credits that are out.
   logic [ROOM_BITS:0] on_the_way;
   always_ff @(posedge clk) begin
     if (reset) on_the_way <= '0;
-    else on_the_way <= on_the_way + (ROOM_BITS + 1)'(gives) - (ROOM_BITS + 1)'(m_axis_tvalid && m_axis_tready);
+    else on_the_way <= on_the_way + (ROOM_BITS + 1)'(early_valid) - (ROOM_BITS + 1)'(m_axis_tvalid && m_axis_tready);
   end
-  assign under_way = word_valid || state != PASS || !at_header || on_the_way != '0;
+  assign under_way = word_valid || state != PASS || !at_header || early_valid || on_the_way != '0;
 endmodule

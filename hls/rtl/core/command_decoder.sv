@@ -9,16 +9,13 @@
 module command_decoder #(
     parameter int NUM_PE = 1,
     parameter int ROW_BITS = 10,
-    parameter int MAX_POINTS = 1024,
-    parameter logic [7:0] LOAD_POINTS = 8'd2,
-    parameter logic [7:0] RECORDS = 8'd3,
-    parameter logic [7:0] REDUCE = 8'd4,
     parameter int POINT_WORDS = 3,
     parameter int RECORD_WORDS = 20
 ) (
     input  logic                clk,
     input  logic                aresetn,
     input  logic [31:0]         word,
+    input  logic [6:0]          header,  // command_header of the word
     input  logic                word_valid,
     output logic                take,
     // To the point memories: the words of a point, the first lowest.
@@ -44,7 +41,6 @@ module command_decoder #(
     output logic [10:0]         request_count,  // the block's points, or the fault
     output logic                under_way
 );
-  localparam logic [7:0] IDENTIFY = 8'd1, COUNTERS = 8'd5;
   localparam logic [4:0] AFTER_POINT = 5'(POINT_WORDS - 1), AFTER_RECORD = 5'(RECORD_WORDS - 1);
   localparam logic [1:0] UNKNOWN_COMMAND = 2'd1, TOO_MANY_POINTS = 2'd2, NO_POINTS = 2'd3;
   localparam logic [1:0] ASK_IDENTITY = 2'd0, ASK_RESULT = 2'd1, ASK_COUNTERS = 2'd2, ASK_FAULT = 2'd3;
@@ -62,16 +58,15 @@ module command_decoder #(
   logic [ROW_BITS-1:0] next_row;
   logic skips_records;
 
-  logic [7:0] opcode;
   logic [23:0] count;
-  logic asks, may_begin, last_word, fits, take_record, take_header;
-  assign opcode = word[31:24];
+  logic fits, none, is_counters, is_identify, is_reduce, is_records, is_points;
+  logic asks, may_begin, last_word, take_record, take_header;
   assign count = word[23:0];
-  assign asks = opcode == IDENTIFY || opcode == REDUCE || opcode == COUNTERS;
-  assign fits = count <= `MUTATED(ONE_POINT_TOO_MANY, 24'(MAX_POINTS), 24'(MAX_POINTS + 1));
+  assign {fits, none, is_counters, is_identify, is_reduce, is_records, is_points} = header;
+  assign asks = is_identify || is_reduce || is_counters;
   // A block that is given up is dropped first; `drop` goes out once, then its header waits.
-  assign may_begin = opcode == LOAD_POINTS ? sequencer_idle && !finish && !drop && !block
-      : opcode == REDUCE ? request_ready && !assembled_full && !record_valid && !finish
+  assign may_begin = is_points ? sequencer_idle && !finish && !drop && !block
+      : is_reduce ? request_ready && !assembled_full && !record_valid && !finish
       : asks ? request_ready : 1'b1;
   assign last_word = left == '0;
 
@@ -95,7 +90,7 @@ module command_decoder #(
       record_valid <= 1'b0;
     end
 
-    if (word_valid && state == HEADER && opcode == LOAD_POINTS && block && !assembled_full
+    if (word_valid && state == HEADER && is_points && block && !assembled_full
         && !record_valid) begin
       block <= 1'b0;
       drop  <= met;
@@ -105,29 +100,29 @@ module command_decoder #(
     // to take it reaches few registers.
     if (state == HEADER) begin
       items <= count - 1'b1;
-      left  <= opcode == RECORDS ? AFTER_RECORD : AFTER_POINT;
+      left  <= is_records ? AFTER_RECORD : AFTER_POINT;
       to_element <= NUM_PE'(1);
       next_row <= '0;
-      skips_records <= opcode == RECORDS;
+      skips_records <= is_records;
     end
     request_list  <= count[0];
     request_empty <= !met;
-    request_kind  <= opcode == IDENTIFY ? ASK_IDENTITY : opcode == COUNTERS ? ASK_COUNTERS
+    request_kind  <= is_identify ? ASK_IDENTITY : is_counters ? ASK_COUNTERS
         : block && fault == '0 ? ASK_RESULT : ASK_FAULT;
     request_count <= fault != '0 ? 11'(fault) : block ? points : 11'(NO_POINTS);
 
     if (take_header) begin
-      case (opcode)
-        IDENTIFY, COUNTERS: request_valid <= 1'b1;
-        LOAD_POINTS: begin
+      case (1'b1)
+        is_identify, is_counters: request_valid <= 1'b1;
+        is_points: begin
           points <= count[10:0];
           met    <= 1'b0;
-          block  <= fits && count != '0;
+          block  <= fits && !none;
           if (!fits) fault <= TOO_MANY_POINTS;
-          if (count != '0) state <= fits ? POINTS : SKIP;
+          if (!none) state <= fits ? POINTS : SKIP;
         end
-        RECORDS: if (count != '0) state <= block ? RECORD : SKIP;
-        REDUCE: begin
+        is_records: if (!none) state <= block ? RECORD : SKIP;
+        is_reduce: begin
           request_valid <= 1'b1;
           finish <= block && fault == '0 && met;
           drop   <= fault != '0 && met;

@@ -37,10 +37,13 @@ module emax_core #(
 
   logic [31:0] word;
   logic word_valid, take;
-  axis_register #(.WIDTH(32)) commands (
-      .clk, .aresetn, .s_axis_tdata(s_axis_command_tdata), .s_axis_tvalid(s_axis_command_tvalid),
-      .s_axis_tready(s_axis_command_tready), .m_axis_tdata(word), .m_axis_tvalid(word_valid),
-      .m_axis_tready(take));
+  logic [6:0] arriving_header, header;
+  command_header #(.MAX_POINTS(MAX_POINTS)) headers (
+      .word(s_axis_command_tdata), .header(arriving_header));
+  axis_register #(.WIDTH(39)) commands (
+      .clk, .aresetn, .s_axis_tdata({arriving_header, s_axis_command_tdata}),
+      .s_axis_tvalid(s_axis_command_tvalid), .s_axis_tready(s_axis_command_tready),
+      .m_axis_tdata({header, word}), .m_axis_tvalid(word_valid), .m_axis_tready(take));
 
   logic [NUM_PE-1:0] point_write, last_row_in;
   logic [ROW_BITS-1:0] point_row, last_row;
@@ -50,8 +53,8 @@ module emax_core #(
   logic request_valid, request_ready, request_list, request_empty;
   logic [1:0] request_kind;
   logic [10:0] request_count;
-  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .MAX_POINTS(MAX_POINTS)) decoder (
-      .clk, .aresetn, .word, .word_valid, .take, .point_write, .point_row, .point, .record,
+  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS)) decoder (
+      .clk, .aresetn, .word, .header, .word_valid, .take, .point_write, .point_row, .point, .record,
       .record_valid, .record_taken, .last_row, .last_row_in, .finish, .drop, .sequencer_idle,
       .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
       .under_way(decoder_under_way));

@@ -39,10 +39,14 @@ module filter_core #(
 
   logic [31:0] word;
   logic word_valid, take;
-  axis_register #(.WIDTH(32)) commands (
-      .clk, .aresetn, .s_axis_tdata(s_axis_command_tdata), .s_axis_tvalid(s_axis_command_tvalid),
-      .s_axis_tready(s_axis_command_tready), .m_axis_tdata(word), .m_axis_tvalid(word_valid),
-      .m_axis_tready(take));
+  logic [6:0] arriving_header, header;
+  command_header #(.MAX_POINTS(MAX_POINTS), .LOAD_POINTS(LOAD_POINTS), .RECORDS(RECORDS),
+      .REDUCE(REDUCE)) headers (
+      .word(s_axis_command_tdata), .header(arriving_header));
+  axis_register #(.WIDTH(39)) commands (
+      .clk, .aresetn, .s_axis_tdata({arriving_header, s_axis_command_tdata}),
+      .s_axis_tvalid(s_axis_command_tvalid), .s_axis_tready(s_axis_command_tready),
+      .m_axis_tdata({header, word}), .m_axis_tvalid(word_valid), .m_axis_tready(take));
 
   logic [NUM_PE-1:0] point_write, last_row_in;
   logic [ROW_BITS-1:0] point_row, last_row;
@@ -54,10 +58,9 @@ module filter_core #(
   logic request_valid, request_ready, request_list, request_empty;
   logic [1:0] request_kind;
   logic [10:0] request_count;
-  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .MAX_POINTS(MAX_POINTS),
-      .LOAD_POINTS(LOAD_POINTS), .RECORDS(RECORDS), .REDUCE(REDUCE), .POINT_WORDS(POINT_WORDS),
+  command_decoder #(.NUM_PE(NUM_PE), .ROW_BITS(ROW_BITS), .POINT_WORDS(POINT_WORDS),
       .RECORD_WORDS(RECORD_WORDS)) decoder (
-      .clk, .aresetn, .word, .word_valid, .take, .point_write, .point_row, .point, .record,
+      .clk, .aresetn, .word, .header, .word_valid, .take, .point_write, .point_row, .point, .record,
       .record_valid, .record_taken, .last_row, .last_row_in, .finish, .drop, .sequencer_idle,
       .request_valid, .request_ready, .request_kind, .request_list, .request_empty, .request_count,
       .under_way(decoder_under_way));
