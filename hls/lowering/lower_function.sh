@@ -10,6 +10,8 @@
 #   FUNCTION.json           operations, latency and delay bits
 #   FUNCTION_testbench.cpp  the pipeline beside the function itself
 #   bench                   that testbench with the Verilated pipeline
+#   coverage.txt            what its samples reach: outcomes of conditions, kinds of numbers
+#   mutants.txt             the faults that a pipeline could have, and whether its samples notice them
 #   lower                   the program that wrote them; --help lists its options
 # and with --stream, the pipeline between two AXI4-Streams:
 #   FUNCTION_stream.sv, FUNCTION_stream_testbench.cpp, stream_bench
@@ -88,7 +90,7 @@ grep -qw -- "$function" "$header" || fail 1 "$header: no function '$function'; c
 mkdir -p "$folder"
 folder=$(realpath "$folder")
 
-libraries=(hls/lowering/libemax_lowering.a testbench/lowered/libemax_function_bench.a
+libraries=(testbench/lowered/libemax_function_bench.a hls/lowering/libemax_lowering.a
   testbench/stimuli/libemax_stimuli.a sw_model/base/libemax_base.a)
 libraries=("${libraries[@]/#/$build/}")
 for library in "${libraries[@]}"; do
@@ -107,7 +109,7 @@ flags=(-std=c++20 -ffp-contract=off "${includes[@]}")
   printf 'int main(int argc, char** argv) {\n'
   printf '  return emax::lowering_program(argc, argv, {%s});\n}\n' "$recorded"
 } >"$folder/lower.cpp"
-"${CXX:-c++}" "${flags[@]}" "$folder/lower.cpp" "${libraries[0]}" \
+"${CXX:-c++}" "${flags[@]}" "$folder/lower.cpp" "${libraries[1]}" \
   -o "$folder/lower" || fail 1 "$function cannot be lowered; docs/user/lowering.md says what a function may hold"
 "$folder/lower" "${options[@]}" -o "$folder/$function.sv"
 "$folder/lower" "${options[@]}" --testbench -o "$folder/${function}_testbench.cpp"
@@ -125,7 +127,7 @@ run_testbench() {
   shift 2
   "${VERILATOR:-verilator}" --cc --exe --build --assert -Wall -O3 -x-assign fast -x-initial fast \
     "-I$root/hls/rtl" --top-module "$module" --prefix "V$module" --Mdir "$folder/verilated_$program" \
-    -o "../$program" -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]:1}" \
+    -o "../$program" -CFLAGS "${flags[*]} -O1" -LDFLAGS "${libraries[*]}" \
     "$@" "${operators[@]}" "$folder/$function.sv" "$folder/${module}_testbench.cpp" \
     >"$folder/$program.log" 2>&1 || { cat "$folder/$program.log" >&2 && exit 1; }
   "$folder/$program"
@@ -134,6 +136,10 @@ run_testbench() {
 }
 
 run_testbench "$function" bench
+for check in coverage mutants; do
+  "$folder/bench" --$check >"$folder/$check.txt" || { cat "$folder/$check.txt" >&2 && exit 1; }
+  tail -n 1 "$folder/$check.txt"
+done
 rm -f "$folder/${function}_stream"* "$folder/stream_bench"
 if [ $stream = yes ]; then
   "$folder/lower" "${options[@]}" --stream -o "$folder/${function}_stream.sv"

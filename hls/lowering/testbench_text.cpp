@@ -24,7 +24,8 @@ std::string beginning(const LoweredDesign& design, const std::string& module, co
   }
   return generated_line(design) + "#include \"V" + module + ".h\"\n#include \"" +
          std::string(design.about.source) +
-         "\"\n#include \"testbench/lowered/function_bench.h\"\n\n"
+         "\"\n#include \"hls/lowering/function_subject.h\"\n"
+         "#include \"testbench/lowered/function_bench.h\"\n\n"
          "int main(int argc, char** argv) {\n  V" +
          module + " module;\n" + "  const emax::" + bench + " bench = {\n      \"" +
          std::string(design.about.function) + "\", ";
@@ -38,6 +39,23 @@ std::string function_and_ports(const LoweredDesign& design) {
          std::string(design.about.scalar) + ">),\n";
 }
 
+// The lowering as it was asked for. Latencies decide where values wait; the rest of the options
+// is of the text alone.
+std::string lowered_again(const LoweredDesign& design) {
+  const std::string function(design.about.function), header(design.about.source);
+  const std::string scalar(design.about.scalar);
+  const bool is_default = scalar == kModelScalar;
+  std::string text = "      [] {\n        emax::LoweringOptions options;\n";
+  for (const LatencyLimits& limits : kLatencyLimits) {
+    const int cycles = design.options.latencies.*limits.cycles;
+    if (cycles == Latencies{}.*limits.cycles) continue;
+    text += "        options.latencies." + std::string(limits.name) + " = " +
+            std::to_string(cycles) + ";\n";
+  }
+  return text + "        return EMAX_FUNCTION" + (is_default ? "(" : "_ON(") + function + ", \"" +
+         header + "\"" + (is_default ? "" : ", " + scalar) + ").lower(options);\n      }";
+}
+
 }  // namespace
 
 std::string testbench_source(const LoweredDesign& design) {
@@ -45,7 +63,8 @@ std::string testbench_source(const LoweredDesign& design) {
          std::to_string(design.schedule.latency) + ",\n" + function_and_ports(design) +
          "      [&](bool" +
          (is_clocked(design) ? " clock) {\n        module.clk = clock;\n" : ") {\n") +
-         "        module.eval();\n      }};\n  return emax::run_bench(bench, argc, argv);\n}\n";
+         "        module.eval();\n      },\n" + lowered_again(design) +
+         "};\n  return emax::run_bench(bench, argc, argv);\n}\n";
 }
 
 std::string stream_testbench_source(const LoweredDesign& design) {

@@ -111,9 +111,14 @@ BenchOptions bench_options(int argc, char** argv) {
       options.seed = number_of<std::uint64_t>(option, value());
     } else if (option == "--late") {
       options.late = 1;
+    } else if (option == "--coverage") {
+      options.check = BenchCheck::kCoverage;
+    } else if (option == "--mutants") {
+      options.check = BenchCheck::kMutants;
     } else {
       throw std::invalid_argument("'" + option +
-                                  "' is not understood; there are --samples N, --seed N, --late");
+                                  "' is not understood; there are --samples N, --seed N, --late, "
+                                  "--coverage, --mutants");
     }
   }
   return options;

@@ -12,10 +12,13 @@
 
 namespace emax {
 
+enum class BenchCheck : std::uint8_t { kResults, kCoverage, kMutants };
+
 struct BenchOptions {
   int samples = 20000;
   std::uint64_t seed = 1;
   int late = 0;  // how many results the comparison is behind
+  BenchCheck check = BenchCheck::kResults;
 };
 
 // Throws std::invalid_argument for arguments that are not understood.

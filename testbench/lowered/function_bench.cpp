@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "testbench/lowered/bench_samples.h"
+#include "testbench/lowered/graph_checks.h"
 
 namespace emax {
 namespace {
@@ -33,6 +34,11 @@ bool is_equal_every_cycle(const FunctionBench& bench, const BenchOptions& option
 int run_bench(const FunctionBench& bench, int argc, char** argv) {
   try {
     const BenchOptions options = bench_options(argc, argv);
+    if (options.check != BenchCheck::kResults) {
+      const auto print = options.check == BenchCheck::kMutants ? print_mutants : print_coverage;
+      return print(bench.name, bench.lowered(), bench.model,
+                   drawn_samples(bench.name, bench.model, options));
+    }
     if (!is_equal_every_cycle(bench, options)) return 1;
     std::printf("%.*s: %d samples of seed %llu, a result every cycle after %d cycles, all equal\n",
                 static_cast<int>(bench.name.size()), bench.name.data(), options.samples,

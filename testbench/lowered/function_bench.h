@@ -13,7 +13,7 @@
 #include "hls/kernel/binary.h"
 #include "hls/kernel/fixed.h"
 #include "hls/kernel/word.h"
-#include "hls/lowering/dataflow_graph.h"
+#include "hls/lowering/designs.h"
 #include "hls/lowering/fields.h"
 #include "sw_model/model/flushed_float.h"
 
@@ -62,11 +62,13 @@ struct FunctionBench {
   std::vector<BenchPort> inputs, outputs;
   FunctionModel model;
   std::function<void(bool clock)> evaluate;  // the module, with its clock at this level
+  std::function<LoweredDesign()> lowered;    // the function, as the module was made of it
 };
 
 // Gives the pipeline a new sample in every cycle and compares every result with the model's.
 // --samples N (20000), --seed N (1); --late compares a cycle too late, which has to fail. The exit
 // code: 0 if all results are equal, 1 if one is not, 2 for arguments that are not understood.
+// --coverage and --mutants say what the samples are worth instead (graph_checks.h).
 int run_bench(const FunctionBench& bench, int argc, char** argv);
 
 struct StreamPorts {
@@ -84,8 +86,8 @@ struct StreamBench {
 };
 
 // Drives the streams through idle cycles and back-pressure, in stretches with and without either,
-// and compares every result and its tlast. Options and exit code as of run_bench; --late compares
-// each result with the sample before its own, which has to fail.
+// and compares every result and its tlast. --samples, --seed and the exit code as of run_bench;
+// --late compares each result with the sample before its own, which has to fail.
 int run_stream_bench(const StreamBench& bench, int argc, char** argv);
 
 inline void set_scalar(FlushedFloat& scalar, Bits bits) {

@@ -101,6 +101,9 @@ class Streams {
 int run_stream_bench(const StreamBench& bench, int argc, char** argv) {
   try {
     const BenchOptions options = bench_options(argc, argv);
+    if (options.check != BenchCheck::kResults) {
+      throw std::invalid_argument("the streams' samples are those of bench; ask it");
+    }
     if (!Streams(bench, options).equal()) return 1;
     std::printf("%.*s: %d samples of seed %llu through the streams, all equal\n",
                 static_cast<int>(bench.name.size()), bench.name.data(), options.samples,

@@ -51,8 +51,29 @@ expect pass "" "no function's name is refused" refused "--function needs a value
 expect pass "" "no header is refused" refused \
   "no header is given: emax_lower HEADER --function f" "$lower" --function f --scalar binary32
 colours=$project/docs/examples/lowering/colour_transform.h
-expect pass "after 13 cycles, all equal" "a header's function" env VERILATOR="$verilator" \
+expect pass "after 14 cycles, all equal" "a header's function" env VERILATOR="$verilator" \
   "$lower" "$colours" --function colour_transform --folder "$folder/colours" --scalar fixed:18:16
+expect pass "4 of 4 outcomes of conditions, 54 of 70 kinds of numbers" "the samples' coverage" \
+  cat "$folder/colours/coverage.txt"
+expect pass "the samples notice 32 of 38" "the mutants" cat "$folder/colours/mutants.txt"
+expect fail "'--mutant' is not understood; there are --samples N" "an unknown option of a bench" \
+  "$folder/colours/bench" --mutant
+
+# What is said of a mutant is what the testbench does with the same fault in the pipeline's text: a
+# Verilator that puts it there.
+cat >"$folder/faulty" <<'TEXT'
+#!/bin/sh
+sed -i "$FAULT" "$FAULTY"
+exec "$REAL" "$@"
+TEXT
+chmod +x "$folder/faulty"
+export REAL=$verilator FAULTY=$folder/faults/colour_transform.sv
+for fault in "a cycle early as in_red_at_8=s/DEPTH(8)\(.*in_red_at_8_delay\)/DEPTH(7)\1/" \
+  "above (select, colour_transform.h:24): always the second choice=s/above_less ? .* :/1'b0 ? ZERO :/"; do
+  sample=$(grep -F "${fault%%=*}: noticed" "$folder/colours/mutants.txt")
+  expect fail "sample ${sample##* } of seed 1, output" "the fault ${fault%%=*}" env VERILATOR="$folder/faulty" \
+    FAULT="${fault#*=}" "$lower" "$colours" --function colour_transform --folder "$folder/faults" --scalar fixed:18:16
+done
 cat >"$folder/clash.h" <<'TEXT'
 template <class Scalar>
 Scalar clash(Scalar m_axis_tdata) { return m_axis_tdata * m_axis_tdata; }
