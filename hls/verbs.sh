@@ -34,10 +34,11 @@ lowered_cells() {
 }
 
 verb_lower() {
-  local synth=no argument arguments=() folder
+  local synth=no prove=no argument arguments=() folder
   for argument in "$@"; do
     case $argument in
       --synth) synth=yes ;;
+      --prove) prove=yes ;;
       *) arguments+=("$argument") ;;
     esac
   done
@@ -48,6 +49,10 @@ verb_lower() {
   OBJCACHE=$(command -v ccache) hls/lowering/lower_function.sh build/kernel \
     "${arguments[0]}" "${arguments[1]}" "$folder" "${arguments[@]:2}" || exit
   [ $synth = no ] || lowered_cells "${arguments[1]}" "$folder"
+  if [ $prove = yes ]; then
+    proof_packages
+    build/python/bin/python -B hls/proofs/prove.py --lowered "$folder" || exit
+  fi
   say "$folder has the pipeline, its testbench and the report"
 }
 

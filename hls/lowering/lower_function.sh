@@ -8,6 +8,7 @@
 #   FUNCTION.sv             the pipeline
 #   FUNCTION.cl             the function in OpenCL C, if the scalar is binary32
 #   FUNCTION.json           operations, latency and delay bits
+#   FUNCTION_graph.json     the dataflow graph with its schedule, for hls/proofs/prove.py --lowered
 #   FUNCTION_testbench.cpp  the pipeline beside the function itself
 #   bench                   that testbench with the Verilated pipeline
 #   coverage.txt            what its samples reach: outcomes of conditions, kinds of numbers
@@ -114,6 +115,7 @@ flags=(-std=c++20 -ffp-contract=off "${includes[@]}")
 "$folder/lower" "${options[@]}" -o "$folder/$function.sv"
 "$folder/lower" "${options[@]}" --testbench -o "$folder/${function}_testbench.cpp"
 "$folder/lower" "${options[@]}" --report -o "$folder/$function.json"
+"$folder/lower" "${options[@]}" --graph -o "$folder/${function}_graph.json"
 rm -f "$folder/$function.cl"
 [ "$scalar" != binary32 ] || "$folder/lower" "${options[@]}" --opencl -o "$folder/$function.cl"
 

@@ -27,6 +27,7 @@ def arguments():
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--quick", action="store_true", help="only the proofs that take seconds, as the tests run them")
     which.add_argument("--only", metavar="NAME", action="append", default=[], help="only this proof; may be repeated")
+    which.add_argument("--lowered", metavar="FOLDER", help="only that the pipeline of a lowered function, in its folder, is its graph")
     parser.add_argument("--list", action="store_true", help="list the proofs and stop")
     parser.add_argument("--fault", action="store_true", help="only the faults, with their counterexamples")
     parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="number of proofs at a time")
@@ -55,6 +56,16 @@ def worker(name, faults_alone):
     (proof,) = [proof for proof in PROOFS if proof.name == name]
     print(json.dumps(prover.run(proof, FOLDER / name, faults_alone)))
     return 0
+
+
+def prove_lowered(folder):
+    """Proves a lowered function; its counterexamples come into build/proofs/lowered_NAME."""
+    from proving import lowered, prover
+    from table import FIXED_OPERATORS, OPERATORS
+    proof = lowered.proof_of(folder, (*OPERATORS, *FIXED_OPERATORS))
+    holds, line = lowered.sentence(proof, prover.run(proof, FOLDER / f"lowered_{proof.name}"))
+    print(line)
+    return 0 if holds else 1
 
 
 class Work:
@@ -137,6 +148,8 @@ def main():
             from proving import graph
             graph.lower_program = Path(chosen.lower)
         return worker(chosen.worker, chosen.fault)
+    if chosen.lowered:
+        return prove_lowered(chosen.lowered)
     todo = proofs(chosen)
     if chosen.list:
         for proof in todo:

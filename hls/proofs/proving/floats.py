@@ -11,7 +11,7 @@ class Rules:
     def __init__(self, terms, exponent, mantissa):
         self.t, self.exponent, self.mantissa = terms, exponent, mantissa
         self.width = 1 + exponent + mantissa
-        self.wide = {(5, 10): (8, 24), (8, 23): (11, 53)}[exponent, mantissa]  # holds each product exactly
+        self.wide = {(5, 10): (8, 24), (8, 23): (11, 53)}.get((exponent, mantissa))  # holds each product exactly
         self.nearest = terms.tm.mk_rm_value(RoundingMode.RNE)
         self.quiet_nan = terms.bv(self.width, ((2 << exponent) - 1) << (mantissa - 1))
 

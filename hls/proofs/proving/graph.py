@@ -1,7 +1,8 @@
-"""Compares the generated datapath with the kernel's dataflow graph. The operators are unknown functions of their
+"""Compares a generated datapath with the dataflow graph of its source, the kernel's or a function of one's own. The operators are unknown functions of their
 operands, the same on both sides. The proof therefore shows which values meet, and when."""
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -14,10 +15,10 @@ from .solve import Solver, trace_of
 from .unroll import Terms, Unrolling
 
 lower_program = Path("build/kernel/bin/emax_lower")
-# The graph's name of an operation: its module, which is left out, and the operands in the harness.
-MODULES = {"add": ("addend", "a"), "multiply": ("a", "b"), "square": ("a",), "less": ("a", "b")}
-
-
+# Of binary numbers, by the end of an instance's name: its function, and its operands in the harness.
+MODULES = {"adder": ("add", ("addend", "a")), "multiplier": ("multiply", ("a", "b")), "squarer": ("square", ("a",)),
+           "comparator": ("less", ("a", "b")), "divider": ("divide", ("a", "b")), "root_taker": ("square_root", ("a",))}
+OPERATIONS = {"subtract", *(function for function, _ in MODULES.values())}
 # Of fixed-point numbers, by the end of an instance's name: its module, and its operands in the harness. The last
 # operand is the module's parameters: SHIFT, HALF_UP, SATURATE, and SUBTRACT or MAGNITUDE.
 FIXED_MODULES = {"adder": ("fixed_add", ("a", "b", "options")), "multiplier": ("fixed_multiply", ("a", "b", "options")),
@@ -54,12 +55,14 @@ class FixedFunctions(dict):
         return self.of(module, (*widths, 16), node["width"]).apply(*operands, options)
 
 
-def read_graph(form):
-    """The graph of a form of the distance, from the kernel's source through emax_lower."""
+def read_graph(rule):
+    """The graph of a form of the distance, from the kernel's source through emax_lower, or that of a file."""
+    if rule.file:
+        return json.loads(Path(rule.file).read_text())
     lower = lower_program
     if not lower.exists():
         raise Failure(f"{lower} is not there: ./dev build kernel emax_lower makes it")
-    result = subprocess.run([lower, form, "--graph"], capture_output=True, text=True)
+    result = subprocess.run([lower, rule.name, "--graph"], capture_output=True, text=True)
     if result.returncode != 0:
         raise Failure(f"{lower} failed: {result.stderr.strip()}")
     return json.loads(result.stdout)
@@ -82,12 +85,16 @@ class Meaning:
             if name == "subtract":
                 b = t.concat(t.op(Kind.BV_NOT, rules.sign(b)), t.slice(b, rules.width - 2, 0))
             return self.functions["add"].apply(b, a)
-        if name in ("multiply", "square"):
+        if name in self.functions:
             return self.functions[name].apply(*operands)
-        if name == "less":
-            return self.functions["less"].apply(*operands)
+        if name == "fixed_wires":
+            return self.wires(node, operands[0], nodes[0])
         if name == "magnitude":
-            return t.concat(t.bv(1, 0), t.slice(rules.flushed(operands[0]), rules.width - 2, 0))
+            return t.concat(t.bv(1, 0), t.slice(operands[0], rules.width - 2, 0))
+        if name == "negate":
+            return t.concat(t.op(Kind.BV_NOT, rules.sign(operands[0])), t.slice(operands[0], rules.width - 2, 0))
+        if name == "is_number":
+            return t.bit(t.negated(t.op(Kind.FP_IS_NAN, rules.number(operands[0]))))
         if name in ("less_zero", "greater_zero"):
             value, zero = rules.value(operands[0]), rules.number(t.bv(rules.width, 0))
             order = (value, zero) if name == "less_zero" else (zero, value)
@@ -99,39 +106,52 @@ class Meaning:
             raise Failure(f"the graph has an operation '{name}' that the proof does not know")
         return t.op(kinds[name], *operands)
 
+    def wires(self, node, word, of):
+        """A fixed-point number in another format: bits behind the point left out or added, then bits before it."""
+        t, cut = self.t, of["fraction"] - node["fraction"]
+        word = t.slice(word, of["width"] - 1, cut) if cut > 0 else t.concat(word, t.bv(-cut, 0)) if cut < 0 else word
+        more = node["width"] - (of["width"] - cut)
+        return t.op(Kind.BV_SIGN_EXTEND, word, indices=[more]) if more > 0 else t.slice(word, node["width"] - 1, 0)
 
-def graph(proof, system, refute=False):
-    from .methods import Function, Instance, Outcome
-    terms = Terms()
-    rules = floats.Rules(terms, 8, 23)
-    design = read_graph(proof.rule.name)
-    functions = {
-        name: Function(terms, name, [32] * len(operands), 1 if name == "less" else 32,
-                       None if name == "less" else lambda result, *_: rules.canonical(result))
-        for name, operands in MODULES.items()}
-    fixed = FixedFunctions(terms, Function)
-    is_fixed = any(node["operation"] in FIXED_OPERATIONS for node in design["nodes"])
+
+def instances(system, functions, fixed):
+    """{result of an operator that is left out: its function and operands}. Instances are told by the ends of their
+    names; a number may follow."""
+    from .methods import Instance
     replaced = {}
     for signal in system.names:
         instance, _, leaf = signal.rpartition(".")
         if leaf != "result" or "." in instance:
             continue
-        if is_fixed:
-            if instance.rpartition("_")[2] not in FIXED_MODULES:
-                raise Failure(f"{instance} is an operator that the proof does not know")
-            name, operands = FIXED_MODULES[instance.rpartition("_")[2]]
-            widths = [system.width(f"{instance}.{operand}") for operand in operands]
-            replaced[system.named(signal)] = Instance(fixed.of(name, widths, system.width(signal)),
-                                                      [system.named(f"{instance}.{operand}") for operand in operands])
-            continue
-        module = next((m for m, last in (("add", "_adder"), ("multiply", "_multiplier"), ("square", "_squarer"),
-                                         ("less", "_comparator")) if instance.endswith(last)), None)
-        if module is None:
+        end = next((end for end in (*MODULES, *FIXED_MODULES) if re.search(rf"_{end}(_\d+)?$", instance)), None)
+        is_fixed = f"{instance}.options" in system.names
+        if end not in (FIXED_MODULES if is_fixed else MODULES):
             raise Failure(f"{instance} is an operator that the proof does not know")
-        result = system.named(signal)
-        replaced[result] = Instance(functions[module], [system.named(f"{instance}.{o}") for o in MODULES[module]])
-    operations = sum(node["operation"] in ("add", "subtract", *MODULES, *FIXED_OPERATIONS) for node in design["nodes"])
-    if len(replaced) != operations or operations == 0:
+        name, operands = (FIXED_MODULES if is_fixed else MODULES)[end]
+        of = functions[name] if not is_fixed else fixed.of(
+            name, [system.width(f"{instance}.{operand}") for operand in operands], system.width(signal))
+        replaced[system.named(signal)] = Instance(of, [system.named(f"{instance}.{operand}") for operand in operands])
+    return replaced
+
+
+def format_of(design):
+    """The bits of exponent and mantissa of a design's binary numbers: one format for all."""
+    return next(((node["exponent"], node["mantissa"]) for node in design["nodes"] if "exponent" in node), (8, 23))
+
+
+def graph(proof, system, refute=False):
+    from .methods import Function, Outcome
+    terms = Terms()
+    design = read_graph(proof.rule)
+    rules = floats.Rules(terms, *format_of(design))
+    functions = {
+        name: Function(terms, name, [rules.width] * len(operands), 1 if name == "less" else rules.width,
+                       None if name == "less" else lambda result, *_: rules.canonical(result))
+        for name, operands in MODULES.values()}
+    fixed = FixedFunctions(terms, Function)
+    replaced = instances(system, functions, fixed)
+    operations = sum(node["operation"] in (*OPERATIONS, *FIXED_OPERATIONS) for node in design["nodes"])
+    if len(replaced) != operations or (operations == 0 and not proof.rule.file):
         raise Failure(f"the datapath has {len(replaced)} operators and the graph {operations}")
 
     unrolling, values = Unrolling(system, terms, False, replaced), []
@@ -171,12 +191,17 @@ def graph(proof, system, refute=False):
                 break
         if not text:
             raise Failure("the counterexample does not replay")
-        return Outcome(trace, "squared_distance", text)
-    # Each choice of the kernel has to go both ways; otherwise a wrong branch would not be seen.
+        return Outcome(trace, "the outputs", text)
+    # Each choice of the kernel has to go both ways; otherwise a wrong branch would not be seen. A function of one's own
+    # may have one that never changes.
+    never = []
     for node, value in zip(design["nodes"], values):
         if node["width"] == 1:
             for bit in (0, 1):
                 if not solver.possible(terms.eq(value, terms.bv(1, bit))):
-                    raise Failure(f"the condition {node['name']} is never {bit}: the proof says nothing of it")
+                    never.append(f"the condition {node['name']} is never {bit}")
             named.append(node["name"])
-    return Outcome(covered=[f"{len(named)} conditions, each both ways"], properties=len(wrong))
+    if never and not proof.rule.file:
+        raise Failure(f"{never[0]}: the proof says nothing of it")
+    return Outcome(covered=[f"{len(named)} conditions" + ("" if never else ", each both ways"), *never],
+                   properties=len(wrong))

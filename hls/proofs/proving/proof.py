@@ -51,9 +51,10 @@ class Words:
 
 @dataclass(frozen=True)
 class Graph:
-    """The form of the distance whose graph the datapath has to be."""
+    """The form of the distance whose graph the datapath has to be, or the file of a function's graph."""
 
-    name: str
+    name: str = ""
+    file: str = ""  # as emax_lower --graph writes it
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(ROOT / "hls/proofs"), str(ROOT / "hls/boards")]
 import prove  # noqa: E402
 from bitwuzla import Kind, Result  # noqa: E402
-from proving import btor, document, floats, methods, netlist, prover, solve, split, unroll  # noqa: E402
+from proving import btor, document, floats, lowered, methods, netlist, prover, solve, split, unroll  # noqa: E402
 from proving.proof import Fault, Parts, Proof, Words  # noqa: E402
 from synthesis.tools import Failure  # noqa: E402
 from table import PROOFS  # noqa: E402
@@ -281,6 +281,52 @@ class NetlistTest(unittest.TestCase):
             for number in nodes:
                 self.assertEqual(solver.number(unrolling.term(number, 0)), computed[number],
                                  f"seed 1: {system.nodes[number].kind} of {values}")
+
+
+class LoweredTest(unittest.TestCase):
+    MODULE = """
+module f (
+    input  logic        clk,
+    output logic [31:0] f  // cycle 14
+);
+  localparam int ADD_LATENCY = 12;
+  delay_line #(.WIDTH(32), .DEPTH(2), .STYLE("registers")) a_at_2_delay (.clk, .d(a), .q(a_at_2));
+  fp_add #(.LATENCY(ADD_LATENCY)) sum_adder (.clk, .a(a), .b(b), .sum(sum));
+  assign sum_negative = sum[31] & |sum[30:23];
+  always_ff @(posedge clk) f <= sum_negative ? a_at_2 : sum;
+endmodule
+"""
+    RESULT = {"holds": True, "depth": "d", "seconds": 1.0, "covered": ["1 conditions"], "how": "",
+              "faults": [{"name": "x", "refuted": True}, {"name": "y", "refuted": False}]}
+
+    def test_a_fault_of_each_kind_is_found_and_finds_its_place(self):
+        faults = lowered.faults_of("f.sv", self.MODULE)
+        self.assertEqual(len(faults), len(lowered.FAULTS))
+        texts = [netlist.with_fault({"f.sv": self.MODULE}, fault)["f.sv"] for fault in faults]
+        self.assertEqual(len({self.MODULE, *texts}), len(faults) + 1)
+        for place in (".DEPTH(1)", "ADD_LATENCY - 1)", ".a(a), .b(a)", "sum_negative ? sum : a_at_2;", "= ~(sum[31] & |sum[30:23]);"):
+            self.assertEqual(sum(place in text for text in texts), 1, place)
+        self.assertEqual(lowered.faults_of("f.sv", "\nmodule f (\n);\n  assign f = a;\nendmodule\n"), ())
+
+    def test_only_a_proof_that_holds_and_that_a_fault_refutes_counts(self):
+        of = proof("graph")
+        counts, line = lowered.sentence(of, self.RESULT)
+        self.assertTrue(counts)
+        self.assertIn("faults that refute it: x; without effect: y", line)
+        for change, message in (({"holds": False, "how": "sum: 1 for 2"}, "refuted: sum: 1 for 2"), ({"faults": []}, "says nothing"),
+                                ({"faults": [{"name": "y", "failure": "Yosys failed"}]}, "says nothing"),
+                                ({"failure": "no answer"}, "no answer")):
+            counts, line = lowered.sentence(of, {**self.RESULT, **change})
+            self.assertFalse(counts)
+            self.assertIn(message, line)
+
+    def test_a_folder_without_a_lowered_function_is_a_failure(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(Failure, "0 files"):
+                lowered.proof_of(folder, ())
+            (Path(folder) / "f_graph.json").write_text('{"module": "f", "latency": 3}')
+            with self.assertRaisesRegex(Failure, "f.sv is not there"):
+                lowered.proof_of(folder, ())
 
 
 class TableTest(unittest.TestCase):
