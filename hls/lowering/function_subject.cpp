@@ -1,6 +1,7 @@
 #include "hls/lowering/function_subject.h"
 
 #include <stdexcept>
+#include <vector>
 
 #include "hls/lowering/port_names.h"
 #include "hls/lowering/source_text.h"
@@ -18,7 +19,15 @@ LoweredDesign FunctionRecorder::lower(const LoweringOptions& options) {
   };
   require("input", names.inputs.size(), graph_.inputs().size());
   require("output", names.outputs.size(), graph_.outputs().size());
-  for (std::size_t i = 0; i < names.inputs.size(); ++i) graph_.set_input_name(i, names.inputs[i]);
+  const std::vector<NodeId> kept = DataflowGraph(graph_).remove_dead();
+  for (std::size_t i = 0; i < names.inputs.size(); ++i) {
+    // A port less would leave the arguments' places without their ports.
+    if (kept[graph_.inputs()[i].node] == kNoNode) {
+      throw std::invalid_argument("no result of " + std::string(function_) + " needs its input " +
+                                  names.inputs[i] + "; leave it out of " + std::string(header_));
+    }
+    graph_.set_input_name(i, names.inputs[i]);
+  }
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     graph_.set_output_name(i, names.outputs[i]);
   }

@@ -43,7 +43,7 @@ class FunctionRecorder {
   }
 
   // Names the ports from the text, and lowers. Throws std::invalid_argument if the text does not
-  // give as many names as the function has ports.
+  // give as many names as the function has ports, or if no result needs one of the inputs.
   LoweredDesign lower(const LoweringOptions& options);
 
  private:

@@ -71,6 +71,9 @@ while [ $# -gt 0 ]; do
     --module | -o)
       fail 2 "the module has the name of the function, and the files are in $folder; leave out --module and -o"
       ;;
+    --unit | --schedule | --opencl | --testbench | --stream-testbench | --dot | --report | --graph)
+      fail 2 "$1 is for the program that is made: leave it out here, then call $folder/lower $1"
+      ;;
     --scalar)
       [ $# -ge 2 ] || fail 2 "--scalar needs a value: binary32, float:EXPONENT:MANTISSA or fixed:WIDTH:FRACTION[:down][:wrap]"
       scalar=$2

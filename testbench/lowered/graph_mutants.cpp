@@ -74,10 +74,10 @@ void add_faults_of_condition(const Node& node, std::vector<Fault>& faults) {
   if (has_order) {
     faults.push_back({"operands exchanged", with_exchanged(0, 1)});
     faults.push_back({"true at equality too", negation_of(with_exchanged(0, 1))});
-  } else if (node.operation == Operation::kLessZero) {
-    faults.push_back({"true at zero too", negation_of(as_operation(Operation::kGreaterZero))});
-  } else if (node.operation == Operation::kGreaterZero) {
-    faults.push_back({"true at zero too", negation_of(as_operation(Operation::kLessZero))});
+  } else if (node.operation == Operation::kLessZero || node.operation == Operation::kGreaterZero) {
+    const bool less = node.operation == Operation::kLessZero;
+    const Operation other = less ? Operation::kGreaterZero : Operation::kLessZero;
+    faults.push_back({"true at zero too", negation_of(as_operation(other))});
   }
 }
 

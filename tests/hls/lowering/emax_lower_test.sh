@@ -36,6 +36,8 @@ expect fail "no function 'kalman'; check the name" "a function that is not there
   "$script" . "$example" kalman none
 expect fail "leave out --module and -o" "another name of the module" \
   "$script" . "$example" kalman_update none --module other
+expect fail "--dot is for the program that is made: leave it out here, then call none/lower --dot" \
+  "something else to write" "$script" . "$example" kalman_update none --dot
 for scalar in binary16 float fixed fixed:18 fixed:1:0 fixed:63:0 fixed:18:18 fixed:18:16:up fixed:18:16:wrap:down ""; do
   expect fail "--scalar $scalar: take binary32, float:EXPONENT:MANTISSA or fixed:" "the scalar '$scalar'" \
     "$script" . "$example" kalman_update none --scalar "$scalar"
@@ -78,6 +80,17 @@ cat >"$folder/clash.h" <<'TEXT'
 template <class Scalar>
 Scalar clash(Scalar m_axis_tdata) { return m_axis_tdata * m_axis_tdata; }
 TEXT
+cat >"$folder/idle.h" <<'TEXT'
+template <class Scalar>
+Scalar idle(Scalar a, Scalar b, Scalar c) { return a * c + (b, a); }
+TEXT
+expect fail "no result of idle needs its input b; leave it out of $folder/idle.h" "an unused input" \
+  env VERILATOR="$verilator" "$lower" "$folder/idle.h" --function idle --folder "$folder/idle"
+expect fail "divide must be 1 to 27, not '0'" "a latency out of range" env VERILATOR="$verilator" \
+  "$lower" "$example" --function kalman_update --folder "$folder/kalman" --latency divide=0
+sed 's/kalman_update(/always_ff(/' "$example" >"$folder/keyword.h"
+expect fail "'always_ff' is a SystemVerilog keyword" "a function with the name of a keyword" \
+  env VERILATOR="$verilator" "$lower" "$folder/keyword.h" --function always_ff --folder "$folder/keyword"
 expect fail "a port is called m_axis_tdata, which --stream needs" "a port like a handshake" \
   env VERILATOR="$verilator" "$lower" "$folder/clash.h" --function clash --folder "$folder/clash" --stream
 expect pass "endmodule" "its pipeline" cat "$folder/colours/colour_transform.sv"
