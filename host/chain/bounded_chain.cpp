@@ -5,6 +5,7 @@
 
 #include "host/parameters/registry.h"
 #include "host/surface/drop_components.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/error.h"
 
 namespace emax {
@@ -82,7 +83,8 @@ DecimatedMesh Bounded::run(const TriangleMesh& start, const ParameterValues& val
   settings.rival = options.rival;
   settings.threads = options.threads;
   settings.planes = options.planes;
-  settings.spread_on_planes = values.find(PlaneFeatures::kSpread).value_or(false);
+  settings.spread_on_planes =
+      values.find(PlaneFeatures::kSpread).value_or(false) && !EMAX_FAULT(kForgetsSpread);
   const TriangleMesh& reference = stage.two_sided() ? bound.reference : start;
   DecimatedMesh made = BoundedDecimator(reference, stage.kept()).run(start, settings);
   if (stage.two_sided()) return made;

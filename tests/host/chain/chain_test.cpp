@@ -324,6 +324,41 @@ TEST(RunChainFault, ThatForgetsThresholdsIsSeen) {
       same_bytes(chain.run(NoisyCube::candidate(0.5, 1000)).mesh, noisy.twin({0.5, 1000})));
 }
 
+// A can as its own reference: planes beside a surface on which spreading the error pays.
+struct PlanesBesideACurve {
+  static constexpr double kWithin = 0.02;
+  TriangleMesh mesh = can(60, 20);
+  TriangleMesh run(bool spread) const {
+    ChainSettings candidate{kFitMethod, "bounded",
+                            ParameterValues(chain_parameters(kFitMethod, "bounded", kOnPlanes))};
+    candidate.parameters.set(PlaneFeatures::kSpread, spread);
+    return Chain(mesh.vertices, {kWithin, kWithin, mesh, {}}).run(candidate).mesh;
+  }
+  // The decimator alone.
+  TriangleMesh twin(bool spread) const {
+    DecimationSettings settings;
+    settings.epsilon = settings.epsilon_back = kWithin;
+    settings.planes =
+        std::make_shared<const PlaneParts>(find_plane_parts(mesh.vertices, kWithin, 1));
+    settings.spread_on_planes = spread;
+    return BoundedDecimator(mesh, mesh.vertices).run(settings).mesh;
+  }
+};
+
+TEST(RunChain, SpreadsTheErrorOnPlanesWhereTheCandidateDoes) {
+  const PlanesBesideACurve beside;
+  const TriangleMesh plain = beside.run(false), spread = beside.run(true);
+  EXPECT_TRUE(same_bytes(plain, beside.twin(false)));
+  EXPECT_TRUE(same_bytes(spread, beside.twin(true)));
+  EXPECT_LT(spread.triangles.size(), plain.triangles.size());
+}
+
+TEST(RunChainFault, ThatForgetsToSpreadIsSeen) {
+  const PlanesBesideACurve beside;
+  const DeliberateFault fault(Fault::kForgetsSpread);
+  EXPECT_FALSE(same_bytes(beside.run(true), beside.twin(true)));
+}
+
 // Beside a method or beside all of them.
 TEST(ChainParameters, AutoHoldsBothDecimators) {
   for (const std::string method : {"gp3", "auto"}) {

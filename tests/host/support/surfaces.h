@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "host/geometry/triangle_mesh.h"
 #include "tests/host/support/surface_clouds.h"
@@ -60,6 +62,51 @@ inline TriangleMesh cube(std::uint32_t n) {
         }
       }
     }
+  }
+  return mesh;
+}
+
+// A cylinder of radius 1 between the planes z = -1 and 1, which close it.
+inline TriangleMesh can(std::uint32_t around, std::uint32_t high) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i <= high; ++i) {
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const double angle = 2 * std::numbers::pi * j / around;
+      mesh.vertices.push_back({std::cos(angle), std::sin(angle), 2.0 * i / high - 1});
+    }
+  }
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return i * around + j % around; };
+  for (std::uint32_t i = 0; i < high; ++i) {
+    for (std::uint32_t j = 0; j < around; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  }
+  // Rings that end in a middle close bottom and top.
+  constexpr std::uint32_t kRings = 8;
+  for (const bool top : {false, true}) {
+    std::vector<std::uint32_t> outer, inner(around);
+    for (std::uint32_t j = 0; j < around; ++j) outer.push_back(at(top ? high : 0, j));
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh.triangles.push_back(top ? Triangle{a, b, c} : Triangle{a, c, b});
+    };
+    for (std::uint32_t ring = 1; ring < kRings; ++ring) {
+      for (std::uint32_t j = 0; j < around; ++j) {
+        inner[j] = static_cast<std::uint32_t>(mesh.vertices.size());
+        const double share = 1 - static_cast<double>(ring) / kRings;
+        const Point& rim = mesh.vertices[at(top ? high : 0, j)];
+        mesh.vertices.push_back({share * rim.x(), share * rim.y(), rim.z()});
+      }
+      for (std::uint32_t j = 0; j < around; ++j) {
+        const std::uint32_t k = (j + 1) % around;
+        add(outer[j], outer[k], inner[k]);
+        add(outer[j], inner[k], inner[j]);
+      }
+      outer = inner;
+    }
+    const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back({0, 0, top ? 1.0 : -1.0});
+    for (std::uint32_t j = 0; j < around; ++j) add(outer[j], outer[(j + 1) % around], middle);
   }
   return mesh;
 }
