@@ -177,9 +177,9 @@ void add_features_followed(CLI::App& command, std::string& features, std::string
           fmt::format(
               "planes: find the planes of the scan, close the flat holes that the error cannot "
               "tell from the surface, and put vertices on the planes, on the lines where two meet "
-              "and the corners of three; {}",
+              "and the corners of three; all: on cylinders and spheres, too; {}",
               automatic))
-      ->check(CLI::IsMember({kNoFeatures, kOnPlanes, kAutoFeatures}))
+      ->check(CLI::IsMember({kNoFeatures, kOnPlanes, kAllFeatures, kAutoFeatures}))
       ->capture_default_str();
   command.add_option("--hole-reach", hole_reach,
                      "with --features: how far what closes a hole on a plane may be from the "
@@ -528,7 +528,7 @@ void add_config(CLI::App& app, CommandLine& line) {
   command
       .add_option("--features", line.config_features,
                   "those of the search's candidates; auto: the search decides")
-      ->check(CLI::IsMember({kNoFeatures, kOnPlanes, kAutoFeatures}))
+      ->check(CLI::IsMember({kNoFeatures, kOnPlanes, kAllFeatures, kAutoFeatures}))
       ->capture_default_str();
   command.callback([&] {
     line.chosen = [&line] {

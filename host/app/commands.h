@@ -35,7 +35,7 @@ struct OptimizeOptions {
   std::optional<std::uint64_t> target_triangles, stagnation;
   bool polish = true;
   bool closed = false;                  // every hole of the surface is closed
-  std::string features{kNoFeatures};    // or kOnPlanes, kAutoFeatures
+  std::string features{kNoFeatures};    // or kOnPlanes, kAllFeatures, kAutoFeatures
   std::string hole_reach;               // empty: the tolerance; none: holes stay
   std::size_t tile_triangles = 0;       // 0: not in tiles
   std::optional<Tolerance> thin;        // of tiles; nothing: half of max_error
@@ -80,7 +80,7 @@ struct DecimateOptions {
   std::size_t quick_beyond = ~std::size_t{0};  // so many points, the effort is quick
   std::string objective = "triangles";         // or hoppe
   double feature_angle = 0;                    // degrees; 0: no features
-  std::string features{kNoFeatures};           // or kOnPlanes, kAutoFeatures
+  std::string features{kNoFeatures};           // or kOnPlanes, kAllFeatures, kAutoFeatures
   std::string hole_reach;                      // empty: the tolerance; none: holes stay
   std::string json;
   ReportOptions report;

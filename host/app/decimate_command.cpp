@@ -235,14 +235,16 @@ class DecimateCommand {
     settings_.decimation.epsilon_back = back_.value_or(epsilon_);
   }
 
-  // The planes that vertices are to lie on, for the present tolerance.
+  // The planes, or all shapes, that vertices are to lie on, for the present tolerance.
   void find_planes(std::span<const Point> kept) {
     if (options_.features == kNoFeatures) return;
     progress_.begin("searching planes", joining_seconds(kept.size()));
     settings_.decimation.planes = std::make_shared<const PlaneParts>(
-        find_plane_parts(kept, epsilon_, settings_.decimation.threads, [] {
-          if (was_interrupted()) throw Interrupted{};
-        }));
+        find_plane_parts(kept, epsilon_, settings_.decimation.threads,
+                         [] {
+                           if (was_interrupted()) throw Interrupted{};
+                         },
+                         {.curved = options_.features == kAllFeatures}));
     settings_.decimation.without_planes_too = options_.features == kAutoFeatures;
   }
 
@@ -351,8 +353,9 @@ class DecimateCommand {
     proven_ = tiled_ ? tiled_->prove(result_, file_ ? &reference_.surface.mesh : nullptr)
                      : proofs_of(result_, scan());
     if (settings_.decimation.planes) {
-      regions_ = regions_of(result_.mesh, *settings_.decimation.planes,
-                            beside_plane(reference_.surface.mesh, settings_.storage, epsilon_));
+      regions_ =
+          regions_of(result_.mesh, *settings_.decimation.planes,
+                     beside_shape(reference_.surface.mesh, settings_.storage, epsilon_), epsilon_);
     }
     feasible_ = may_leave_out_own_vertices() || result_.points.excluded.size() <= excludable();
     if (feasible_) write();

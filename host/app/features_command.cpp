@@ -14,6 +14,7 @@
 #include "host/files/tolerance.h"
 #include "host/picture/colour.h"
 #include "host/report/json_parts.h"
+#include "host/report/shape_text.h"
 #include "sw_model/base/parallel.h"
 
 namespace emax {
@@ -22,43 +23,6 @@ namespace {
 constexpr std::size_t kShownRegions = 20;
 
 Json coordinates(const Point& p) { return Json{p.x(), p.y(), p.z()}; }
-
-std::string triple(const Point& p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
-}
-
-struct KindOf {
-  const char* operator()(const Plane&) const { return "plane"; }
-  const char* operator()(const Cylinder&) const { return "cylinder"; }
-  const char* operator()(const Sphere&) const { return "sphere"; }
-};
-std::string kind(const Region& region) { return std::visit(KindOf{}, region.shape); }
-
-struct EquationOf {
-  std::string operator()(const Plane& p) const {
-    return fmt::format("normal ({:.5f}, {:.5f}, {:.5f}), offset {:.6g}", p.normal.x(), p.normal.y(),
-                       p.normal.z(), p.offset);
-  }
-  std::string operator()(const Cylinder& c) const {
-    return fmt::format("radius {:.5g}, axis ({:.5f}, {:.5f}, {:.5f}) through {}", c.radius,
-                       c.axis.x(), c.axis.y(), c.axis.z(), triple(c.centre));
-  }
-  std::string operator()(const Sphere& s) const {
-    return fmt::format("radius {:.5g}, centre {}", s.radius, triple(s.centre));
-  }
-};
-
-struct ShapeJson {
-  Json operator()(const Plane& p) const {
-    return {{"normal", coordinates(p.normal)}, {"offset", p.offset}};
-  }
-  Json operator()(const Cylinder& c) const {
-    return {{"radius", c.radius}, {"axis", coordinates(c.axis)}, {"centre", coordinates(c.centre)}};
-  }
-  Json operator()(const Sphere& s) const {
-    return {{"radius", s.radius}, {"centre", coordinates(s.centre)}};
-  }
-};
 
 class FeaturesCommand {
  public:
@@ -103,7 +67,7 @@ class FeaturesCommand {
 
  private:
   std::string name_of(std::size_t region) const {
-    return fmt::format("{}_{}", kind(features_.regions[region]), region + 1);
+    return fmt::format("{}_{}", kind_of(features_.regions[region].shape), region + 1);
   }
 
   void write() const {
@@ -134,7 +98,7 @@ class FeaturesCommand {
   }
   std::size_t count_of(std::string_view name) const {
     return static_cast<std::size_t>(std::ranges::count_if(
-        features_.regions, [&](const Region& region) { return kind(region) == name; }));
+        features_.regions, [&](const Region& region) { return kind_of(region.shape) == name; }));
   }
 
   void print() {
@@ -155,7 +119,7 @@ class FeaturesCommand {
       const Region& region = features_.regions[r];
       facts_.add(name_of(r), "{} points, area {:.4g}, rms {:.2g}: {}",
                  grouped(region.points.size()), region.area, region.rms,
-                 std::visit(EquationOf{}, region.shape));
+                 equation_text(region.shape));
     }
     if (shown < features_.regions.size()) {
       facts_.add("...", "{} smaller ones; --all prints them", features_.regions.size() - shown);
@@ -179,9 +143,10 @@ class FeaturesCommand {
     if (scan_.unit) json["unit"] = scan_.unit->name;
     for (std::size_t r = 0; r < features_.regions.size(); ++r) {
       const Region& region = features_.regions[r];
-      Json told = {{"name", name_of(r)}, {"kind", kind(region)}, {"points", region.points.size()},
-                   {"rms", region.rms},  {"area", region.area},  {"outline", Json::array()}};
-      told.update(std::visit(ShapeJson{}, region.shape));
+      Json told = {
+          {"name", name_of(r)}, {"kind", kind_of(region.shape)}, {"points", region.points.size()},
+          {"rms", region.rms},  {"area", region.area},           {"outline", Json::array()}};
+      told.update(equation_json(region.shape));
       for (const Point& corner : region.outline) told["outline"].push_back(coordinates(corner));
       json["regions"].push_back(std::move(told));
     }

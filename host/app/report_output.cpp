@@ -71,7 +71,7 @@ std::vector<NamedText> parameters_of(const CertifiedResult& result) {
   list.push_back({"decimator", chain.decimator});
   const Parameters known =
       chain_parameters(chain.method == "none" ? std::string(kFitMethod) : chain.method,
-                       chain.decimator, kAutoFeatures);
+                       chain.decimator, kAllFeatures);
   for (const auto& [name, value] : chain.parameters.by_name()) {
     const auto at = std::ranges::find(known, name, &Parameter::name);
     list.push_back({name, value_text(at == known.end() ? nullptr : &*at, value)});

@@ -84,15 +84,16 @@ void ResultFiles::find_regions(const BestMesh& best) {
   const DecimationBound& bound = settings_.bound;
   if (key != planes_key_) {
     const PlaneThresholds thresholds = {
-        key.at(PlaneFeatures::kBand),
-        static_cast<std::size_t>(key.at(PlaneFeatures::kLeastPoints))};
+        key.at(PlaneFeatures::kBand), static_cast<std::size_t>(key.at(PlaneFeatures::kLeastPoints)),
+        PlaneFeatures::method(key) == PlaneFeatures::Method::kAll};
     planes_ = find_plane_parts(
         points_without(scan_.cloud.points, bound.outliers), bound.epsilon, processor_threads(),
         [] {}, thresholds);
     planes_key_ = key;
   }
   const Storage storage = storage_of(mesh_format(settings_.output));
-  regions_ = regions_of(best.mesh, planes_, beside_plane(best.mesh, storage, bound.epsilon));
+  regions_ = regions_of(best.mesh, planes_, beside_shape(best.mesh, storage, bound.epsilon),
+                        bound.epsilon);
 }
 
 CertifiedResult ResultFiles::result(const BestMesh& best, const ProvenMesh& proven,

@@ -8,66 +8,66 @@
 
 #include "host/app/scan.h"
 #include "host/picture/colour.h"
+#include "host/report/shape_text.h"
 
 namespace emax {
 namespace {
 
-constexpr std::size_t kShownPlanes = 10;
-constexpr double kOnPlane = 1e-6;  // of the tolerance: what lies on a plane but for rounding
+constexpr std::size_t kShownShapes = 10;
+constexpr double kOnShape = 1e-6;  // of the tolerance: what lies on a shape but for rounding
+constexpr double kBeside = 2;      // tolerances: the middle of a triangle with its corners there
 
 }  // namespace
 
-ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, double apart) {
-  const std::vector<Plane>& planes = parts.planes;
-  std::vector<ResultRegion> all(planes.size());
-  const std::vector<std::uint32_t> plane_of = planes_under(mesh, planes, apart);
+ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, double apart,
+                         double epsilon) {
+  const std::vector<Shape> shapes = parts.shapes();
+  std::vector<ResultRegion> all(shapes.size());
+  const std::vector<std::uint32_t> shape_of = shapes_under(mesh, shapes, apart, kBeside * epsilon);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (plane_of[t] == PlaneParts::kNoPlane) continue;
+    if (shape_of[t] == PlaneParts::kNoPlane) continue;
     const auto corners = mesh.view().corners(t);
-    ResultRegion& region = all[plane_of[t]];
+    ResultRegion& region = all[shape_of[t]];
     ++region.triangles;
     region.area += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
   }
   ResultRegions result;
-  std::vector<std::uint32_t> number(planes.size(), TriangleGroups::kNone);
-  for (std::size_t p = 0; p < planes.size(); ++p) {
-    if (all[p].triangles == 0) continue;
-    number[p] = static_cast<std::uint32_t>(result.regions.size());
-    all[p].name = fmt::format("plane_{}", p + 1);
-    all[p].plane = planes[p];
-    all[p].points = parts.support[p].points;
-    all[p].rms = parts.support[p].rms;
-    result.groups.groups.push_back({all[p].name, distinct_colour(p)});
-    result.regions.push_back(all[p]);
+  std::vector<std::uint32_t> number(shapes.size(), TriangleGroups::kNone);
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    if (all[s].triangles == 0) continue;
+    number[s] = static_cast<std::uint32_t>(result.regions.size());
+    all[s].name = fmt::format("{}_{}", kind_of(shapes[s]), s + 1);
+    all[s].shape = shapes[s];
+    all[s].points = parts.support[s].points;
+    all[s].rms = parts.support[s].rms;
+    result.groups.groups.push_back({all[s].name, distinct_colour(s)});
+    result.regions.push_back(all[s]);
   }
-  for (const std::uint32_t plane : plane_of) {
-    const bool none = plane == PlaneParts::kNoPlane;
-    result.groups.group_of.push_back(none ? TriangleGroups::kNone : number[plane]);
+  for (const std::uint32_t shape : shape_of) {
+    const bool none = shape == PlaneParts::kNoPlane;
+    result.groups.group_of.push_back(none ? TriangleGroups::kNone : number[shape]);
   }
   return result;
 }
 
-double beside_plane(const TriangleMesh& extent, Storage storage, double epsilon) {
-  return 2 * storage_displacement(extent, storage) + kOnPlane * epsilon;
+double beside_shape(const TriangleMesh& extent, Storage storage, double epsilon) {
+  return 2 * storage_displacement(extent, storage) + kOnShape * epsilon;
 }
 
 void print(Facts& facts, const ResultRegions& result, const PlaneParts& parts) {
   std::size_t triangles = 0, points = 0;
   for (const ResultRegion& region : result.regions) triangles += region.triangles;
   for (const PlaneParts::Support& support : parts.support) points += support.points;
-  facts.add("planes", "{} found, with {} of the points; {} triangles lie on {} of them",
-            parts.planes.size(), grouped(points), grouped(triangles), result.regions.size());
-  for (std::size_t i = 0; i < std::min(kShownPlanes, result.regions.size()); ++i) {
+  facts.add(parts.curved.empty() ? "planes" : "shapes",
+            "{} found, with {} of the points; {} triangles lie on {} of them", parts.support.size(),
+            grouped(points), grouped(triangles), result.regions.size());
+  for (std::size_t i = 0; i < std::min(kShownShapes, result.regions.size()); ++i) {
     const ResultRegion& region = result.regions[i];
-    const Point& n = region.plane.normal;
-    facts.add(
-        region.name,
-        "{} triangles, area {:.4g}, rms {:.2g}: normal ({:.5f}, {:.5f}, {:.5f}), offset {:.6g}",
-        grouped(region.triangles), region.area, region.rms, n.x(), n.y(), n.z(),
-        region.plane.offset);
+    facts.add(region.name, "{} triangles, area {:.4g}, rms {:.2g}: {}", grouped(region.triangles),
+              region.area, region.rms, equation_text(region.shape));
   }
-  if (result.regions.size() > kShownPlanes) {
-    facts.add("...", "{} smaller ones; --json has them", result.regions.size() - kShownPlanes);
+  if (result.regions.size() > kShownShapes) {
+    facts.add("...", "{} smaller ones; --json has them", result.regions.size() - kShownShapes);
   }
 }
 

@@ -9,20 +9,22 @@
 
 namespace emax {
 
-// The planes of a scan that triangles of a result lie on, the one with most points first.
+// The planes of a scan that triangles of a result lie on, the one with most points first; then the
+// cylinders and spheres, likewise.
 struct ResultRegions {
   TriangleGroups groups;  // one for each region
   std::vector<ResultRegion> regions;
 };
 
-// A triangle is of a plane if its corners are within `apart` of it; of several, of the first.
-// O(triangles * planes).
-ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, double apart);
+// A triangle is of a shape if its corners are within `apart` of it, and its middle within twice
+// `epsilon`; of several, of the first. O(triangles * shapes).
+ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, double apart,
+                         double epsilon);
 
-// What lies on a plane: `apart` of regions_of() for a mesh of that extent, which its file rounds.
-double beside_plane(const TriangleMesh& extent, Storage storage, double epsilon);
+// What lies on a shape: `apart` of regions_of() for a mesh of that extent, which its file rounds.
+double beside_shape(const TriangleMesh& extent, Storage storage, double epsilon);
 
-// Prints how much of the result lies on planes, and the greatest of them.
+// Prints how much of the result lies on shapes, and the greatest of them.
 void print(Facts& facts, const ResultRegions& result, const PlaneParts& parts);
 
 }  // namespace emax

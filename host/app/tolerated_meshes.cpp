@@ -38,7 +38,7 @@ std::string named_for(const std::filesystem::path& file, const ToleratedMesh& me
 
 std::optional<Tolerance> given_hole_reach(const std::string& text, const std::string& features) {
   if (!text.empty() && features == kNoFeatures) {
-    throw Error("--hole-reach: give --features planes or auto, too");
+    throw Error("--hole-reach: give --features planes, all or auto, too");
   }
   if (text.empty() || text == kNoHoleReach) return std::nullopt;
   return parse_tolerance(text, "--hole-reach");

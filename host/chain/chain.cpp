@@ -114,7 +114,8 @@ const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds
 
 std::size_t Chain::FoundPlanes::size_in_bytes() const {
   return parts->points.size() * (sizeof(Point) + sizeof(std::uint32_t)) +
-         parts->planes.size() * (sizeof(Plane) + sizeof(PlaneParts::Support));
+         parts->planes.size() * sizeof(Plane) + parts->curved.size() * sizeof(Shape) +
+         parts->support.size() * sizeof(PlaneParts::Support);
 }
 
 std::shared_ptr<const PlaneParts> Chain::planes(const ChainSettings& settings,
@@ -126,7 +127,8 @@ std::shared_ptr<const PlaneParts> Chain::planes(const ChainSettings& settings,
            [&] {
              const PlaneThresholds thresholds = {
                  key.at(PlaneFeatures::kBand),
-                 static_cast<std::size_t>(key.at(PlaneFeatures::kLeastPoints))};
+                 static_cast<std::size_t>(key.at(PlaneFeatures::kLeastPoints)),
+                 PlaneFeatures::method(key) == PlaneFeatures::Method::kAll};
              return FoundPlanes{std::make_shared<const PlaneParts>(find_plane_parts(
                  bounded_.kept(), bounded_.bound().epsilon, threads, [] {}, thresholds))};
            })

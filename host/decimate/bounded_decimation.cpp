@@ -27,6 +27,9 @@ constexpr double kBelongs = 0.1;                               // of the mesh's 
 constexpr double kSampledEdge = 4, kSampledBorder = 1;
 constexpr double kMostOnBorder = 7;
 constexpr double kOnPlane = 1e-7;  // of the limit: what lies on a plane but for rounding
+// Of the limit: the middle of a triangle with its corners on a curved shape. The reference it is of
+// is within the limit of that shape.
+constexpr double kBesideShape = 2;
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -56,15 +59,16 @@ std::size_t guides_of(std::size_t points, std::size_t vertices) {
 }
 
 bool has_planes(const DecimationSettings& settings) {
-  return settings.planes && !settings.planes->planes.empty();
+  return settings.planes && !settings.planes->empty();
 }
 
-// The triangles on each plane follow each other, in the order of the planes; then all others.
-void order_by_plane(TriangleMesh& mesh, std::span<const Plane> planes, double limit) {
-  const std::vector<std::uint32_t> plane_of = planes_under(mesh, planes, kOnPlane * limit);
+// The triangles on each shape follow each other, in the order of the shapes; then all others.
+void order_by_shape(TriangleMesh& mesh, std::span<const Shape> shapes, double limit) {
+  const std::vector<std::uint32_t> shape_of =
+      shapes_under(mesh, shapes, kOnPlane * limit, kBesideShape * limit);
   std::vector<std::uint32_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return plane_of[t]; });
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return shape_of[t]; });
   std::vector<Triangle> ordered;
   for (const std::uint32_t t : order) ordered.push_back(mesh.triangles[t]);
   mesh.triangles = std::move(ordered);
@@ -314,14 +318,14 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
     options.representation = settings.hoppe.representation * width * width / (limit * limit);
   }
   if (has_planes(settings)) {
-    state.follow(settings.planes->planes,
+    state.follow(settings.planes->shapes(),
                  planes_of_triangles(ordered, *settings.planes, limit, settings.threads));
   }
   ScheduledMesh scheduled = run_passes(state, std::move(options), settings);
   result.interrupted = !scheduled.complete;
   result.expected = scheduled.expected;
   result.mesh = std::move(scheduled.mesh);
-  if (has_planes(settings)) order_by_plane(result.mesh, settings.planes->planes, limit);
+  if (has_planes(settings)) order_by_shape(result.mesh, settings.planes->shapes(), limit);
   return result;
 }
 

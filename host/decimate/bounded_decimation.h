@@ -88,8 +88,9 @@ struct DecimationSettings {
   } objective = Objective::kFewest;
   HoppeWeights hoppe;
 
-  // Planes that parts of the start follow, if any. A vertex amid triangles of one plane lies on it,
-  // one between two on their line, one between three at their corner, where the bounds permit that.
+  // Planes, and curved shapes, that parts of the start follow, if any. A vertex amid triangles of
+  // one of them lies on it, one between two on their line, one between three at their corner, where
+  // the bounds permit that.
   std::shared_ptr<const PlaneParts> planes = nullptr;
   // With planes: spreads the error evenly as without them. This leaves fewer triangles on smooth
   // surfaces, and edges between a plane and a curved surface less near to the true ones.

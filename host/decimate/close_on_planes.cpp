@@ -132,7 +132,7 @@ class FlatHoles {
   std::optional<Plane> most_common(const std::vector<std::uint32_t>& vertices) const {
     std::map<std::uint32_t, std::size_t> votes;
     for (const std::uint32_t v : vertices) {
-      if (plane_of_[v] != PlaneParts::kNoPlane) ++votes[plane_of_[v]];
+      if (plane_of_[v] < parts_.planes.size()) ++votes[plane_of_[v]];  // no curved shape
     }
     if (votes.empty()) return std::nullopt;
     return parts_.planes[std::ranges::max_element(

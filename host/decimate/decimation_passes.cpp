@@ -337,7 +337,7 @@ std::size_t DecimationPasses::relocate(int power) {
 }
 
 std::size_t DecimationPasses::move_into_place() {
-  if (!state_.follows_planes()) return 0;
+  if (!state_.follows_shapes()) return 0;
   std::vector<std::uint32_t> vertices(state_.mesh().vertex_slots());
   std::iota(vertices.begin(), vertices.end(), 0u);
   std::erase_if(vertices, [&](std::uint32_t v) { return !state_.mesh().used(v); });

@@ -46,7 +46,7 @@ class Schedule {
     }
     sweep();
     if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
-    if (state_.follows_planes() && settings_.effort != Effort::kSweep) settle_on_planes();
+    if (state_.follows_shapes() && settings_.effort != Effort::kSweep) settle_on_planes();
     const bool goes_on =
         settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
     if (goes_on && !passes_.stopped() && !lost(Race::At::kCollapsed)) {
@@ -90,7 +90,7 @@ class Schedule {
   }
 
   std::size_t move_into_place() {
-    if (!state_.follows_planes() || passes_.stopped()) return 0;
+    if (!state_.follows_shapes() || passes_.stopped()) return 0;
     std::size_t moved = 0, last = 1;
     for (int round = 0; round < kMostRoundsIntoPlace && last > 0 && !passes_.stopped(); ++round) {
       last = passes_.move_into_place();
@@ -133,7 +133,7 @@ class Schedule {
   // their place under loosened limits.
   bool may_even_out() const {
     if (!passes_.features().empty()) return false;
-    if (state_.follows_planes() && !settings_.spread_on_planes) return false;
+    if (state_.follows_shapes() && !settings_.spread_on_planes) return false;
     if (settings_.effort == Effort::kDeep) return true;
     return state_.back() != nullptr &&
            state_.back()->usual_rise() <= kSmooth * state_.back()->limit();

@@ -210,14 +210,14 @@ bool DecimationState::meets_itself(const MeshEdit& edit) const {
 }
 
 bool DecimationState::meets_another(const MeshEdit& edit) {
-  shapes_.clear();
+  tested_.clear();
   SlotTree::Box around{};
   for (const Triangle& t : edit.added) {
     const std::array<Point, 3> c = {mesh_.position(t[0]), mesh_.position(t[1]),
                                     mesh_.position(t[2])};
-    shapes_.push_back({tree_.rounded(bounds_of(c)), c[0], area_normal_of(c),
+    tested_.push_back({tree_.rounded(bounds_of(c)), c[0], area_normal_of(c),
                        kPlaneRoundings * (c[1] - c[0]).norm() * (c[2] - c[0]).norm()});
-    around = shapes_.size() == 1 ? shapes_.front().box : joined(around, shapes_.back().box);
+    around = tested_.size() == 1 ? tested_.front().box : joined(around, tested_.back().box);
   }
   return !tree_.for_each_overlap(around, [&](std::uint32_t slot, const SlotTree::Box& box) {
     if (std::find(edit.removed.begin(), edit.removed.end(), slot) != edit.removed.end()) {
@@ -225,8 +225,8 @@ bool DecimationState::meets_another(const MeshEdit& edit) {
     }
     const Triangle& other = mesh_.triangle(slot);
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
-      const Shape& shape = shapes_[i];
-      if (!overlap(shape.box, box)) continue;
+      const Tested& tested = tested_[i];
+      if (!overlap(tested.box, box)) continue;
       // A triangle does not meet this one if all of its vertices that the two do not share lie on
       // one side of this one's plane.
       const Triangle& t = edit.added[i];
@@ -236,8 +236,8 @@ bool DecimationState::meets_another(const MeshEdit& edit) {
           ++shared;
           continue;
         }
-        const Point d = mesh_.position(v) - shape.corner;
-        const double side = shape.normal.dot(d), roundings = shape.roundings * d.norm();
+        const Point d = mesh_.position(v) - tested.corner;
+        const double side = tested.normal.dot(d), roundings = tested.roundings * d.norm();
         above += side > roundings ? 1 : 0;
         below += side < -roundings ? 1 : 0;
       }
@@ -267,7 +267,7 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
       undo->sight = sight_[edit.vertex];
     }
   }
-  take_planes(edit);
+  take_shapes(edit);
   for (const std::uint32_t slot : edit.removed) mesh_.clear(slot);
   if (edit.vertex != kNoIndex) {
     mesh_.move(edit.vertex, edit.position);
@@ -301,26 +301,26 @@ void DecimationState::apply(const MeshEdit& edit, EditUndo* undo) {
   if (tree_.outgrown(mesh_)) tree_.rebuild(mesh_);
 }
 
-void DecimationState::follow(std::span<const Plane> planes, std::vector<std::uint32_t> plane_of) {
-  planes_ = planes;
-  plane_of_ = std::move(plane_of);
+void DecimationState::follow(std::vector<Shape> shapes, std::vector<std::uint32_t> shape_of) {
+  shapes_ = std::move(shapes);
+  shape_of_ = std::move(shape_of);
 }
 
 // Of the slots that added triangles will have: those of the removed ones first, then new ones. A
 // split adds as many triangles for each that it removes, in their order.
-void DecimationState::take_planes(const MeshEdit& edit) {
-  if (plane_of_.empty() || edit.added.size() <= edit.removed.size()) return;
+void DecimationState::take_shapes(const MeshEdit& edit) {
+  if (shape_of_.empty() || edit.added.size() <= edit.removed.size()) return;
   const std::size_t parts = edit.added.size() / edit.removed.size();
-  std::vector<std::uint32_t> planes;
+  std::vector<std::uint32_t> shapes;
   for (std::size_t k = 0; k < edit.added.size(); ++k) {
-    planes.push_back(plane_of(edit.removed[k / parts]));
+    shapes.push_back(shape_of(edit.removed[k / parts]));
   }
-  plane_of_.resize(mesh_.slots(), kNoIndex);
+  shape_of_.resize(mesh_.slots(), kNoIndex);
   for (std::size_t k = 0; k < edit.added.size(); ++k) {
     if (k < edit.removed.size()) {
-      plane_of_[edit.removed[k]] = planes[k];
+      shape_of_[edit.removed[k]] = shapes[k];
     } else {
-      plane_of_.push_back(planes[k]);  // EditableMesh::add_slot() appends
+      shape_of_.push_back(shapes[k]);  // EditableMesh::add_slot() appends
     }
   }
 }
@@ -451,7 +451,7 @@ void DecimationState::restore(const Snapshot& snapshot) {
   assigned_ = snapshot.assigned;
   points_.resize(assigned_.size());
   sight_ = snapshot.sight;
-  plane_of_ = snapshot.plane_of;
+  shape_of_ = snapshot.shape_of;
   permitted_ = permitted_back_ = 1;
   may_stay_beyond_ = guides_alone_ = false;
   breaks_back_.clear();

@@ -99,15 +99,14 @@ class DecimationState {
 
   const Guards& guards() const { return guards_; }
 
-  // Planes that parts of the mesh follow, and the number of each slot's plane, kNoIndex for none.
-  // Edits leave each slot its plane, and parts of a triangle that is split have its plane. `planes`
-  // must outlive the state.
-  void follow(std::span<const Plane> planes, std::vector<std::uint32_t> plane_of);
-  bool follows_planes() const { return !plane_of_.empty(); }
-  std::uint32_t plane_of(std::uint32_t slot) const {
-    return slot < plane_of_.size() ? plane_of_[slot] : kNoIndex;
+  // Shapes that parts of the mesh follow, and the number of each slot's shape, kNoIndex for none.
+  // Edits leave each slot its shape, and parts of a triangle that is split have its shape.
+  void follow(std::vector<Shape> shapes, std::vector<std::uint32_t> shape_of);
+  bool follows_shapes() const { return !shape_of_.empty(); }
+  std::uint32_t shape_of(std::uint32_t slot) const {
+    return slot < shape_of_.size() ? shape_of_[slot] : kNoIndex;
   }
-  const Plane& plane(std::uint32_t number) const { return planes_[number]; }
+  const Shape& shape(std::uint32_t number) const { return shapes_[number]; }
 
   // Whether every point was assigned. False after an interrupt.
   bool complete() const { return complete_; }
@@ -173,9 +172,9 @@ class DecimationState {
     EditableMesh mesh;
     AssignedPoints assigned;
     std::vector<BackBound::Sight> sight;
-    std::vector<std::uint32_t> plane_of;
+    std::vector<std::uint32_t> shape_of;
   };
-  Snapshot snapshot() const { return {mesh_, assigned_, sight_, plane_of_}; }
+  Snapshot snapshot() const { return {mesh_, assigned_, sight_, shape_of_}; }
   // Every limit holds as in the snapshot, which was taken without loosened limits. O(n log n).
   void restore(const Snapshot& snapshot);
 
@@ -185,7 +184,7 @@ class DecimationState {
 
  private:
   // An added triangle as it is tested against others.
-  struct Shape {
+  struct Tested {
     SlotTree::Box box;
     Point corner, normal;
     double roundings;  // bound of the rounding of normal times distance, divided by the distance
@@ -198,7 +197,7 @@ class DecimationState {
   std::size_t crossings(std::span<const Triangle> triangles,
                         std::span<const std::uint32_t> removed) const;
   void take_area_normals();
-  void take_planes(const MeshEdit& edit);
+  void take_shapes(const MeshEdit& edit);
   void changed(std::uint32_t slot);
 
   EditableMesh mesh_;
@@ -215,15 +214,15 @@ class DecimationState {
   SlotTree tree_;
   std::optional<ReferenceCover> cover_;
   std::vector<Point> area_normals_;  // of each slot
-  std::span<const Plane> planes_;
-  std::vector<std::uint32_t> plane_of_;  // of each slot; empty where no planes are followed
+  std::vector<Shape> shapes_;
+  std::vector<std::uint32_t> shape_of_;  // of each slot; empty where no shapes are followed
   bool complete_ = false;
   std::vector<BackBound::Sight> sight_;                       // of each vertex
   std::vector<std::shared_ptr<BackBound::Search>> searches_;  // of each thread
   BackVerdict judged_;                                        // of the edit last permitted
   std::vector<char> breaks_back_;      // of each slot; empty where all keep the bound
   std::vector<std::uint32_t> placed_;  // scratch: slots of the added triangles
-  std::vector<Shape> shapes_;
+  std::vector<Tested> tested_;
   std::vector<Triangle> removed_;
 };
 

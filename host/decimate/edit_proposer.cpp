@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace emax {
@@ -19,6 +20,26 @@ double least_gain(int power) { return 1e-3 * (power > 4 ? power : 1); }
 constexpr double kInPlace = 1e-6;  // of the limit
 // To a place that may be out of reach.
 constexpr std::array kPartsOfWay = {1.0, 0.5, 0.25, 0.125};
+
+// Whether the vertex lies on a curved shape that a triangle beside it follows.
+bool lies_on_curved(const DecimationState& state, std::uint32_t vertex) {
+  const double apart = kInPlace * std::sqrt(state.squared_limit());
+  bool lies = false;
+  state.mesh().for_each_slot_at(vertex, [&](std::uint32_t slot) {
+    if (lies || state.shape_of(slot) == kNoIndex) return;
+    const Shape& shape = state.shape(state.shape_of(slot));
+    const bool curved = !std::holds_alternative<Plane>(shape);
+    lies = curved && distance(shape, state.mesh().position(vertex)) <= apart;
+  });
+  return lies;
+}
+
+// What lies on a curved shape does not leave it when the edge collapses, unless it could lie
+// nowhere. Facets are longer with their corners beside the shape, so hardly a vertex would stay.
+bool stays_curved(const DecimationState& state, const LocalSearch& search, std::uint32_t a,
+                  std::uint32_t b) {
+  return search.place() && (lies_on_curved(state, a) || lies_on_curved(state, b));
+}
 
 }  // namespace
 
@@ -44,7 +65,8 @@ bool EditProposer::judge(std::uint32_t a, std::uint32_t b, int power, Collapse& 
     if (fit.worst > 1 && !search_.finish(fit, true, edit_)) return false;
   } else if (hoppe) {
     if (!judge_for_hoppe(pa, pb, fit)) return false;
-  } else if (!judge_free(pa, pb, power, in_place, fit)) {
+  } else if (stays_curved(state_, search_, a, b) ? !judge_in_place(pa, pb, power, fit)
+                                                 : !judge_free(pa, pb, power, in_place, fit)) {
     return false;
   }
   if (hoppe && !(fit.energy < before)) return false;
@@ -134,11 +156,12 @@ bool EditProposer::judge_beyond(std::uint32_t a, std::uint32_t b, Collapse& coll
   options.steps = 8;
   bool any = false;
   const Point middle = 0.5 * (state_.mesh().position(a) + state_.mesh().position(b));
+  const bool leaves = !stays_curved(state_, search_, a, b);
   for (const Point& start : {search_.quadric_optimum(), middle}) {
     Fit fit;
     options.in_place = search_.place().has_value();
     bool found = search_.fit(start, options, fit);
-    if (options.in_place && !(found && fit.worst <= kMendable)) {
+    if (options.in_place && leaves && !(found && fit.worst <= kMendable)) {
       options.in_place = false;
       found = search_.fit(start, options, fit);
     }
@@ -170,7 +193,7 @@ bool EditProposer::plain_collapse(std::uint32_t a, std::uint32_t b, double most,
   if (!search_.prepare_collapse(a, b)) return false;
   LocalSearch::Options options;
   options.steps = 0;
-  options.in_place = in_place && search_.place().has_value();
+  options.in_place = search_.place() && (in_place || stays_curved(state_, search_, a, b));
   Fit fit;
   if (!search_.fit(search_.quadric_optimum(), options, fit) || fit.worst > most) return false;
   return keeps_features(a, b, fit.position) && search_.finish(fit, true, edit_);
@@ -213,7 +236,7 @@ bool EditProposer::may_split(std::uint32_t a, std::uint32_t b) const {
 // What is around fixed edges is free, unlike what is around a held vertex.
 bool EditProposer::may_flip(std::uint32_t a, std::uint32_t b) const {
   const auto [first, second] = state_.mesh().slots_at_edge(a, b);
-  if (state_.plane_of(first) != state_.plane_of(second)) return false;
+  if (state_.shape_of(first) != state_.shape_of(second)) return false;
   return may_split(a, b) &&
          std::ranges::none_of(state_.mesh().slots_at_edge(a, b), [this](std::uint32_t slot) {
            return slot != kNoIndex &&

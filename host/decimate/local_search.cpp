@@ -24,7 +24,7 @@ constexpr double kMoreDamping = 30, kLessDamping = 0.2;
 constexpr double kLoosenedEdge = 2;
 // Guides for each triangle of an edit that are enough for the steps of Newton.
 constexpr std::size_t kGuidesOfNewton = 20;
-// Of the limit: so far the planes at a vertex may pass from the place that they have in common.
+// Of the limit: so far the shapes at a vertex may pass from the place that they have in common.
 constexpr double kPlanesApart = 0.1;
 
 Triangle rotated_to(const Triangle& t, std::uint32_t vertex) {
@@ -60,16 +60,16 @@ void LocalSearch::replace(std::uint32_t slot, std::uint32_t corner) {
 
 // What a collapse removes without replacing it has no say.
 void LocalSearch::take_place() {
-  if (!state_.follows_planes() || vertex_ == kNoIndex || EMAX_FAULT(kForgetsPlanes)) return;
+  if (!state_.follows_shapes() || vertex_ == kNoIndex || EMAX_FAULT(kForgetsPlanes)) return;
   std::vector<std::uint32_t> numbers;
   const std::size_t replaced = other_ == kNoIndex ? removed_.size() : added_.size();
-  for (std::size_t i = 0; i < replaced; ++i) numbers.push_back(state_.plane_of(removed_[i]));
+  for (std::size_t i = 0; i < replaced; ++i) numbers.push_back(state_.shape_of(removed_[i]));
   sort_once(numbers);
   if (!numbers.empty() && numbers.back() == kNoIndex) numbers.pop_back();
   if (numbers.empty()) return;
-  std::vector<Plane> planes;
-  for (const std::uint32_t number : numbers) planes.push_back(state_.plane(number));
-  place_ = place_on(planes, state_.mesh().position(vertex_),
+  std::vector<Shape> shapes;
+  for (const std::uint32_t number : numbers) shapes.push_back(state_.shape(number));
+  place_ = place_on(shapes, state_.mesh().position(vertex_),
                     kPlanesApart * std::sqrt(state_.squared_limit()));
 }
 
@@ -349,7 +349,7 @@ bool LocalSearch::step(const Options& options, double damping, Fit& at) const {
     return true;
   }
   // The same in the directions of the place alone.
-  const Eigen::Matrix3d& along = place_->along;
+  const Eigen::Matrix3d along = place_->along(at.position);
   matrix = along * matrix * along + trace * (Eigen::Matrix3d::Identity() - along);
   at.position = place_->project(at.position + share * matrix.ldlt().solve(along * right));
   return true;

@@ -10,7 +10,7 @@
 #include "host/decimate/decimation_state.h"
 #include "host/decimate/edge_samples.h"
 #include "host/decimate/local_distance.h"
-#include "host/decimate/plane_place.h"
+#include "host/decimate/shape_place.h"
 
 namespace emax {
 
@@ -56,9 +56,9 @@ class LocalSearch {
   // The present energy of the points of the prepared edit.
   double energy_before(int power) const;
 
-  // Where the prepared edit's vertex keeps the planes flat that its triangles follow; nothing where
-  // they follow none, or planes that share no place.
-  const std::optional<PlanePlace>& place() const { return place_; }
+  // Where the prepared edit's vertex is on the shapes that its triangles follow; nothing where they
+  // follow none, or shapes that share no place.
+  const std::optional<ShapePlace>& place() const { return place_; }
 
   // A position to start from: the optimum of the planes' quadrics.
   Point quadric_optimum() const;
@@ -118,7 +118,7 @@ class LocalSearch {
   std::vector<std::uint32_t> removed_;
   std::vector<Triangle> added_;  // the moving vertex first
   std::vector<Point> normals_;   // of the triangles that `added_` replaces
-  std::optional<PlanePlace> place_;
+  std::optional<ShapePlace> place_;
   std::vector<std::uint32_t> ids_;  // of the guides among the points of the edit
   bool watch_back_ = false;         // whether the moving vertex's distance to the reference counts
   std::vector<std::uint32_t> others_;  // scratch: the points of the edit that are no guides

@@ -18,6 +18,10 @@ constexpr std::size_t kVotes = 5;        // points nearest to a vertex
 constexpr int kSmoothings = 3;           // rounds in which the borders between planes are smoothed
 constexpr std::size_t kVertices = 1024;  // that a thread takes at a time
 
+Point middle(const std::array<Point, 3>& corners) {
+  return (corners[0] + corners[1] + corners[2]) / 3;
+}
+
 using Neighbours = std::array<std::uint32_t, 3>;  // of a triangle, over the edge at each corner
 
 std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
@@ -64,6 +68,7 @@ class Labels {
   Labels(const TriangleMesh& mesh, const PlaneParts& parts, double reach)
       : mesh_(mesh),
         parts_(parts),
+        shapes_(parts.shapes()),
         reach_(reach),
         plane_of_(mesh.triangles.size(), PlaneParts::kNoPlane) {}
 
@@ -89,13 +94,14 @@ class Labels {
     }
   }
 
-  // Of the farthest corner.
+  // Of the farthest corner, and of the middle, which may be farther from what is curved.
   double distance(std::uint32_t triangle, std::uint32_t plane) const {
-    double farthest = 0;
-    for (const std::uint32_t v : mesh_.triangles[triangle]) {
-      farthest =
-          std::max(farthest, std::abs(parts_.planes[plane].signed_distance(mesh_.vertices[v])));
-    }
+    const Shape& shape = shapes_[plane];
+    const auto corners = mesh_.view().corners(triangle);
+    const bool plane_itself = std::holds_alternative<Plane>(shape);
+    double farthest = plane_itself ? 0 : emax::distance(shape, middle(corners));
+    for (const Point& corner : corners)
+      farthest = std::max(farthest, emax::distance(shape, corner));
     return farthest;
   }
 
@@ -136,6 +142,7 @@ class Labels {
 
   const TriangleMesh& mesh_;
   const PlaneParts& parts_;
+  std::vector<Shape> shapes_;
   double reach_;
   std::vector<std::uint32_t> plane_of_;
   std::vector<Neighbours> neighbours_;
@@ -143,10 +150,16 @@ class Labels {
 
 }  // namespace
 
+std::vector<Shape> PlaneParts::shapes() const {
+  std::vector<Shape> all(planes.begin(), planes.end());
+  all.insert(all.end(), curved.begin(), curved.end());
+  return all;
+}
+
 PlaneParts find_plane_parts(std::span<const Point> points, double epsilon, std::size_t threads,
                             const std::function<void()>& check, const PlaneThresholds& thresholds) {
   FeatureSearch search;
-  search.curved = false;
+  search.curved = thresholds.curved;
   search.max_error = thresholds.band * epsilon;
   search.least_support = thresholds.least_points;
   search.threads = threads;
@@ -155,11 +168,15 @@ PlaneParts find_plane_parts(std::span<const Point> points, double epsilon, std::
   PlaneParts parts;
   parts.points.assign(points.begin(), points.end());
   parts.plane_of.assign(points.size(), PlaneParts::kNoPlane);
-  for (const Region& region : features.regions) {
-    const auto number = static_cast<std::uint32_t>(parts.planes.size());
-    parts.planes.push_back(std::get<Plane>(region.shape));
-    parts.support.push_back({region.points.size(), region.rms});
-    for (const std::uint32_t p : region.points) parts.plane_of[p] = number;
+  for (const bool curved : {false, true}) {
+    for (const Region& region : features.regions) {
+      const Plane* plane = std::get_if<Plane>(&region.shape);
+      if (curved == (plane != nullptr)) continue;
+      const auto number = static_cast<std::uint32_t>(parts.support.size());
+      plane != nullptr ? parts.planes.push_back(*plane) : parts.curved.push_back(region.shape);
+      parts.support.push_back({region.points.size(), region.rms});
+      for (const std::uint32_t p : region.points) parts.plane_of[p] = number;
+    }
   }
   return parts;
 }
@@ -167,7 +184,7 @@ PlaneParts find_plane_parts(std::span<const Point> points, double epsilon, std::
 std::vector<std::uint32_t> planes_of_vertices(std::span<const Point> vertices,
                                               const PlaneParts& parts, std::size_t threads) {
   std::vector<std::uint32_t> plane_of(vertices.size(), PlaneParts::kNoPlane);
-  if (parts.planes.empty()) return plane_of;
+  if (parts.empty()) return plane_of;
   const PointTree tree(parts.points);
   in_pieces(threads, plane_of.size(), kVertices,
             [&](std::size_t, std::size_t first, std::size_t last) {
@@ -184,17 +201,18 @@ std::vector<std::uint32_t> planes_of_triangles(const TriangleMesh& mesh, const P
   return Labels(mesh, parts, reach).run(threads);
 }
 
-std::vector<std::uint32_t> planes_under(const TriangleMesh& mesh, std::span<const Plane> planes,
-                                        double apart) {
+std::vector<std::uint32_t> shapes_under(const TriangleMesh& mesh, std::span<const Shape> shapes,
+                                        double apart, double reach) {
   std::vector<std::uint32_t> under;
-  for (const Triangle& t : mesh.triangles) {
-    const auto found = std::ranges::find_if(planes, [&](const Plane& plane) {
-      return std::ranges::all_of(t, [&](std::uint32_t v) {
-        return std::abs(plane.signed_distance(mesh.vertices[v])) <= apart;
-      });
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto corners = mesh.view().corners(t);
+    const auto found = std::ranges::find_if(shapes, [&](const Shape& shape) {
+      return std::ranges::all_of(corners,
+                                 [&](const Point& p) { return distance(shape, p) <= apart; }) &&
+             distance(shape, middle(corners)) <= reach;
     });
-    under.push_back(found == planes.end() ? PlaneParts::kNoPlane
-                                          : static_cast<std::uint32_t>(found - planes.begin()));
+    under.push_back(found == shapes.end() ? PlaneParts::kNoPlane
+                                          : static_cast<std::uint32_t>(found - shapes.begin()));
   }
   return under;
 }

@@ -31,7 +31,8 @@ struct OptimizeSettings {
   // Of a two-sided bound: how far a mesh may be from the reference.
   std::optional<double> epsilon_back;
   DecimationBound bound;  // of the bounded decimator: decimation_bound() of these settings
-  // kNoFeatures, kOnPlanes or kAutoFeatures; all but the first need a decimator that takes a bound.
+  // kNoFeatures, kOnPlanes, kAllFeatures or kAutoFeatures; all but the first need a decimator that
+  // takes a bound.
   std::string features{kNoFeatures};
   // With features: what closes a hole on a plane of the scan may be so far from the surface. 0:
   // all holes stay open; nothing: epsilon.

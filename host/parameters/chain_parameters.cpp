@@ -94,11 +94,18 @@ Parameters without_features(std::string_view method, std::string_view decimator)
 
 Parameters features_of(std::string_view features) {
   if (features == kNoFeatures) return {};
+  using Method = PlaneFeatures::Method;
+  const auto followed =
+      static_cast<double>(features == kAllFeatures ? Method::kAll : Method::kPlanes);
   Parameters all = PlaneFeatures::parameters();
+  Parameter& method = all.front();
+  // Curved shapes cost triangles, so no search takes them up.
+  method.upper = followed;
+  method.categories.resize(static_cast<std::size_t>(followed) + 1);
   // Of as many triangles those on planes, which come first, are the result.
-  all.front().standard = static_cast<double>(PlaneFeatures::Method::kPlanes);
-  if (features != kOnPlanes) return all;
-  all.front().fixed = all.front().standard;
+  method.standard = followed;
+  if (features == kAutoFeatures) return all;
+  method.fixed = followed;
   // Planes are asked for, so edges count more than triangles.
   all.back().standard = 0;
   all.back().fixed = 0;

@@ -75,9 +75,11 @@ inline constexpr const char* kAutoMethod = "auto";
 // In place of a method: the bound's reference surface as it is, whatever made it. No P_R.
 inline constexpr const char* kFitMethod = "fit";
 
-// What a run's candidates do about the features of the scan: none, planes, or planes as a gene.
+// What a run's candidates do about the features of the scan: none, planes, all shapes, or planes as
+// a gene.
 inline constexpr const char* kNoFeatures = "none";
 inline constexpr const char* kOnPlanes = "planes";
+inline constexpr const char* kAllFeatures = "all";
 inline constexpr const char* kAutoFeatures = "auto";
 
 // The method itself, but for kFitMethod with a decimator that knows no reference: the first of
@@ -96,7 +98,7 @@ bool keeps_bound(std::string_view decimator);
 // decimator.
 //
 // With features other than kNoFeatures the parameters of PlaneFeatures come last; with kOnPlanes
-// the planes are always followed.
+// the planes are always followed, with kAllFeatures cylinders and spheres, too.
 Parameters chain_parameters(std::string_view method, std::string_view decimator,
                             std::string_view features = kNoFeatures);
 

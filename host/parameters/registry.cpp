@@ -19,7 +19,7 @@ Parameters Fill::parameters() {
 
 Parameters PlaneFeatures::parameters() {
   Parameters all = parameters_of(kMethod, kBand, kLeastPoints, kSpread);
-  const Gene::Condition followed = {0, static_cast<double>(Method::kPlanes)};
+  const Gene::Condition followed = {0, static_cast<double>(Method::kNone), true};
   all[1].only_with = all[2].only_with = all[3].only_with = followed;
   return all;
 }

@@ -189,14 +189,15 @@ struct Fill {
   }
 };
 
-// Planes of the scan that the bounded decimator follows; without a value for the method, none.
+// Planes of the scan that the bounded decimator follows, or all its planes, cylinders and spheres;
+// without a value for the method, none.
 struct PlaneFeatures {
-  enum class Method { kNone, kPlanes };
+  enum class Method { kNone, kPlanes, kAll };
 
-  static constexpr std::array<std::string_view, 2> kMethods = {"none", "planes"};
+  static constexpr std::array<std::string_view, 3> kMethods = {"none", "planes", "all"};
   static constexpr ParameterKey<Method> kMethod{"features.method",
                                                 Method::kNone,
-                                                Method::kPlanes,
+                                                Method::kAll,
                                                 Method::kNone,
                                                 "the features of the scan that vertices are put on",
                                                 kMethods};

@@ -2,20 +2,19 @@
 
 #include "hls/kernel/command_words.h"
 #include "host/report/json_parts.h"
+#include "host/report/shape_text.h"
 
 namespace emax {
 namespace {
 
 Json to_json(const ResultRegion& region) {
-  const Point& n = region.plane.normal;
-  return {{"name", region.name},
-          {"kind", "plane"},
-          {"normal", {n.x(), n.y(), n.z()}},
-          {"offset", region.plane.offset},
-          {"triangles", region.triangles},
-          {"area", region.area},
-          {"points", region.points},
-          {"rms", region.rms}};
+  Json json = {{"name", region.name}, {"kind", kind_of(region.shape)}};
+  json.update(equation_json(region.shape));
+  json.update(Json{{"triangles", region.triangles},
+                   {"area", region.area},
+                   {"points", region.points},
+                   {"rms", region.rms}});
+  return json;
 }
 
 }  // namespace

@@ -19,13 +19,13 @@ namespace emax {
 
 // The content of --json of `optimize` and `error`. The keys are stable. A value that was not asked
 // for or not reached is null.
-// A plane that triangles of a result lie on. Lengths in file units.
+// A shape that triangles of a result lie on. Lengths in file units.
 struct ResultRegion {
   std::string name;
-  Plane plane;
+  Shape shape;
   std::size_t triangles = 0;
   double area = 0;         // of these
-  std::size_t points = 0;  // of the cloud, that the plane was found from
+  std::size_t points = 0;  // of the cloud, that the shape was found from
   double rms = 0;          // of their distances from it
 };
 
@@ -51,7 +51,7 @@ struct ResultReport {
   std::optional<BoardModel> board;    // the board whose time is to be predicted
   std::optional<double> cpu_seconds;  // time of the same work on this CPU
   std::optional<ErrorReport> errors;  // with a surface, the bound is two-sided
-  // Where planes of the scan were followed: those that triangles lie on.
+  // Where shapes of the scan were followed: those that triangles lie on.
   std::optional<std::vector<ResultRegion>> regions;
   bool two_sided = false;
   std::optional<ReferenceBound> reference;  // of a two-sided bound that holds

@@ -23,7 +23,8 @@ HALL_POINTS, HALL_NOISE, OUTLIERS = 10**6, 0.003, 0.05
 LIMIT = 60  # seconds of the processor that a tool may take, with reading and the comparison with the truth
 SMALL_HALL_POINTS = 200_000  # for decimation
 CHOICES = {"none": [], "planes, holes open": ["--features", "planes", "--hole-reach", "none"],
-           "planes": ["--features", "planes"], "auto": ["--features", "auto"]}
+           "planes": ["--features", "planes"], "all": ["--features", "all"],
+           "auto": ["--features", "auto"]}
 
 
 def run(*words, limit=None):

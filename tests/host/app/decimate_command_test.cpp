@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -119,6 +120,29 @@ TEST_F(DecimateCommand, PutsVerticesOnPlanesAndNamesTheirTriangles) {
     EXPECT_EQ(verify(output), 0);
   }
   EXPECT_NE(test::file_text(folder_ / "out.obj").find("g plane_1\n"), std::string::npos);
+}
+
+TEST_F(DecimateCommand, PutsVerticesOnCylindersToo) {
+  write_mesh(folder_ / "can.ply", test::can(80, 24));
+  const ProgramRun run =
+      decimate("out.obj", {"--features", "all", "--json", "r.json"}, "can.ply", "1%");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const json regions = read("r.json").at("regions");
+  ASSERT_EQ(regions.size(), 3u);
+  EXPECT_EQ(regions[2].at("kind"), "cylinder");
+  EXPECT_EQ(regions[2].at("name"), "cylinder_3");
+  EXPECT_NEAR(regions[2].at("radius").get<double>(), 1, 1e-6);
+  const TriangleMesh out = read_mesh(folder_ / "out.obj");
+  std::size_t triangles = 0;
+  for (const json& region : regions) triangles += region.at("triangles").get<std::size_t>();
+  EXPECT_EQ(triangles, out.triangles.size());
+  for (const Point& v : out.vertices) {
+    const bool on_side = std::abs(std::hypot(v.x(), v.y()) - 1) < 1e-6;
+    EXPECT_TRUE(on_side || std::abs(std::abs(v.z()) - 1) < 1e-6);
+  }
+  EXPECT_NE(test::file_text(folder_ / "out.obj").find("g cylinder_3\n"), std::string::npos);
+  EXPECT_NE(run.output.find("radius 1, axis"), std::string::npos) << run.output;
+  EXPECT_EQ(verify("out.obj"), 0);
 }
 
 TEST_F(DecimateCommand, AutoTakesTheFewerTriangles) {

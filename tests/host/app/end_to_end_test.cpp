@@ -127,6 +127,9 @@ TEST_F(EndToEnd, FollowsThePlanesOfTheScanWhereThatIsAskedFor) {
   EXPECT_NE(text("planes.obj").find("g plane_1\n"), std::string::npos);
   EXPECT_EQ(emax({"verify", "planes.obj.certificate.json"}).exit_code, 0);
   EXPECT_NE(text("planes.obj.certificate.json").find("features.band"), std::string::npos);
+  const json all = run("all.obj", "all");  // a cube has no other shapes than its planes
+  EXPECT_EQ(all.at("triangles"), planes.at("triangles"));
+  EXPECT_EQ(text("all.obj"), text("planes.obj"));
   const json none = run("none.obj", "none");
   EXPECT_FALSE(none.contains("regions") && !none.at("regions").empty());
   const json decided = run("auto.obj", "auto");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -256,6 +257,11 @@ TEST(ChainParameters, PlanesAreGenesWhereTheyAreAskedFor) {
   const Parameters free = chain_parameters(kAutoMethod, "bounded", kAutoFeatures);
   ASSERT_EQ(free.size(), chain_parameters(kAutoMethod, "bounded").size() + 4);
   EXPECT_FALSE(free[free.size() - 4].fixed);
+  EXPECT_EQ(free[free.size() - 4].upper, 1);  // curved shapes are no choice of the search
+  const Parameters all = chain_parameters(kFitMethod, "bounded", kAllFeatures);
+  ASSERT_EQ(all.size(), always.size());
+  EXPECT_EQ(all[none.size()].fixed, 2);
+  EXPECT_EQ(all.back().fixed, 0);
   EXPECT_EQ(free.back().only_with->gene, free.size() - 4);
 
   ParameterValues values(free);
@@ -312,6 +318,16 @@ TEST(RunChain, FollowsThePlanesOfTheCandidatesThresholds) {
   EXPECT_EQ(chain.planes_found(), 3u);
   EXPECT_TRUE(same_bytes(chain.run(NoisyCube::candidate(0.5, 100)).mesh, standard));
   EXPECT_EQ(chain.planes_found(), 3u);
+}
+
+TEST(RunChain, FollowsCurvedShapesWhereTheCandidateDoes) {
+  constexpr double kWithin = 0.02;
+  const TriangleMesh mesh = can(60, 20);
+  const ChainSettings candidate{
+      kFitMethod, "bounded",
+      ParameterValues(chain_parameters(kFitMethod, "bounded", kAllFeatures))};
+  const TriangleMesh made = Chain(mesh.vertices, {kWithin, kWithin, mesh, {}}).run(candidate).mesh;
+  for (const Point& v : made.vertices) EXPECT_NEAR(std::hypot(v.x(), v.y()), 1, 1e-6);
 }
 
 TEST(RunChainFault, ThatForgetsThresholdsIsSeen) {

@@ -171,6 +171,84 @@ TEST(PlaneDecimation, TakesTheFewerTrianglesOfBoth) {
   }
 }
 
+DecimationSettings with_shapes(const TriangleMesh& mesh, double epsilon) {
+  DecimationSettings settings = with(epsilon);
+  settings.planes = std::make_shared<const PlaneParts>(
+      find_plane_parts(mesh.vertices, epsilon, 1, [] {}, {.curved = true}));
+  return settings;
+}
+
+// On how many of the shapes each vertex lies: of 0, of 1 and so on.
+std::vector<std::size_t> shapes_through(const TriangleMesh& mesh, std::span<const Shape> shapes) {
+  std::vector<std::size_t> vertices(shapes.size() + 1);
+  for (const Point& v : mesh.vertices) {
+    ++vertices[static_cast<std::size_t>(
+        std::ranges::count_if(shapes, [&](const Shape& s) { return distance(s, v) < 1e-9; }))];
+  }
+  return vertices;
+}
+
+// A can as a scan shows it: its rims are circles where a plane and the cylinder meet.
+struct NoisyCan {
+  static constexpr double kBound = 0.04;
+  TriangleMesh mesh = roughened(can(80, 24), 0.004);
+  DecimationSettings settings = with_shapes(mesh, kBound);
+  std::vector<Shape> shapes = settings.planes->shapes();
+};
+
+TEST(PlaneDecimation, PutsTheVerticesOfACanOnItsCylinderAndItsRims) {
+  const NoisyCan noisy;
+  ASSERT_EQ(noisy.settings.planes->planes.size(), 2u);
+  ASSERT_EQ(noisy.settings.planes->curved.size(), 1u);
+  const TriangleMesh result = decimated(noisy.mesh, noisy.settings);
+  expect_bounds_kept(result, noisy.mesh, NoisyCan::kBound);
+  const std::vector<std::size_t> through = shapes_through(result, noisy.shapes);
+  EXPECT_EQ(through[0], 0u);
+  EXPECT_EQ(through[2], result.vertices.size());
+  const std::vector<std::uint32_t> under =
+      shapes_under(result, noisy.shapes, 1e-9, 2 * NoisyCan::kBound);
+  EXPECT_TRUE(std::ranges::is_sorted(under));
+  EXPECT_EQ(std::ranges::count(under, PlaneParts::kNoPlane), 0);
+}
+
+TEST(PlaneDecimation, PutsVerticesOnASphereWhereItHolds) {
+  const TriangleMesh mesh = roughened(bumpy(24, 48), 0.002);
+  TriangleMesh ball = mesh;
+  for (Point& v : ball.vertices) v = v.normalized() * (1 + 0.1 * (v.norm() - 1));
+  DecimationSettings settings = with_shapes(ball, 0.05);
+  ASSERT_EQ(settings.planes->curved.size(), 1u);
+  const std::vector<Shape> shapes = settings.planes->shapes();
+  const TriangleMesh result = decimated(ball, settings);
+  expect_bounds_kept(result, ball, 0.05);
+  EXPECT_EQ(shapes_through(result, shapes)[0], 0u);
+}
+
+TEST(PlaneDecimation, HoldsItsBoundsWhereCurvedShapesDoNot) {
+  const NoisyCan noisy;
+  auto wrong = std::make_shared<PlaneParts>(*noisy.settings.planes);
+  auto& side = std::get<Cylinder>(wrong->curved.front());
+  side.radius += 0.9 * NoisyCan::kBound;
+  side.axis = (side.axis + Point(0.01, 0.02, 0)).normalized();
+  DecimationSettings settings = noisy.settings;
+  settings.planes = wrong;
+  expect_bounds_kept(decimated(noisy.mesh, settings), noisy.mesh, NoisyCan::kBound);
+}
+
+TEST(PlaneDecimation, OnCurvedShapesIsTheSameForAnyNumberOfThreads) {
+  const NoisyCan noisy;
+  DecimationSettings settings = noisy.settings;
+  const TriangleMesh one = decimated(noisy.mesh, settings);
+  settings.threads = 3;
+  EXPECT_TRUE(same_bytes(decimated(noisy.mesh, settings), one));
+}
+
+TEST(PlaneDecimationFault, ThatTakesTangentsIsSeen) {
+  const NoisyCan noisy;
+  const DeliberateFault fault(Fault::kTakesTangents);
+  const TriangleMesh result = decimated(noisy.mesh, noisy.settings);
+  EXPECT_LT(shapes_through(result, noisy.shapes)[2], result.vertices.size());
+}
+
 TEST(PlaneDecimationFault, ThatForgetsPlanesIsSeen) {
   const TriangleMesh mesh = roughened(cube(14), kRoughness);
   const DecimationSettings settings = with_planes(mesh);

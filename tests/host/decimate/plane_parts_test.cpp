@@ -3,52 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
-#include "host/decimate/plane_place.h"
 #include "tests/host/support/surfaces.h"
 
 namespace emax::test {
 namespace {
-
-const Plane kFloor = {{0, 0, 1}, 1}, kWall = {{1, 0, 0}, 2}, kSide = {{0, 1, 0}, 3};
-
-TEST(PlanePlace, OfOnePlaneIsAllOfIt) {
-  const std::vector<Plane> planes = {kFloor};
-  const auto place = place_on(planes, {5, 6, 7}, 0.1);
-  ASSERT_TRUE(place);
-  EXPECT_EQ(place->at, Point(5, 6, 1));
-  EXPECT_EQ(place->project({8, 9, 10}), Point(8, 9, 1));
-}
-
-TEST(PlanePlace, OfTwoPlanesIsTheirLineAndOfThreeTheirCorner) {
-  const std::vector<Plane> planes = {kFloor, kWall, kSide};
-  const auto line = place_on(std::span(planes).first(2), {5, 6, 7}, 0.1);
-  ASSERT_TRUE(line);
-  EXPECT_LT((line->project({8, 9, 10}) - Point(2, 9, 1)).norm(), 1e-12);
-  const auto corner = place_on(planes, {5, 6, 7}, 0.1);
-  ASSERT_TRUE(corner);
-  EXPECT_LT((corner->project({8, 9, 10}) - Point(2, 3, 1)).norm(), 1e-12);
-}
-
-TEST(PlanePlace, IsNoneOfPlanesThatShareNoPoint) {
-  const std::vector<Plane> parallel = {kFloor, {{0, 0, 1}, 1.5}};
-  EXPECT_FALSE(place_on(parallel, {0, 0, 0}, 0.1));
-  const Point tilted = Point(1, 1, 1).normalized();
-  std::vector<Plane> four = {kFloor, kWall, kSide, {tilted, tilted.dot(Point(2, 3, 1))}};
-  EXPECT_TRUE(place_on(four, {0, 0, 0}, 0.1));
-  four.back().offset += 0.5;
-  EXPECT_FALSE(place_on(four, {0, 0, 0}, 0.1));
-}
-
-// Otherwise the least tilt of a plane would throw the line far away.
-TEST(PlanePlace, TakesPlanesThatHardlyDifferAsOne) {
-  const Point tilted = Point(0.01, 0, 1).normalized();
-  const std::vector<Plane> planes = {{{0, 0, 1}, 1}, {tilted, tilted.z() * 1.02}};
-  const auto place = place_on(planes, {0.5, 6, 7}, 0.1);
-  ASSERT_TRUE(place);
-  EXPECT_NEAR(place->at.z(), 1.01, 0.005);
-  EXPECT_NEAR(place->at.x(), 0.5, 0.05);
-}
 
 // A cube's sides, of which each point knows its own.
 PlaneParts sides_of_a_cube() {
@@ -109,6 +69,44 @@ TEST(FindPlaneParts, FindsTheSidesOfACubeAndNoneInNoise) {
   EXPECT_EQ(parts.planes.size(), 6u);
   EXPECT_EQ(parts.points.size(), mesh.vertices.size());
   EXPECT_TRUE(find_plane_parts(bumpy(30, 50).vertices, 0.001, 1).planes.empty());
+}
+
+TEST(FindPlaneParts, NumbersCurvedShapesAfterThePlanes) {
+  const TriangleMesh mesh = can(80, 24);
+  const PlaneParts parts = find_plane_parts(mesh.vertices, 0.02, 1, [] {}, {.curved = true});
+  ASSERT_EQ(parts.planes.size(), 2u);
+  ASSERT_EQ(parts.curved.size(), 1u);
+  const auto* side = std::get_if<Cylinder>(&parts.curved.front());
+  ASSERT_TRUE(side);
+  EXPECT_NEAR(side->radius, 1, 1e-6);
+  const std::vector<Shape> shapes = parts.shapes();
+  ASSERT_EQ(parts.support.size(), 3u);
+  std::vector<std::size_t> counted(3);
+  for (std::size_t p = 0; p < parts.points.size(); ++p) {
+    const std::uint32_t number = parts.plane_of[p];
+    if (number == PlaneParts::kNoPlane) continue;
+    ++counted[number];
+    EXPECT_LE(distance(shapes[number], parts.points[p]), 0.01 * (1 + 1e-9));
+  }
+  for (std::size_t s = 0; s < 3; ++s) EXPECT_EQ(counted[s], parts.support[s].points);
+  EXPECT_TRUE(find_plane_parts(mesh.vertices, 0.02, 1).curved.empty());
+}
+
+// The corners of its rim alone do not tell the end of a cylinder from its side.
+TEST(ShapesUnder, TellTheEndOfACylinderFromItsSide) {
+  const Cylinder side{{0, 0, 0}, {0, 0, 1}, 1};
+  const auto rim = [](double angle, double z) {
+    return Point(std::cos(angle), std::sin(angle), z);
+  };
+  const double third = 2 * std::numbers::pi / 3;
+  const TriangleMesh mesh = {{rim(0, 1), rim(third, 1), rim(2 * third, 1), rim(0.2, -1)},
+                             {{0, 1, 2}, {0, 3, 2}}};
+  constexpr std::uint32_t kNone = PlaneParts::kNoPlane;
+  const std::vector<Shape> both = {Plane{{0, 0, 1}, 1}, side};
+  using Numbers = std::vector<std::uint32_t>;
+  EXPECT_EQ(shapes_under(mesh, both, 1e-9, 0.5), (Numbers{0, 1}));
+  EXPECT_EQ(shapes_under(mesh, std::span(both).last(1), 1e-9, 0.5), (Numbers{kNone, 0}));
+  EXPECT_EQ(shapes_under(mesh, std::span(both).last(1), 1e-9, 0.01), (Numbers{kNone, kNone}));
 }
 
 }  // namespace
