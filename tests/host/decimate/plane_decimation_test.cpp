@@ -171,6 +171,50 @@ TEST(PlaneDecimation, TakesTheFewerTrianglesOfBoth) {
   }
 }
 
+// Facets of which no ten are on one plane, all within the bound of one.
+TEST(PlaneDecimation, LaysTinyFacetsWithinTheBoundOnOnePlane) {
+  TriangleMesh mesh = sheet(70, 0);
+  Random random(named_seed("tiny facets", 1));
+  for (Point& v : mesh.vertices) v.z() += random.uniform(-0.4, 0.4) * kWithin;
+  const DecimationSettings settings = with_planes(mesh);
+  ASSERT_EQ(settings.planes->planes.size(), 1u);
+  const TriangleMesh result = decimated(mesh, settings);
+  expect_bounds_kept(result, mesh, kWithin);
+  EXPECT_EQ(off_planes(result, settings.planes->planes), 0u);
+  EXPECT_LT(result.triangles.size(), 10u);
+}
+
+TEST(PlaneDecimation, FindsNoPlaneAmongTinyFacetsBeyondTheBound) {
+  TriangleMesh mesh = sheet(30, 0);
+  Random random(named_seed("tiny facets", 2));
+  for (Point& v : mesh.vertices) v.z() += random.uniform(-4, 4) * kWithin;
+  const DecimationSettings settings = with_planes(mesh);
+  EXPECT_TRUE(settings.planes->planes.empty());
+  EXPECT_TRUE(same_bytes(decimated(mesh, settings), decimated(mesh, with(kWithin))));
+}
+
+// A wall that was found in noise: planes at any angle through a surface that follows none of them.
+TEST(PlaneDecimation, HoldsItsBoundsOnPlanesThroughNoise) {
+  const TriangleMesh mesh = roughened(bumpy(14, 20), 0.01);
+  Random random(named_seed("planes through noise", 1));
+  auto wrong = std::make_shared<PlaneParts>();
+  wrong->points = mesh.vertices;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const Point normal = random.point(-1, 1).normalized();
+    wrong->planes.push_back({normal, normal.dot(mesh.vertices[20 * i + 7])});
+    wrong->support.push_back({});
+  }
+  for (const Point& v : mesh.vertices) {
+    wrong->plane_of.push_back(PlaneParts::kNoPlane);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      if (std::abs(wrong->planes[i].signed_distance(v)) < kWithin) wrong->plane_of.back() = i;
+    }
+  }
+  DecimationSettings settings = with(kWithin);
+  settings.planes = wrong;
+  expect_bounds_kept(decimated(mesh, settings), mesh, kWithin);
+}
+
 DecimationSettings with_shapes(const TriangleMesh& mesh, double epsilon) {
   DecimationSettings settings = with(epsilon);
   settings.planes = std::make_shared<const PlaneParts>(

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
+#include <functional>
 #include <numbers>
 
 #include "host/features/find_features.h"
@@ -109,26 +111,53 @@ TEST_P(DegenerateClouds, OfNoiseHaveNothing) {
   EXPECT_NEAR(std::get<Plane>(features.regions[0].shape).offset, 0.2, 0.001);
 }
 
-// A crumpled sheet of facets that have some ten points each.
-TEST_P(DegenerateClouds, OfTinyFacetsEndSoon) {
+// A sheet of side^2 squares that is crumpled up to `height`: in each square one facet, with so many
+// points.
+std::vector<Point> crumpled(std::size_t side, double height, int points, Random& random) {
+  std::vector<double> heights((side + 1) * (side + 1));
+  for (double& h : heights) h = random.uniform(-height, height);
   std::vector<Point> cloud;
-  constexpr int kSide = 70;
-  std::vector<double> heights;
-  for (int i = 0; i < kSide * kSide; ++i) heights.push_back(random_.uniform(-1, 1));
-  for (int x = 0; x + 1 < kSide; ++x) {
-    for (int y = 0; y + 1 < kSide; ++y) {
-      const auto height = [&](int dx, int dy) {
-        return heights[static_cast<std::size_t>((x + dx) * kSide + y + dy)];
-      };
-      for (int i = 0; i < 10; ++i) {
-        const double s = random_.uniform(0, 1), t = random_.uniform(0, 1) * (1 - s);
-        cloud.emplace_back(
-            x + s, y + t,
-            height(0, 0) + s * (height(1, 0) - height(0, 0)) + t * (height(0, 1) - height(0, 0)));
+  for (std::size_t x = 0; x < side; ++x) {
+    for (std::size_t y = 0; y < side; ++y) {
+      const double here = heights[x * (side + 1) + y];
+      const double right = heights[(x + 1) * (side + 1) + y], up = heights[x * (side + 1) + y + 1];
+      for (int i = 0; i < points; ++i) {
+        const double s = random.uniform(0, 1), t = random.uniform(0, 1) * (1 - s);
+        cloud.emplace_back(static_cast<double>(x) + s, static_cast<double>(y) + t,
+                           here + s * (right - here) + t * (up - here));
       }
     }
   }
-  EXPECT_TRUE(found(cloud, 0.01).regions.empty());
+  return cloud;
+}
+
+TEST_P(DegenerateClouds, OfTinyFacetsHaveNothing) {
+  EXPECT_TRUE(found(crumpled(70, 1, 10, random_), 0.01).regions.empty());
+}
+
+// Of the processor, by all threads.
+double seconds_of(const std::function<void()>& work) {
+  const std::clock_t begun = std::clock();
+  work();
+  return static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+}
+
+// The time grows hardly faster than the number of facets.
+TEST_P(DegenerateClouds, OfAMillionTinyFacetsEndSoon) {
+  const std::vector<Point> few = crumpled(200, 1, 3, random_);
+  const std::vector<Point> many = crumpled(1000, 1, 3, random_);
+  const double short_time = seconds_of([&] { EXPECT_TRUE(found(few, 0.01).regions.empty()); });
+  const double long_time = seconds_of([&] { EXPECT_TRUE(found(many, 0.01).regions.empty()); });
+  EXPECT_LT(long_time, 3 * 25 * short_time);
+}
+
+// Facets that are lower than the band are one plane.
+TEST_P(DegenerateClouds, OfTinyFacetsWithinTheBandAreOnePlane) {
+  const std::vector<Point> cloud = crumpled(70, 0.2, 10, random_);
+  const Features features = found(cloud, 0.3);
+  ASSERT_EQ(features.regions.size(), 1u);
+  EXPECT_GT(std::get<Plane>(features.regions[0].shape).normal.z(), 0.999);
+  EXPECT_GT(features.regions[0].points.size(), cloud.size() * 9 / 10);
 }
 
 }  // namespace
