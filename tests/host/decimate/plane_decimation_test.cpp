@@ -256,15 +256,14 @@ TEST(PlaneDecimation, PutsTheVerticesOfACanOnItsCylinderAndItsRims) {
 }
 
 TEST(PlaneDecimation, PutsVerticesOnASphereWhereItHolds) {
-  const TriangleMesh mesh = roughened(bumpy(24, 48), 0.002);
-  TriangleMesh ball = mesh;
-  for (Point& v : ball.vertices) v = v.normalized() * (1 + 0.1 * (v.norm() - 1));
+  TriangleMesh ball = bumpy(24, 48);
+  for (Point& v : ball.vertices) v = v.normalized() * (1 + 0.02 * (v.norm() - 1));
   DecimationSettings settings = with_shapes(ball, 0.05);
   ASSERT_EQ(settings.planes->curved.size(), 1u);
   const std::vector<Shape> shapes = settings.planes->shapes();
   const TriangleMesh result = decimated(ball, settings);
   expect_bounds_kept(result, ball, 0.05);
-  EXPECT_EQ(shapes_through(result, shapes)[0], 0u);
+  EXPECT_GE(10 * shapes_through(result, shapes)[1], 9 * result.vertices.size());
 }
 
 TEST(PlaneDecimation, HoldsItsBoundsWhereCurvedShapesDoNot) {
