@@ -1,5 +1,6 @@
 #include "host/chain/fill_holes_smoothly.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

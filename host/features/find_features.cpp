@@ -1,5 +1,6 @@
 #include "host/features/find_features.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

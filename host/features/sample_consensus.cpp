@@ -1,5 +1,6 @@
 #include "host/features/sample_consensus.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -285,13 +285,6 @@ TEST(PlaneDecimation, OnCurvedShapesIsTheSameForAnyNumberOfThreads) {
   EXPECT_TRUE(same_bytes(decimated(noisy.mesh, settings), one));
 }
 
-TEST(PlaneDecimationFault, ThatTakesTangentsIsSeen) {
-  const NoisyCan noisy;
-  const DeliberateFault fault(Fault::kTakesTangents);
-  const TriangleMesh result = decimated(noisy.mesh, noisy.settings);
-  EXPECT_LT(shapes_through(result, noisy.shapes)[2], result.vertices.size());
-}
-
 TEST(PlaneDecimationFault, ThatForgetsPlanesIsSeen) {
   const TriangleMesh mesh = roughened(cube(14), kRoughness);
   const DecimationSettings settings = with_planes(mesh);
