@@ -22,6 +22,7 @@ from synthesis.tools import FOLDER, Failure, Runner, run_command
 
 RTL = designs.RTL
 ECP5_BLOCKS = Path("testbench/netlists/ecp5_blocks.sv")
+NEXUS_CELLS = Path("testbench/netlists/nexus_cells.sv")
 # Remarks of Yosys that are no fault, each with its reason.
 PERMITTED = [
     r"Warning: Replacing memory \S+ with list of registers\.",  # a chain of registers in an array
@@ -139,7 +140,7 @@ def main():
     if sys.argv[1:] == ["--misread"]:
         prove(runner, "fp_add", {"LATENCY": 12}, "behavioural", designs.misread(FOLDER / "misread"))
         return 0
-    for family, more in {"behavioural": [], "ecp5": [ECP5_BLOCKS], "xilinx": []}.items():
+    for family, more in {"behavioural": [], "ecp5": [ECP5_BLOCKS], "nexus": [NEXUS_CELLS], "xilinx": []}.items():
         read_all(runner, family, more)
     with ThreadPoolExecutor(2) as pool:
         proven = list(pool.map(lambda proof: prove(runner, *proof), proofs()))

@@ -73,7 +73,7 @@ sources() {
   for file in hls/rtl/mutation.sv $(find hls/rtl -name '*.sv' | sort); do
     name=$(basename "$file")
     case $file in
-      hls/rtl/ecp5/* | hls/rtl/link/*) continue ;;
+      hls/rtl/ecp5/* | hls/rtl/nexus/* | hls/rtl/link/*) continue ;;
       hls/rtl/behavioural/*) [ ! -f "hls/rtl/xilinx/$name" ] || continue ;;
     esac
     echo "$file"

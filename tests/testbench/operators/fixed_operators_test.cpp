@@ -1,6 +1,7 @@
 // The fixed-point operators beside the arithmetic of hls/kernel/fixed.h: every pair of small
 // formats, drawn pairs of large ones, each latency, each family's multiplier, each mutant.
 #include <Vfixed_18_16_ecp5_rtl.h>
+#include <Vfixed_18_16_nexus_rtl.h>
 #include <Vfixed_18_16_rtl.h>
 #include <Vfixed_18_16_rtl___024root.h>
 #include <Vfixed_18_16_rtl_emax_mutation.h>
@@ -148,6 +149,7 @@ TEST(FixedOperators, DrawnPairsOfLargeFormats) {
 TEST(FixedOperators, EachFamilyGivesTheSame) {
   const auto pairs = drawn_fixed_pairs(18, 100000);
   EXPECT_EQ(differences_of_rtl<Vfixed_18_16_ecp5_rtl>(k18, pairs), 0);
+  EXPECT_EQ(differences_of_rtl<Vfixed_18_16_nexus_rtl>(k18, pairs), 0);
   EXPECT_EQ(differences_of_rtl<Vfixed_18_16_xilinx_rtl>(k18, pairs), 0);
   EXPECT_EQ(differences_of_rtl<Vfixed_24_20_ecp5_rtl>(k24, drawn_fixed_pairs(24, 100000)), 0);
 }
