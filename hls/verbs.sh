@@ -14,7 +14,7 @@ synthesis_tools() {
 }
 
 netlist_tools() {
-  python_packages "Yosys and nextpnr for WebAssembly (57 MB)" hls/boards/requirements.txt
+  python_packages "Yosys and nextpnr for WebAssembly (64 MB)" hls/boards/requirements.txt
 }
 
 verb_synth() {

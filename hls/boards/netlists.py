@@ -3,12 +3,13 @@
 NAME is KIND_FAMILY. KIND is operators, element, form_FORM, core, board1 or board2 (with 1 or 2 elements),
 filter1 or filter4.
 FAMILY is one of these:
-  ecp5, xc7, xcup   mapped to the family
+  ecp5, nexus, xc7, xcup   mapped to the family
   words             as the front end reads the sources, before anything is mapped
   mutated           with faults put in; their list is FOLDER/NAME.txt
   misread           unmapped, of sources with an expression that Yosys reads as another one
   routed            operators alone: as nextpnr places and routes them for ECP5
   misrouted         the same with one bit of a LUT turned
+  inverted          a filter alone: mapped to Nexus, with the entries of one LUT turned
 
 The operators of a family are four modules, fp_add_netlist and so on. A form is form_netlist, with its
 source in the same file. The other modules have the source's name.
@@ -24,6 +25,7 @@ from synthesis import designs, lowered, netlists, routed
 from synthesis.tools import FOLDER, Failure, Runner, run_command
 
 DATAPATH = designs.GENERATED / "emax_distance.sv"
+MAPPED = {"ecp5": netlists.ecp5, "nexus": netlists.nexus}
 MUTANTS, SEED = 500, 1
 OPERATORS = Path("testbench/operators/emax_operators.sv")
 BENCH = designs.Design("operators side by side", "emax_operators", 0, {"EXPONENT": 8}, more=[OPERATORS])
@@ -40,7 +42,9 @@ def netlist_of(runner, design, family):
         return netlists.words(runner, replace(design, name=f"{design.name}, misread", replaced=replaced))
     if family == "ecp5" and design.top in ["emax_core", "emax_ulx3s"]:
         return netlists.ecp5_top(runner, design)[-1]
-    return (netlists.ecp5(runner, design) if family == "ecp5" else netlists.xilinx(runner, design, family))[-1]
+    if family in MAPPED:
+        return MAPPED[family](runner, design)[-1]
+    return netlists.xilinx(runner, design, family)[-1]
 
 
 def text_of(runner, name):
@@ -55,6 +59,8 @@ def text_of(runner, name):
         if family == "misrouted":
             routed.turn_a_bit(module)
         return {".v": routed.verilog(module, BENCH.top)}
+    if family == "inverted":
+        return {".v": netlists.with_an_inverted_lut(text_of(runner, f"{kind}_nexus")[".v"])}
     if kind == "operators" and family != "misread":
         parts = [netlists.renamed(netlist_of(runner, design, family), f"{design.top}_netlist")
                  for design in designs.operators(DATAPATH, 0)]

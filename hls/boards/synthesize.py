@@ -1,6 +1,7 @@
 """`./dev synth`: synthesizes operators, the element, the filter and the forms of the distance with open tools.
 
-Yosys and nextpnr place and route for ECP5-85F; for 7-series and UltraScale+ Yosys maps and counts alone.
+Yosys and nextpnr place and route for ECP5-85F and the filter for Lattice Nexus; for 7-series and
+UltraScale+ Yosys maps and counts alone.
 Writes docs/synthesis.md and compares with the checked-in baseline.
 """
 
@@ -12,15 +13,17 @@ from pathlib import Path
 from synthesis import baseline, comparison, contracts, designs, document, lowered, netlists
 from synthesis.tools import FOLDER, Background, Failure, Runner, run_command
 
-SECTIONS = ["element", "forms", "operators", "filter", "xilinx"]  # the longest first
+# The sections, the longest first, and their families.
+SECTIONS = {"element": "ecp5", "forms": "ecp5", "operators": "ecp5", "filter": "ecp5", "nexus": "nexus", "xilinx": "xilinx"}
 FORM_FIGURES = ["multiplications", "additions", "latency", "delay_bits"]
 DATAPATH = designs.GENERATED / "emax_distance.sv"
 BASELINE = Path("hls/boards/synthesis_baseline.json")
 DOCUMENT = Path("docs/synthesis.md")
 TARGET = 175.0  # MHz, of the element and the forms
 OPERATOR_TARGET = 200.0  # in a crowded element an operator loses up to a seventh of its speed
+NEXUS_TARGET = 120.0  # MHz, the clock of the ULX3S
 # Minutes of one core for a section at one seed, from a run on a 2-core machine.
-EXPECTED = {"element": 9, "forms": 36, "operators": 5, "filter": 12, "xilinx": 6}
+EXPECTED = {"element": 9, "forms": 36, "operators": 5, "filter": 12, "nexus": 6, "xilinx": 6}
 SEED_MINUTES = 6
 FILTER_ELEMENTS = [1, 4]
 NEXTPNR = []
@@ -29,13 +32,15 @@ NEXTPNR = []
 class Ecp5:
     """Places and routes a design in its register shell with several seeds."""
 
+    family, make = "ecp5", staticmethod(netlists.ecp5)
+
     def __init__(self, runner, design, seeds, at_once):
         self.runner, self.design, self.seeds, self.at_once = runner, design, seeds, at_once
-        self.folder = f"ecp5/{netlists.slug(design.name)}"
+        self.folder = f"{self.family}/{netlists.slug(design.name)}"
 
     def run(self):
         design, runner = self.design, self.runner
-        netlist, cells, _ = netlists.ecp5(runner, design)
+        netlist, cells, _ = self.make(runner, design)
         # Seeds are judged in order, so that the result does not depend on how many run at once.
         tried = []
         for first in range(1, self.seeds + 1, self.at_once):
@@ -61,6 +66,26 @@ class Ecp5:
         return figures, detail
 
 
+class Nexus(Ecp5):
+    """The same for Lattice Nexus."""
+
+    family, make = "nexus", staticmethod(netlists.nexus)
+
+    def _route(self, netlist, cells, seed):
+        constraints = FOLDER / self.folder / "shell.pdc"
+        constraints.write_text(designs.nexus_constraints())
+        (report,) = self.runner.step(
+            "nextpnr-nexus", f"{self.design.name}, place and route with seed {seed}", f"{self.folder}/seed{seed}",
+            ["--device", designs.NEXUS_DEVICE, "--pdc", str(constraints), "--timing-allow-fail",
+             # The default, router2, of nextpnr 0.11.1 keeps a clock's way to its buffer from being routed.
+             "--router", "router1",
+             "--freq", f"{self.design.target:g}", "--seed", str(seed), "--json", str(netlist),
+             "--report", "{folder}/report.json"], [netlist, constraints], ["report.json"])
+        figures, detail = designs.nexus_figures(report, cells)
+        self.runner.say(f"{self.design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {self.design.target:g}")
+        return figures, detail
+
+
 def run_xilinx(runner, design, family):
     netlist, _ = netlists.xilinx(runner, design, family)
     figures, detail = designs.xilinx_figures(netlist)
@@ -75,9 +100,11 @@ def place_form(runner, form, target):
 def arguments():
     parser = argparse.ArgumentParser(
         prog="./dev synth", description="Synthesizes operators, element and forms with Yosys and nextpnr;"
-        " a full run writes docs/synthesis.md. Logs and results stay in build/synth, and what has not"
+        " a full run writes docs/synthesis.md, one of families their sections. Logs and results stay in build/synth, and what has not"
         " changed since is taken from there.")
     parser.add_argument("--only", choices=SECTIONS, action="append", help="this section alone; may be repeated")
+    parser.add_argument("--family", choices=sorted(set(SECTIONS.values())), action="append",
+                        help="the sections of this family alone; may be repeated")
     parser.add_argument("--seeds", type=int, default=6, metavar="N", help="at most N placements of the element (6)")
     parser.add_argument("--target", type=float, default=TARGET, metavar="MHZ",
                         help="of the element and the forms (175)")
@@ -91,8 +118,12 @@ def arguments():
         parser.error("--seeds, --jobs and --target must be positive")
     if options.quick:
         options.only, options.seeds = options.only or ["element", "operators"], 1
-    options.complete = not options.only and options.target == TARGET
-    options.only = [name for name in SECTIONS if name in (options.only or SECTIONS)]
+    options.all_of_family = bool(options.family) and not options.only and options.target == TARGET
+    options.complete = not options.only and not options.family and options.target == TARGET
+    options.only = [name for name, family in SECTIONS.items()
+                    if name in (options.only or SECTIONS) and family in (options.family or SECTIONS.values())]
+    if not options.only:
+        parser.error("no section of --only is of a --family that was given")
     return options
 
 
@@ -121,6 +152,9 @@ def measure(runner, options):
         for elements in FILTER_ELEMENTS:
             core = designs.filter_core(elements, options.target)
             start("filter", core.name, Ecp5(runner, core, 1, 1).run)
+    if "nexus" in options.only:
+        core = designs.filter_core(1, NEXUS_TARGET)
+        start("nexus", core.name, Nexus(runner, core, 1, 1).run)
     if "xilinx" in options.only:
         for family in netlists.FAMILIES:
             for design in [lowered.xilinx_element(options.target), *operators]:
@@ -146,6 +180,9 @@ def drive(runner, options):
         for elements in FILTER_ELEMENTS:
             core = designs.filter_core(elements, options.target)
             wanted[f"filter{elements}_ecp5"] = [(netlists.ecp5(runner, core)[-1], core.top)]
+    if "nexus" in options.only:
+        core = designs.filter_core(1, NEXUS_TARGET)
+        wanted["filter1_nexus"] = [(netlists.nexus(runner, core)[-1], core.top)]
     if "xilinx" in options.only:
         for family in netlists.FAMILIES:
             wanted[f"operators_{family}"] = [(netlists.xilinx(runner, o, family)[-1], f"{o.top}_netlist")
@@ -186,6 +223,22 @@ def plan(options):
     return f"{text}; together about {total} min, {options.jobs} at a time; what has not changed is not run again"
 
 
+def write_document(runner, options, results, driven):
+    """Writes the page after a full run, and after one of whole families their sections."""
+    before = DOCUMENT.read_text() if DOCUMENT.exists() else ""
+    if options.complete:
+        text = document.page(results, runner.versions, baseline.TOLERANCES, driven, document.board_of(before))
+    elif options.all_of_family:
+        text = document.with_sections(before, results, runner.versions, baseline.TOLERANCES, driven)
+    else:
+        return
+    if text is None:
+        runner.say(f"{DOCUMENT} is of other versions of the tools, and is left as it is; a full run writes it")
+        return
+    DOCUMENT.write_text(text)
+    runner.say(f"{DOCUMENT} written")
+
+
 def main():
     options = arguments()
     if options.plan:
@@ -198,11 +251,7 @@ def main():
     driven = drive(runner, options)
     print("\n" + document.tables(results))
     measured, versions = flat(results), runner.versions
-    if options.complete:
-        before = DOCUMENT.read_text() if DOCUMENT.exists() else ""
-        DOCUMENT.write_text(document.page(results, versions, baseline.TOLERANCES, driven,
-                                          document.board_of(before)))
-        runner.say(f"{DOCUMENT} written")
+    write_document(runner, options, results, driven)
     if options.update_baseline:
         baseline.write(BASELINE, versions, measured, options.complete)
         runner.say(f"{BASELINE} written")

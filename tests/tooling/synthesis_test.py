@@ -5,6 +5,7 @@ import argparse
 import io
 import json
 import os
+import re
 import sys
 import tempfile
 import time
@@ -15,6 +16,7 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
 import front_ends  # noqa: E402
+import synthesize  # noqa: E402
 from synthesis import baseline, comparison, contracts, designs, document, netlists, routed, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
@@ -212,8 +214,8 @@ class DesignTest(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
 
-    def file(self, content):
-        path = Path(self.folder.name) / "file"
+    def file(self, content, name="file"):
+        path = Path(self.folder.name) / name
         path.write_text(content if isinstance(content, str) else json.dumps(content))
         return path
 
@@ -282,6 +284,48 @@ class DesignTest(unittest.TestCase):
         log.write_text("")
         with self.assertRaises(tools.Failure):
             designs.ecp5_figures(self.file(report), log, cells)
+
+    def test_figures_of_nexus_leave_the_shell_out(self):
+        report = {"utilization": {"OXIDE_COMB": {"used": 140}, "OXIDE_FF": {"used": 220}, "OXIDE_EBR": {"used": 3}},
+                  "fmax": {"clk": {"achieved": 131.256, "constraint": 120}}, "critical_paths": []}
+        cells = {"modules": {"\\synthesis_shell": {"num_cells_by_type": {"LUT4": 10, "FD1P3IX": 20}},
+                             "\\d": {"num_cells_by_type": {"LUT4": 100, "MULT18X18": 4}},
+                             "\\e": {"num_cells_by_type": {"MULT18X18": 1}}}}
+        figures, detail = designs.nexus_figures(self.file(report), self.file(cells, "cells"))
+        self.assertEqual(figures, {"lut": 130, "ff": 200, "dsp": 5, "ram": 3, "fmax": 131.26})
+        self.assertEqual(detail, {"cells": 130, "path": None})
+
+    def test_yosys_infers_no_multipliers_for_nexus(self):
+        # It loses registers that two of them share (docs/decisions/0048-a-filter-on-nexus.md).
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(Path(__file__).resolve().parents[2])
+        design = designs.filter_core(1, 0)
+        self.assertIn(designs.RTL / "nexus/signed_multiply.sv", design.sources("nexus"))
+        self.assertIn(" -nodsp ", designs.nexus_script(design, Path("shell.v")))
+
+    def carry_chain(self, **first):
+        """A netlist for Nexus with a chain of two cells, the first with these connections or entries."""
+        carry = lambda entries, **pins: {"type": "CCU2", "parameters": {"INIT0": entries, "INIT1": "0x00AA"}, "connections": pins}
+        entries = first.pop("INIT0", "0xFFFF")
+        cells = {"low": {"type": "VLO", "connections": {"Z": [7]}}, "high": {"type": "VHI", "connections": {"Z": [6]}},
+                 "first": carry(entries, **{"CIN": [7], "D1": [6], "S0": [4], "S1": [5], "COUT": [8], **first}),
+                 "second": carry("0x96AA", CIN=[8], D1=[6], S0=[9], COUT=[]), "read": {"type": "LUT4", "connections": {"A": [9]}},
+                 "free": carry("0x96AA", CIN=[], D1=[6])}
+        return json.dumps({"modules": {"m": {"cells": cells}}})
+
+    def test_first_cells_of_a_carry_chain_have_no_carry_in(self):
+        cells = json.loads(netlists.without_first_carries(self.carry_chain()))["modules"]["m"]["cells"]
+        self.assertEqual([cells[name]["connections"]["CIN"] for name in ("first", "second", "free")], [[], [8], []])
+
+    def test_a_first_cell_that_its_carry_in_matters_to_is_refused(self):
+        for first in [{"INIT0": "0x96AA"}, {"D1": [7]}, {"S0": [9]}]:
+            with self.subTest(first), self.assertRaisesRegex(tools.Failure, "first: a carry cell of another kind"):
+                netlists.without_first_carries(self.carry_chain(**first))
+
+    def test_one_lut_is_inverted(self):
+        lut = lambda entries: f'  LUT4 #(\n    .INIT("0x{entries}")\n  ) x (.A(a));\n'
+        self.assertEqual(netlists.with_an_inverted_lut(lut("0001") + lut("0a0f") + lut("0003")),
+                         lut("0001") + lut("f5f0") + lut("0003"))
 
     def test_dsp_blocks_without_inner_registers_are_seen(self):
         dsp = lambda **registers: {"type": "DSP48E1", "parameters": {k: f"{v:032b}" for k, v in registers.items()}}
@@ -374,7 +418,60 @@ endmodule
         self.assertEqual(self.module["cells"]["lut"]["parameters"]["INITVAL"], "0101010101010100")
 
 
+class FamilyTest(unittest.TestCase):
+    def options(self, *arguments):
+        with mock.patch.object(sys, "argv", ["synth", *arguments]), mock.patch("sys.stderr", io.StringIO()):
+            return synthesize.arguments()
+
+    def test_a_family_is_its_sections(self):
+        self.assertEqual(self.options("--family", "nexus").only, ["nexus"])
+        self.assertEqual(self.options("--family", "ecp5", "--only", "filter", "--only", "nexus").only, ["filter"])
+        self.assertEqual(self.options().only, list(synthesize.SECTIONS))
+        for wrong in [("--family", "none"), ("--family", "nexus", "--only", "filter")]:
+            with self.assertRaises(SystemExit):
+                self.options(*wrong)
+
+    def test_only_whole_families_at_their_target_are_written(self):
+        whole = lambda *arguments: (self.options(*arguments).complete, self.options(*arguments).all_of_family)
+        self.assertEqual(whole(), (True, False))
+        self.assertEqual(whole("--family", "nexus"), (False, True))
+        for part in [("--quick",), ("--only", "nexus"), ("--family", "ecp5", "--target", "100"), ("--family", "ecp5", "--quick")]:
+            self.assertEqual(whole(*part), (False, False), part)
+
+    def test_nextpnr_has_one_version_for_all_families(self):
+        text = (Path(designs.__file__).parents[1] / "requirements.txt").read_text()
+        versions = re.findall(r"^yowasp-nextpnr-(\w+)==(\S+)", text, re.MULTILINE)
+        self.assertEqual([family for family, _ in versions], ["ecp5", "nexus"])
+        self.assertEqual(len({version for _, version in versions}), 1)
+
+
 class DocumentTest(unittest.TestCase):
+    RESULT = {"figures": FIGURES["element: e"], "cells": 1100, "target": 175.0, "seed": 1, "tried": {"1": 175.0}, "path": None}
+
+    def page(self, results, driven):
+        with mock.patch.object(document, "SECTIONS", {"filter": ("Filter", "A note."), "nexus": ("Nexus", "Another.")}):
+            return document.page(results, {"yosys": "1"}, {"lut": (0.03, True)}, driven, f"{document.BOARD_TITLE}\n\nboard\n")
+
+    def with_sections(self, page, results, driven, version="1"):
+        with mock.patch.object(document, "SECTIONS", {"filter": ("Filter", "A note."), "nexus": ("Nexus", "Another.")}):
+            return document.with_sections(page, results, {"yosys": version}, {"lut": (0.03, True)}, driven)
+
+    def test_sections_are_written_in_their_place(self):
+        results = {"filter": {"f": self.RESULT}, "nexus": {"n": self.RESULT}}
+        driven = {"f_ecp5": "netlist: 3 results", "n_nexus": "netlist: 12 results"}
+        page = self.page(results, driven)
+        self.assertEqual(self.with_sections(page, {}, {}), page)
+        slower = {**results, "nexus": {"n": {**self.RESULT, "target": 176.0}}}
+        again = {**driven, "n_nexus": "netlist: 4 results"}
+        self.assertEqual(self.with_sections(page, {"nexus": slower["nexus"]}, {"n_nexus": "netlist: 4 results"}),
+                         self.page(slower, again))
+        without = page.replace(page[page.index("## Filter"):page.index("## Nexus")], "")
+        self.assertEqual(self.with_sections(without, {"filter": results["filter"]}, {}), page)
+
+    def test_sections_of_other_versions_are_not_put_together(self):
+        page = self.page({"filter": {"f": self.RESULT}, "nexus": {"n": self.RESULT}}, {"f_ecp5": "netlist: 3 results"})
+        self.assertIsNone(self.with_sections(page, {"nexus": {"n": self.RESULT}}, {}, "10"))
+
     def test_a_missed_target_is_written_as_such(self):
         result = {"figures": FIGURES["element: e"], "cells": 1100, "target": 176.0, "seed": 2, "tried": {"1": 170.0, "2": 175.0},
                   "path": {"from": "a", "to": "b", "logic": 1.0, "routing": 2.0, "levels": 3}}

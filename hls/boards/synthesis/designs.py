@@ -184,14 +184,35 @@ def _ecp5_mapping(top, options):
             f"{synthesis} -run map_ffs:; ")
 
 
-def ecp5_script(design, shell_path, options):
-    """The design in its shell for ECP5. It is mapped with its boundary kept, counted, and then
-    dissolved into the shell for placement."""
-    return (f"{_read(design, 'ecp5')} {shell_path}; {_ecp5_mapping('synthesis_shell', options)}"
+def _in_shell(design, shell_path, family, mapping):
+    """The design in its shell. It is mapped with its boundary kept, counted, and then dissolved into the
+    shell for placement."""
+    return (f"{_read(design, family)} {shell_path}; {mapping}"
             "tee -q -o {folder}/cells.json stat -json; "
             f"{_write_verilog('select c:design %M; ')}"
             "setattr -unset keep_hierarchy c:design; flatten; opt_clean; "
             "write_json {folder}/netlist.json")
+
+
+def ecp5_script(design, shell_path, options):
+    """The design in its shell for ECP5."""
+    return _in_shell(design, shell_path, "ecp5", _ecp5_mapping("synthesis_shell", options))
+
+
+def nexus_script(design, shell_path):
+    """The design in its shell for Lattice Nexus. Yosys 0.70 would lose a register that two multipliers share
+    (docs/decisions/0048-a-filter-on-nexus.md); with -nodsp it leaves alone those that the mapping names."""
+    return _in_shell(design, shell_path, "nexus", "synth_nexus -family lifcl -nodsp -top synthesis_shell; ")
+
+
+NEXUS_DEVICE = "LIFCL-40-9BG400C"
+# nextpnr wants a place for every pin of a Nexus.
+NEXUS_PINS = {"clk": "L13", "capture": "G14", "serial_in": "G15", "serial_out": "E17"}
+
+
+def nexus_constraints():
+    return "".join(f"ldc_set_location -site {{{site}}} [get_ports {pin}]\n"
+                   f"ldc_set_port -iobuf {{IO_TYPE=LVCMOS33}} [get_ports {pin}]\n" for pin, site in NEXUS_PINS.items())
 
 
 def _read_with_parameters(design, family):
@@ -284,6 +305,24 @@ def ecp5_figures(report, log, cells):
     return figures, {"cells": used["TRELLIS_COMB"] - shell_cells.get("LUT4", 0), "path": path}
 
 
+def nexus_figures(report, cells):
+    """As ecp5_figures; the multipliers are those of Yosys's count."""
+    report = json.loads(report.read_text())
+    used = {kind: counts["used"] for kind, counts in report["utilization"].items()}
+    counted = {name: m["num_cells_by_type"] for name, m in json.loads(cells.read_text())["modules"].items()}
+    shell = counted.pop("\\synthesis_shell")
+    of_shell = lambda *kinds: sum(shell.get(kind, 0) for kind in kinds)
+    clock = max(report["fmax"], key=lambda name: report["fmax"][name]["constraint"])
+    figures = {
+        "lut": used["OXIDE_COMB"] - of_shell("LUT4"),
+        "ff": used["OXIDE_FF"] - of_shell("FD1P3IX", "FD1P3DX"),
+        "dsp": sum(kinds.get("MULT18X18", 0) for kinds in counted.values()),
+        "ram": used.get("OXIDE_EBR", 0),
+        "fmax": round(report["fmax"][clock]["achieved"], 2),
+    }
+    return figures, {"cells": figures["lut"], "path": _critical_path(report, clock)}
+
+
 def board_figures(report, log):
     """Figures of a whole device, its critical path, and the used and available cells of each kind."""
     report, used, figures, path = _placed(report, log)
@@ -307,5 +346,5 @@ def _critical_path(report, clock):
 
 def readable(cell):
     """The source's name in a cell's name: design.a.b in "design.a.b_TRELLIS_FF_Q_3_DI_LUT4_Z"."""
-    return re.sub(r"_(TRELLIS|LUT4|CCU2C|PFUMX|L6MUX|MULT18|DPR16|L7MUX|DP16)\w*(\$\w+)?.*$", "",
+    return re.sub(r"_(TRELLIS|LUT4|CCU2|PFUMX|L6MUX|MULT18|DPR16|L7MUX|DP16|FD1P3|WIDEFN9|PDPSC16)\w*(\$\w+)?.*$", "",
                   cell).removeprefix("design.")

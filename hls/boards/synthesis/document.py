@@ -1,11 +1,13 @@
 """The tables of a run, and docs/synthesis.md around them."""
 
+import re
+
 INTRODUCTION = """# Synthesis
 
 Written by `./dev synth`; never edit. Tools: {tools}.
 
-Measured: for ECP5 Yosys maps every design below, and nextpnr places and routes it. The clock is nextpnr's
-static timing over the worst corner of speed grade 6. Each design sits in a shell of serial shift
+Measured: for ECP5 and Nexus Yosys maps a design, and nextpnr places and routes it. The clock is nextpnr's
+static timing, for ECP5 over the worst corner of speed grade 6. Each design sits in a shell of serial shift
 registers, so that pins do not limit it; the shell's cells are subtracted. For 7-series and UltraScale+
 Yosys maps and counts; nothing is placed, so there is no clock.
 
@@ -33,6 +35,10 @@ SECTIONS = {
               "Datapath and record memory of each form alone, with the same lowering and the same operators; one seed."),
     "filter": ("The filtering core on ECP5-85F, speed 6",
                "filter_core: decoder, memories of 1,024 points, elements with 16 record slots, answers; one seed."),
+    "nexus": ("The filtering core on Lattice Nexus",
+              "filter_core on an LIFCL-40, speed 9, the largest Nexus of which nextpnr 0.11.1 has the data. LUT and"
+              " cells are nextpnr's OXIDE_COMB, DSP is MULT18X18, of which the device has 56, one fewer than the exact"
+              " element needs; one seed."),
     "xilinx": ("7-series and UltraScale+, counted by Yosys",
                "\"product\" counts the DSP blocks in which Yosys placed a register behind the multiplier (MREG or PREG),"
                " \"inputs\" those with registers at both inputs (AREG and BREG). The other registers are outside the block."),
@@ -99,7 +105,8 @@ def tables(results):
                        for section, subjects in results.items())
 
 
-DRIVEN = """## What was driven
+DRIVEN_TITLE = "## What was driven"
+DRIVEN = DRIVEN_TITLE + """
 
 A netlist is what Yosys made of the sources; it is the one that was placed or counted. Before this page was
 written these netlists were simulated with the stimuli of the sources' co-simulation:
@@ -110,18 +117,51 @@ These designs were not simulated as nextpnr routes them.
 """
 
 
+def _introduction(versions, tolerances):
+    limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
+    return INTRODUCTION.format(tools=_tools(versions), tolerances=limits)
+
+
+def _tools(versions):
+    return ", ".join(f"{tool} {version}" for tool, version in versions.items())
+
+
+def _section(name, subjects):
+    title, note = SECTIONS[name]
+    return f"## {title}\n\n{note}\n\n{section_table(name, subjects)}\n"
+
+
+def _verdicts(driven):
+    return {", ".join(name.removeprefix("form_").rsplit("_", 1)): verdict.removeprefix("netlist: ")
+            for name, verdict in driven.items()}
+
+
+def _driven_section(verdicts):
+    return DRIVEN.format(table=table(["netlist", "compared"], verdicts.items()))
+
+
 def page(results, versions, tolerances, driven, board=""):
     """The whole page. `driven` is the verdict on each netlist that was driven, `board` a board_section or
     nothing."""
-    limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
-    parts = [INTRODUCTION.format(tools=", ".join(f"{tool} {version}" for tool, version in versions.items()),
-                                 tolerances=limits)]
-    for section, (title, note) in SECTIONS.items():
-        parts.append(f"## {title}\n\n{note}\n\n{section_table(section, results[section])}\n")
-    rows = [[", ".join(name.removeprefix("form_").rsplit("_", 1)), verdict.removeprefix("netlist: ")]
-            for name, verdict in driven.items()]
-    parts.append(DRIVEN.format(table=table(["netlist", "compared"], rows)))
+    parts = [_introduction(versions, tolerances), *(_section(name, results[name]) for name in SECTIONS),
+             _driven_section(_verdicts(driven))]
     return with_board("\n".join(parts), board)
+
+
+def with_sections(before, results, versions, tolerances, driven):
+    """The page with these sections anew and their netlists among those driven, or None where the page is of
+    other versions of the tools."""
+    head, *parts = re.split(r"^(?=## )", before, flags=re.MULTILINE)
+    if f"Tools: {_tools(versions)}." not in head:
+        return None
+    titled = {part.partition("\n")[0]: part.rstrip("\n") + "\n" for part in parts}
+    verdicts = dict(re.findall(r"^\| (\S.*?) +\| (\S.*?) +\|$", titled[DRIVEN_TITLE], flags=re.MULTILINE))
+    verdicts.pop("netlist")
+    verdicts.update(_verdicts(driven))
+    titled[DRIVEN_TITLE] = _driven_section(verdicts)
+    titled.update({f"## {SECTIONS[name][0]}": _section(name, subjects) for name, subjects in results.items()})
+    order = [*(f"## {title}" for title, _ in SECTIONS.values()), DRIVEN_TITLE, BOARD_TITLE]
+    return "\n".join([_introduction(versions, tolerances), *(titled[title] for title in order if title in titled)])
 
 
 BOARD_TITLE = "## The bitstream for ULX3S"
@@ -133,12 +173,11 @@ def board_section(result, versions):
     verdict = "met" if figures["fmax"] >= result["target"] else "missed"
     rows = [[name, f"{used:,}", f"{there:,}", f"{used / there:.0%}"]
             for name, (used, there) in {"LUT": (figures["lut"], LUTS), **result["utilisation"]}.items()]
-    tools = ", ".join(f"{tool} {version}" for tool, version in versions.items())
     return "\n\n".join([
         BOARD_TITLE,
         "Written by `./dev bitstream ulx3s`; never edit. The whole design, UART, link and core"
         f" (elements: {result['elements']}) on ECP5-85F, speed 6, placed and routed with the board's pins; not yet run on a"
-        f" board. Tools: {tools}.",
+        f" board. Tools: {_tools(versions)}.",
         "Simulated in lockstep with its source before it was written: "
         + "; ".join(f"as {stage}, {verdict}" for stage, verdict in result["driven"].items()) + ".",
         f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}"

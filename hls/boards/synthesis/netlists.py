@@ -4,10 +4,12 @@ Every placement, count and simulation takes its netlist from here, so that the n
 the one that is placed or counted.
 """
 
+import json
 import re
+from collections import Counter
 
 from . import designs
-from .tools import FOLDER
+from .tools import FOLDER, Failure
 
 # The ECP5 mapping names its DSP blocks itself; without the option Yosys would give small products blocks
 # without registers (docs/decisions/0006-synthesis-options.md).
@@ -36,6 +38,51 @@ def ecp5(runner, design):
     return runner.step("yosys", f"{design.name}, synthesis for ECP5", f"{folder}/yosys",
                        ["-p", designs.ecp5_script(design, shell, ECP5_OPTIONS)], [*design.inputs("ecp5"), shell],
                        ["netlist.json", "cells.json", "netlist.v"])
+
+
+# The LUTs of the cell in which Yosys begins a carry chain: the second one, whose D is high, gives A to COUT.
+FIRST_CARRY = {"INIT0": "0xFFFF", "INIT1": "0x00AA"}
+
+
+def without_first_carries(text):
+    """A netlist for Nexus in JSON without the constants that Yosys gives to the carry inputs of first cells. These
+    cells ignore them, and nextpnr 0.11.1 refuses them. Raises Failure where a cell would not ignore one."""
+    netlist = json.loads(text)
+    for module in netlist["modules"].values():
+        cells = module["cells"]
+        nets = lambda kind: {net for cell in cells.values() if cell["type"] == kind for net in cell["connections"]["Z"]}
+        low, high = nets("VLO"), nets("VHI")
+        ends = Counter(net for cell in cells.values() for bits in cell["connections"].values() for net in bits)
+        for name, cell in cells.items():
+            pins = cell["connections"]
+            if cell["type"] != "CCU2" or not low.intersection(pins["CIN"]):
+                continue
+            sums = [net for pin in ("S0", "S1") for net in pins.get(pin, [])]
+            if (any(cell["parameters"].get(lut) != entries for lut, entries in FIRST_CARRY.items())
+                    or not high.issuperset(pins["D1"]) or any(ends[net] > 1 for net in sums)):
+                raise Failure(f"{name}: a carry cell of another kind than those that ignore a constant CIN;"
+                              " netlists.without_first_carries has to learn it")
+            pins["CIN"] = []
+    return json.dumps(netlist)
+
+
+def with_an_inverted_lut(text):
+    """A netlist for Nexus in Verilog with the entries of one LUT turned: the one in the middle of the text."""
+    luts = list(re.finditer(r'LUT4 #\(\s*\.INIT\("0x([0-9a-fA-F]{4})"\)', text))
+    entries = luts[len(luts) // 2]
+    return text[:entries.start(1)] + f"{0xffff ^ int(entries[1], 16):04x}" + text[entries.end(1):]
+
+
+def nexus(runner, design):
+    """As ecp5, for Lattice Nexus."""
+    folder = f"nexus/{slug(design.name)}"
+    shell = with_ports(runner, design, "nexus", folder, designs.shell)
+    made, cells, netlist = runner.step("yosys", f"{design.name}, synthesis for Nexus", f"{folder}/yosys",
+                                       ["-p", designs.nexus_script(design, shell)], [*design.inputs("nexus"), shell],
+                                       ["netlist.json", "cells.json", "netlist.v"])
+    placed = FOLDER / folder / "placed.json"
+    write(placed, without_first_carries(made.read_text()))
+    return placed, cells, netlist
 
 
 def ecp5_top(runner, design):

