@@ -1,6 +1,6 @@
 """`./dev bitstream`: a board's bitstream with Yosys, nextpnr and ecppack.
 
-Tries seeds of the placement in order until the clock is met, and writes the bitstream to
+Tries seeds of the placement in order until the clock is met (120 MHz, or a slower one that is asked for), and writes the bitstream to
 build/bitstream and its figures into docs/synthesis.md. It writes no bitstream that misses its clock,
 and none of a design that differed from its source in simulation, as Yosys synthesized it or as nextpnr
 routed it.
@@ -18,8 +18,7 @@ from synthesis.tools import Background, Failure, Runner, TookTooLong, run_comman
 FOLDER = Path("build/bitstream")
 DOCUMENT = Path("docs/synthesis.md")
 CONSTRAINTS = designs.ULX3S / "ulx3s.lpf"
-TARGET = 120.0  # MHz: what the PLL of ulx3s_clock.sv gives
-# With this seed two elements meet the clock with the pinned tools (docs/decisions/0007).
+# With this seed two elements meet 120 MHz with the pinned tools (docs/decisions/0007).
 FIRST_SEED = 2
 # Minutes of one core, with two elements on a 2-core machine.
 SYNTHESIS_MINUTES, LOCKSTEP_MINUTES, SEED_MINUTES = 3, 13, 17
@@ -37,17 +36,18 @@ def placement(netlist, seed, target, placer="static"):
 
 
 def build(runner, options, results):
-    design = designs.ulx3s(options.elements, TARGET)
-    folder = f"ulx3s/{options.elements}"
+    design = designs.ulx3s(options.elements, options.clock)
+    name = f"{options.elements}" + (f"at{options.clock}" if options.clock != designs.ULX3S_CLOCK else "")
+    folder = f"ulx3s/{name}"
     netlist, text = netlists.ecp5_top(runner, design)
-    driven = {"synthesized": drive(runner, f"board{options.elements}_ecp5", netlists.renamed(text, design.top))}
+    driven = {"synthesized": drive(runner, f"board{name}_ecp5", netlists.renamed(text, design.top))}
 
     def route(seed):
         """Figures of the placement with this seed; None if it was not routed within the limit."""
         try:
             report, log, placed, design_routed = runner.step(
                 "nextpnr", f"{design.name}, place and route with seed {seed}", f"{folder}/seed{seed}",
-                [*placement(netlist, seed, TARGET), "--textcfg", "{folder}/placed.config",
+                [*placement(netlist, seed, options.clock), "--textcfg", "{folder}/placed.config",
                  "--report", "{folder}/report.json", "--write", "{folder}/routed.json"],
                 [netlist, CONSTRAINTS], ["report.json", "nextpnr.log", "placed.config", "routed.json"],
                 60 * options.limit)
@@ -55,21 +55,21 @@ def build(runner, options, results):
             runner.say(f"{failure}; the router may never end with this placement")
             return None
         figures, detail = designs.board_figures(report, log)
-        runner.say(f"{design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {TARGET:g}")
+        runner.say(f"{design.name}, seed {seed}: {figures['fmax']:.1f} MHz of {options.clock}")
         return {"figures": figures, **detail, "seed": seed, "placed": placed, "routed": design_routed}
 
     seeds = range(options.first_seed, options.first_seed + options.seeds)
-    tried = first_that_meets(route, seeds, options.jobs, TARGET)
+    tried = first_that_meets(route, seeds, options.jobs, options.clock)
     if not any(tried):
         raise Failure(f"no placement was routed within {options.limit} min: try more --seeds or a greater --limit")
     best = max(filter(None, tried), key=lambda result: result["figures"]["fmax"])
-    best.update(elements=options.elements, target=TARGET, driven=driven,
+    best.update(elements=options.elements, target=options.clock, driven=driven,
                 tried={str(seed): result and result["figures"]["fmax"]
                        for seed, result in zip(seeds, tried)})
-    if best["figures"]["fmax"] >= TARGET:
+    if best["figures"]["fmax"] >= options.clock:
         text = routed.verilog(routed.read(best["routed"]), design.top)
         netlists.write(tools.FOLDER / folder / "routed.v", text)
-        driven["routed"] = drive(runner, f"board{options.elements}_routed", text)
+        driven["routed"] = drive(runner, f"board{name}_routed", text)
         (best["bitstream"],) = runner.step(
             "ecppack", f"{design.name}, bitstream", f"{folder}/bitstream",
             ["--compress", "--input", str(best["placed"]), "--bit", "{folder}/ulx3s.bit"], [best["placed"]],
@@ -109,6 +109,8 @@ def arguments():
         " changed since is taken from there.")
     parser.add_argument("board", choices=["ulx3s"], help="ULX3S with an ECP5-85F")
     parser.add_argument("--elements", type=int, default=1, metavar="N", help="exact elements, beside four of the filter (1)")
+    parser.add_argument("--clock", type=int, choices=[90, 105, 120], default=designs.ULX3S_CLOCK, metavar="MHZ",
+                        help=f"the board's clock, 90, 105 or 120 ({designs.ULX3S_CLOCK})")
     parser.add_argument("--seeds", type=int, default=8, metavar="N", help="at most N placements (8)")
     parser.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="S", help=f"and the seed of the first ({FIRST_SEED})")
     parser.add_argument("--limit", type=int, default=SEED_LIMIT, metavar="MIN", help="minutes after which a placement that is"
@@ -148,7 +150,7 @@ def main():
     if "bitstream" not in result:
         target.unlink(missing_ok=True)
         raise Failure(f"no bitstream: {result['figures']['fmax']:.1f} MHz is the best of {len(result['tried'])} seeds,"
-                      f" and the board's clock is {TARGET:g} MHz; try more --seeds or fewer --elements")
+                      f" and the board's clock is {options.clock} MHz; try more --seeds or a slower --clock")
     FOLDER.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(result["bitstream"], target)
     DOCUMENT.write_text(document.with_board(DOCUMENT.read_text(), document.board_section(result, runner.versions)))

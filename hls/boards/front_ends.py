@@ -123,7 +123,7 @@ def prove(runner, top, parameters, family, replaced={}):
 
 def read_all(runner, family, more):
     """Reads the whole board of a family with slang. Yosys's own front end reads it for every netlist."""
-    design = designs.ulx3s(2, 0)
+    design = designs.ulx3s(2)
     files = [path for path in design.sources(family) if path.parent != designs.ULX3S]
     files += [designs.ULX3S / "emax_ulx3s.sv", designs.ULX3S / "behavioural/ulx3s_clock.sv", *more]
     runner.step("yosys", f"the board, {family}, read by slang", f"front_ends/board_{family}",

@@ -1,7 +1,7 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
 NAME is KIND_FAMILY. KIND is operators, element, form_FORM, core, board1 or board2 (with 1 or 2 elements),
-filter1 or filter4.
+board1at105 (with another clock in MHz), filter1 or filter4.
 FAMILY is one of these:
   ecp5, nexus, xc7, xcup   mapped to the family
   words             as the front end reads the sources, before anything is mapped
@@ -17,6 +17,7 @@ source in the same file. The other modules have the source's name.
 
 import fcntl
 import io
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -71,8 +72,12 @@ def text_of(runner, name):
                                  netlists.renamed(netlist_of(runner, design, family), "form_netlist")])}
     if kind == "element" and family in netlists.FAMILIES:
         return {".v": netlists.renamed(netlist_of(runner, lowered.xilinx_element(0), family), "emax_element")}
-    design = {"operators": BENCH, "core": designs.core(1), "element": designs.element(0), "board1": designs.ulx3s(1, 0),
-              "board2": designs.ulx3s(2, 0), "filter1": designs.filter_core(1, 0), "filter4": designs.filter_core(4, 0)}[kind]
+    board = re.fullmatch(r"board(\d)(?:at(\d+))?", kind)
+    if board:
+        design = designs.ulx3s(int(board[1]), int(board[2] or designs.ULX3S_CLOCK))
+    else:
+        design = {"operators": BENCH, "core": designs.core(1), "element": designs.element(0),
+                  "filter1": designs.filter_core(1, 0), "filter4": designs.filter_core(4, 0)}[kind]
     return {".v": netlists.renamed(netlist_of(runner, design, family), design.top)}
 
 

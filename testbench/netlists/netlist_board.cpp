@@ -12,7 +12,7 @@
 namespace emax {
 namespace {
 
-constexpr int kClocksPerBit = 40;            // of the design as it is built
+constexpr int kClocksPerBit = EMAX_CLOCKS_PER_BIT;
 constexpr std::uint64_t kResetCycles = 256;  // within which the netlist must leave its reset
 
 class LockstepBoard : public BoardSimulation {

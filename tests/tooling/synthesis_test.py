@@ -500,7 +500,7 @@ class DocumentTest(unittest.TestCase):
 
 
 class BitstreamTest(unittest.TestCase):
-    def steps(self, fmax, refused=None):
+    def steps(self, fmax, refused=None, clock=120):
         """What is done for a bitstream, of tools and netlists driven, where that netlist is refused."""
         done = []
 
@@ -517,7 +517,7 @@ class BitstreamTest(unittest.TestCase):
                 raise tools.Failure(f"{name} is refused")
             return "driven"
 
-        options = argparse.Namespace(elements=1, first_seed=1, seeds=1, limit=1, jobs=1)
+        options = argparse.Namespace(elements=1, clock=clock, first_seed=1, seeds=1, limit=1, jobs=1)
         with (mock.patch.object(bitstream.netlists, "renamed"), mock.patch.object(bitstream.netlists, "write"),
               mock.patch.object(bitstream.comparison, "drive", drive), mock.patch.object(bitstream.comparison, "holds"),
               mock.patch.object(bitstream, "routed"),
@@ -536,6 +536,11 @@ class BitstreamTest(unittest.TestCase):
         self.assertEqual(self.steps(130.0, "board1_routed"),
                          ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "refused"])
         self.assertEqual(self.steps(110.0), ["yosys", "board1_ecp5", "nextpnr"])
+
+    def test_a_slower_clock_is_that_of_what_is_driven(self):
+        self.assertEqual(self.steps(110.0, clock=105), ["yosys", "board1at105_ecp5", "nextpnr", "board1at105_routed", "ecppack"])
+        self.assertEqual(self.steps(100.0, clock=105), ["yosys", "board1at105_ecp5", "nextpnr"])
+        self.assertEqual(designs.ulx3s(1, 105).parameters, {"NUM_PE": 1, "CLOCK_MHZ": 105})
 
     def tried(self, clocks, at_once, target=120.0):
         route = lambda seed: {"seed": seed, "figures": {"fmax": clocks[seed - 1]}}

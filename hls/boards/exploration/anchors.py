@@ -69,7 +69,7 @@ def placed(path, versions, pipelines):
 def mapped(runner, pipelines):
     """The anchors that Yosys maps and that are counted."""
     exact, filtering = pipelines(EXACT), pipelines(FILTER)
-    core, board = designs.core(1), designs.ulx3s(1, 0)
+    core, board = designs.core(1), designs.ulx3s(1)
     return [
         Anchor(f"{core.name}, counted", ((exact, 1),), parts(exact=1, cores=1, record_bits=exact.record_bits),
                counted(netlists.ecp5_top(runner, core)[0])),

@@ -90,11 +90,14 @@ def filter_core(elements, target):
     return Design(f"filter_core, elements: {elements}", "filter_core", target, {"NUM_PE": elements}, more=more)
 
 
-def ulx3s(elements, target):
-    """The whole board, its clock and pins included."""
+ULX3S_CLOCK = 120  # MHz
+
+
+def ulx3s(elements, clock=ULX3S_CLOCK):
+    """The whole board, its pins included, with a clock of so many MHz, a multiple of 15."""
     folders = [*(RTL / name for name in ("core", "link", "board")), *FILTER]
     more = [path for folder in folders for path in sorted(folder.glob("*.sv"))]
-    return Design(f"ULX3S, elements: {elements}", "emax_ulx3s", target, {"NUM_PE": elements},
+    return Design(f"ULX3S at {clock} MHz, elements: {elements}", "emax_ulx3s", clock, {"NUM_PE": elements, "CLOCK_MHZ": clock},
                   more=[*more, *sorted(ULX3S.glob("*.sv"))])
 
 

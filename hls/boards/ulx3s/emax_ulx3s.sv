@@ -1,11 +1,12 @@
 // The ULX3S: clock, reset and pins around emax_board. The USB serial port runs at
-// 120 MHz / CLOCKS_PER_BIT, 3 Mbaud. Lamps from the left: running, three that are off, core at work,
+// CLOCK_MHZ / CLOCKS_PER_BIT, 3 Mbaud. Lamps from the left: running, three that are off, core at work,
 // session known, bytes to the host, bytes from the host. The FIRE1 button is a reset.
 module emax_ulx3s #(
     parameter int NUM_PE = 1,
     parameter int FILTER_PE = 4,
     parameter int STORE_BITS = 14,
-    parameter int CLOCKS_PER_BIT = 40
+    parameter int CLOCK_MHZ = 120,  // see ulx3s_clock
+    parameter int CLOCKS_PER_BIT = CLOCK_MHZ / 3
 ) (
     input  logic       clk_25mhz,
     input  logic       reset_button,
@@ -14,12 +15,10 @@ module emax_ulx3s #(
     output logic [7:0] led,
     output logic       wifi_gpio0
 );
-  localparam int CLOCK_KHZ = 120_000;
-
   logic clk, locked, runs_first, runs, aresetn;
   logic [3:0] settling, activity;
 
-  ulx3s_clock clock (.clk_25mhz, .clk, .locked);
+  ulx3s_clock #(.MHZ(CLOCK_MHZ)) clock (.clk_25mhz, .clk, .locked);
 
   always_ff @(posedge clk) begin
     runs_first <= locked && !reset_button;
@@ -29,7 +28,7 @@ module emax_ulx3s #(
   end
 
   emax_board #(.NUM_PE(NUM_PE), .FILTER_PE(FILTER_PE), .STORE_BITS(STORE_BITS),
-      .CLOCK_KHZ(CLOCK_KHZ), .CLOCKS_PER_BIT(CLOCKS_PER_BIT)) board (
+      .CLOCK_KHZ(1000 * CLOCK_MHZ), .CLOCKS_PER_BIT(CLOCKS_PER_BIT)) board (
       .clk, .aresetn, .uart_rxd(ftdi_txd), .uart_txd(ftdi_rxd), .activity);
 
   assign led = {aresetn, 3'b0, activity};

@@ -1,5 +1,7 @@
-// ../ulx3s_clock.sv for simulation: the oscillator's clock is taken for that of 120 MHz.
-module ulx3s_clock (
+// ../ulx3s_clock.sv for simulation: the oscillator's clock is taken for that of MHZ.
+module ulx3s_clock #(
+    parameter int MHZ = 120
+) (
     input  logic clk_25mhz,
     output logic clk,
     output logic locked
