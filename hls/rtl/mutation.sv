@@ -103,6 +103,7 @@ package emax_mutation;
   localparam int LINK_SILENT_ABOUT_ROOM = 210;  // emax_link: says nothing when there is room again
   localparam int LINK_ANY_ACKNOWLEDGES = 211;  // link_answers: any frame of the host passes an answer
   localparam int LINK_DATA_NOT_REPEATED = 212;  // link_sender: the data frame under way is sent once
+  localparam int LINK_HEADERS_LEAVE_ALONE = 213;  // link_answers: a pause closes a frame within an answer
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 /* verilator lint_on DECLFILENAME */

@@ -137,11 +137,22 @@ class FaultyHost {
   std::size_t sent_ = 0, acknowledged_ = 0, answered_ = 0, credit_ = 0, repeats_ = 0;
 };
 
+// Words whose echo is answers with headers: many short ones, some of several frames.
+std::vector<Word> words_to_echo(Random& random, std::size_t count) {
+  std::vector<Word> words;
+  while (words.size() < count) {
+    const std::uint32_t length = random.one_in(4) ? random.below(600) : random.below(8);
+    words.push_back(~(random.below(256) << 24 | length));
+    for (std::uint32_t i = 0; i < length; ++i)
+      words.push_back(random.one_in(4) ? 0xe54de54du : random.word());
+  }
+  return words;
+}
+
 }  // namespace
 
 void pass_words_through_faults(LinkBench& bench, std::size_t count, std::uint32_t faults) {
-  std::vector<Word> words(count);
-  for (Word& word : words) word = bench.random.one_in(4) ? 0xe54de54du : bench.random.word();
+  const std::vector<Word> words = words_to_echo(bench.random, count);
   bench.echoes = true;
   FaultyHost host(bench, faults);
   host.run(words);

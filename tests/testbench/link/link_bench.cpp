@@ -2,6 +2,7 @@
 
 #include "Vlink_rtl___024root.h"
 #include "Vlink_rtl_emax_mutation.h"
+#include "hls/kernel/command_words.h"
 
 namespace emax {
 namespace {
@@ -127,6 +128,12 @@ Frame plain_frame(FrameKind kind, std::uint8_t expected, std::uint16_t session) 
 std::vector<Word> numbered_words(std::size_t count, Word first) {
   std::vector<Word> words(count);
   for (std::size_t i = 0; i < count; ++i) words[i] = first + static_cast<Word>(i);
+  return words;
+}
+
+std::vector<Word> answer_of(std::size_t count) {
+  std::vector<Word> words = numbered_words(count);
+  words[0] = command_header(kReduce, static_cast<Word>(count - 1));
   return words;
 }
 

@@ -45,7 +45,8 @@ class LinkBench {
   std::vector<Frame> take_frames();
   bool sending() const { return !to_device_.empty(); }
 
-  // The core: words that it took, since its reset; words that it is yet to answer.
+  // The core: words that it took, since its reset; words that it is yet to answer, each answer with
+  // its header.
   std::vector<Word> taken;
   std::deque<Word> answers;
   bool takes = true;
@@ -74,6 +75,8 @@ class LinkBench {
 Frame data_frame(std::uint8_t sequence, std::vector<Word> payload, std::uint8_t expected = 0);
 Frame plain_frame(FrameKind kind, std::uint8_t expected = 0, std::uint16_t session = kSession);
 std::vector<Word> numbered_words(std::size_t count, Word first = 0x4de50000u);
+// An answer of this many words: its header counts those after it, which are numbered.
+std::vector<Word> answer_of(std::size_t count);
 
 struct Scenario {
   std::string name;
@@ -85,8 +88,8 @@ struct Scenario {
 };
 const std::vector<Scenario>& link_scenarios();
 
-// Words through a link that damages, drops, doubles and holds frames back, both ways, and back
-// again; of 1000 frames, `faults` suffer. Throws Unexpected.
+// Words, `count` or a few more, through a link that damages, drops, doubles and holds frames back,
+// both ways, and back again as answers; of 1000 frames, `faults` suffer. Throws Unexpected.
 void pass_words_through_faults(LinkBench& bench, std::size_t count, std::uint32_t faults);
 
 }  // namespace emax
