@@ -48,7 +48,7 @@ module emax_link #(
 
   // What a whole frame is, a cycle after it is whole, and a cycle later what follows from that.
   logic judge, ours, right_version, in_turn, fits, is_reset, is_data, is_status, is_poll;
-  logic commit, committed, restart, reply, notice, acknowledge, more_room;
+  logic commit, committed, restart, restart_next, reply, notice, acknowledge, more_room;
   logic [7:0] expected, notice_kind;
 
   always_ff @(posedge clk) begin
@@ -65,7 +65,7 @@ module emax_link #(
 
   always_ff @(posedge clk) begin
     commit <= judge && right_version && is_data && ours && in_turn && fits;
-    restart <= judge && right_version && is_reset;
+    restart <= restart_next;
     acknowledge <= judge && right_version && ours && (is_data || is_poll || is_status);
     reply <= judge && right_version && ours && (is_data || is_poll);
     notice <= judge && (right_version ? !ours && (is_data || is_poll) : is_reset);
@@ -73,16 +73,18 @@ module emax_link #(
       notice_kind <= right_version ? LOST : STATUS;
       notice_session <= frame_session;
     end
-    if (reset) {commit, restart, acknowledge, reply, notice} <= '0;
+    if (reset) {commit, acknowledge, reply, notice} <= '0;
   end
 
   // The core's reset, and what a reset of the session takes with it: all of it in one cycle.
+  // `clearing` is high while `restart` is, or `clearing_left` is not 0.
   logic [4:0] clearing_left;
   logic clearing, cleared;
 
-  assign clearing = restart || clearing_left != 0;
+  assign restart_next = !reset && judge && right_version && is_reset;
 
   always_ff @(posedge clk) begin
+    clearing <= restart_next || reset || restart || clearing_left > 1;
     if (reset || restart) clearing_left <= '1;
     else if (clearing_left != 0) clearing_left <= clearing_left - 1;
     core_aresetn <= !reset && !clearing;

@@ -1,4 +1,5 @@
 // ../ulx3s_clock.sv for simulation: the oscillator's clock is taken for that of MHZ.
+/* verilator lint_off UNUSEDPARAM */
 module ulx3s_clock #(
     parameter int MHZ = 120
 ) (
@@ -9,3 +10,4 @@ module ulx3s_clock #(
   assign clk = clk_25mhz;
   assign locked = 1'b1;
 endmodule
+/* verilator lint_on UNUSEDPARAM */
