@@ -17,6 +17,10 @@ enum class Fault {
   // In the store of a board.
   kStoreTrustsOldItems,  // what was stored before counts as there
   kLogForgetsStored,     // a board that lost its store does not get it again
+  // In the time of a board on its line.
+  kAnswersLeaveAlone,        // each answer has a frame of its own
+  kDataNotRepeated,          // a frame of the host is never answered by the data frame under way
+  kSendsBeforeAcknowledged,  // a data frame does not wait until the one before is acknowledged
   // In the distance between surfaces.
   kCutsWithoutMargin,    // the rounding of cuts is not added
   kNearestOfEachCorner,  // a bound is taken from each corner's own nearest triangle

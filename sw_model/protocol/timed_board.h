@@ -1,21 +1,21 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "sw_model/protocol/cpp_board.h"
 
 namespace emax {
 
-// A board on its line, with the time that both take: predicted from the frames that the line
-// carries and from the cycles of the cores' models. The host takes no time. Words of send() leave
-// in frames of 128, the last of them when an answer is awaited; a frame counts once it is whole; a
-// core begins with a command at its first word, if it is idle, and ends no earlier than the last
-// word comes; an answer leaves in frames of 256 words, each after the one before has been
-// acknowledged.
+// A board on its line, with the time that both take: predicted from the frames that each direction
+// of the line carries (docs/protocol.md) and from the cycles of the cores' models. The host takes
+// no time. Words of send() leave in frames of 128, the last of them when an answer is awaited; a
+// frame counts once it is whole; a core begins with a command at its first word, if it is idle, and
+// ends no earlier than the last word comes. The board answers the host's frames, and sends answers
+// in frames of up to 256 words, each after the one before has been acknowledged.
 //
-// Not in it: the status frames of the board, which share the way back with short answers, and what
-// a real computer and its USB add.
+// Not in it: a host that waits for room on the board, and what a real computer and its USB add.
 class TimedBoard : public Device {
  public:
   // A board with a filtering core and a store.
@@ -27,28 +27,54 @@ class TimedBoard : public Device {
   DeviceCounters counters() const override;
 
  private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
   struct Answer {
     std::vector<Word> words;
-    double ready;  // when the core gives it
+    double ready;  // when link_answers has taken them
+  };
+  // A data frame of the board that comes to the host.
+  struct Arrival {
+    double time;
+    std::vector<Word> words;  // none where the frame is a repetition
   };
 
-  double bytes(std::size_t count) const {
-    return static_cast<double>(count) / model_.link_bytes_per_second;
-  }
   double cycles(std::uint64_t count) const { return static_cast<double>(count) / model_.clock_hz; }
-  void send_frame();
+  double bytes_in(std::size_t count) const;
+  double bytes_out(std::size_t count) const;
+
+  void end_frame();
+  void put(std::size_t words);
   void perform(const std::vector<Word>& command, double begins);
-  void take_answer();
+  void wait_for_byte();
+  void await_frame();
+  void take_arrivals();
+
+  void advance_board();
+  bool send_out(double until);
+  double answers_close() const;
+  std::vector<Word> close_answers(double at);
 
   const BoardModel model_;
   CppBoard board_;
   CommandCursor cursor_{CommandSet::kBoard};
   std::vector<Word> frame_, command_;  // those that are arriving
   double command_begins_ = 0;
-  std::deque<Answer> answers_;
+  double exact_ = 0, filter_ = 0;  // when the cores are free; as all times, in seconds
+
+  // The host and its direction of the line.
+  double now_ = 0, line_in_ = 0;
   std::deque<Word> received_;
-  // Times, in seconds: the host's, and when the lines, the cores and the frame under way are free.
-  double now_ = 0, line_in_ = 0, line_out_ = 0, exact_ = 0, filter_ = 0, acknowledged_ = 0;
+  bool owes_acknowledgement_ = false;
+
+  // The board's link and its direction of the line: what it sends or has sent last, and the data
+  // frame under way with the time at which its acknowledgement comes.
+  std::deque<double> unanswered_;  // when frames of the host come that the board is to answer
+  std::deque<Answer> answers_;     // in no frame yet
+  std::deque<Arrival> arrivals_;   // that the host has not seen
+  double out_begins_ = 0, line_out_ = 0, acknowledged_ = 0;
+  std::size_t under_way_ = 0;  // words
+  bool taken_ = false;         // by the host
 };
 
 }  // namespace emax

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include "host/block_search/block_search.h"
@@ -8,13 +11,38 @@
 #include "host/device/device_evaluator.h"
 #include "host/device/filtering_evaluator.h"
 #include "host/device/link_device.h"
-#include "host/device/queued_device.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/protocol/timed_board.h"
 #include "testbench/board/simulated_board.h"
 #include "tests/support/stimuli.h"
 
 namespace emax {
 namespace {
+
+constexpr double kTolerance = 0.01;  // of the time taken
+
+// Sends all words that are there once an answer is awaited, as QueuedDevice does where the blocks
+// are prepared faster than its thread takes them: which blocks share a frame is then no matter of
+// the threads' timing.
+class Gathering : public Device {
+ public:
+  explicit Gathering(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+
+  std::string name() const override { return device_->name(); }
+  void send(std::span<const Word> words) override {
+    words_.insert(words_.end(), words.begin(), words.end());
+  }
+  void receive(std::span<Word> words) override {
+    if (!words_.empty()) device_->send(words_);
+    words_.clear();
+    device_->receive(words);
+  }
+  DeviceCounters counters() const override { return device_->counters(); }
+
+ private:
+  std::unique_ptr<Device> device_;
+  std::vector<Word> words_;
+};
 
 std::unique_ptr<FilteringEvaluator> filtering(std::unique_ptr<Device> board) {
   BoardPorts ports = ports_of(std::move(board));
@@ -23,39 +51,108 @@ std::unique_ptr<FilteringEvaluator> filtering(std::unique_ptr<Device> board) {
       std::move(ports.filter), std::make_unique<DeviceEvaluator>(std::move(ports.exact)), words);
 }
 
-// Searches one after the other, by the board's own time: the Verilated logic at 120 MHz on a line
-// of 3 Mbaud.
-TEST(BoardTime, IsWhatTheSimulatedBoardTakes) {
+// The exact core lists the distances of three blocks, in more words than a frame has.
+EmaxResult list_blocks(const PreparedCloud& cloud, const TriangleTree& mesh, Evaluator& evaluator) {
+  constexpr std::uint32_t kPoints = 200, kRecords = 8;
+  evaluator.begin(cloud.points(), mesh.records());
+  Block block;
+  block.points.resize(kPoints);
+  block.candidates.resize(kRecords);
+  std::iota(block.candidates.begin(), block.candidates.end(), 0u);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    std::iota(block.points.begin(), block.points.end(), i * kPoints);
+    evaluator.submit(block, true);
+  }
+  EmaxResult worst = {};
+  for (int i = 0; i < 3; ++i) {
+    const BlockAnswer answer = evaluator.collect();
+    EXPECT_EQ(answer.squared_bits.size(), kPoints);
+    if (answer.worst.squared_bits > worst.squared_bits) worst = answer.worst;
+  }
+  return worst;
+}
+
+EmaxResult search(const PreparedCloud& cloud, const TriangleTree& mesh, Evaluator& evaluator) {
+  return search_emax(cloud, mesh, evaluator);
+}
+
+// Work for a board, one after the other: a mesh with its cloud; the same again, which waits for
+// answers and sends little; another one with the cloud that is there; long answers.
+class Works {
+ public:
+  static constexpr std::size_t kCount = 4;
+
+  EmaxResult perform(std::size_t i, Evaluator& evaluator) const {
+    const auto work = i == 3 ? list_blocks : search;
+    return work(cloud_, i == 2 ? other_ : mesh_, evaluator);
+  }
+
+ private:
+  const test::Stimulus scan_ = test::bumpy_sphere(8, 12, 1500, 95);
+  const test::Stimulus other_scan_ = test::bumpy_sphere(9, 13, 10, 96);
+  const PreparedCloud cloud_{scan_.cloud};
+  const TriangleTree mesh_{scan_.mesh(), cloud_.normalization()};
+  const TriangleTree other_{other_scan_.mesh(), cloud_.normalization()};
+};
+
+struct Prediction {
+  EmaxResult answer;
+  double seconds;
+};
+
+std::vector<Prediction> predict(const Works& works) {
   auto timed = std::make_unique<TimedBoard>(board_model("ulx3s"));
-  const TimedBoard& predicted = *timed;
+  const TimedBoard& board = *timed;
+  const auto evaluator = filtering(std::move(timed));
+  std::vector<Prediction> predictions;
+  for (std::size_t i = 0; i < Works::kCount; ++i) {
+    const double before = *board.counters().predicted_seconds;
+    const EmaxResult answer = works.perform(i, *evaluator);
+    predictions.push_back({answer, *board.counters().predicted_seconds - before});
+  }
+  return predictions;
+}
+
+// By the board's own time: the Verilated logic at 120 MHz on a line of 3 Mbaud.
+TEST(BoardTime, IsWhatTheSimulatedBoardTakes) {
+  const Works works;
+  const std::vector<Prediction> predictions = predict(works);
   auto channel = std::make_unique<SimulatedBoard>();
   SimulatedBoard& board = *channel;
   auto link = std::make_unique<LinkDevice>(std::move(channel));
   const LinkDevice& device = *link;
-  // Queued, as the program has it: blocks that wait share frames.
-  const auto model = filtering(std::move(timed));
-  const auto real = filtering(std::make_unique<QueuedDevice>(
-      std::move(link), QueuedDevice::kMostWords, CommandSet::kBoard));
-
-  const test::Stimulus scan = test::bumpy_sphere(8, 12, 1500, 95);
-  // A mesh with its cloud; the same again, which waits for answers and sends little; another one
-  // with the cloud that is there.
-  const std::pair<test::Stimulus, double> meshes[] = {
-      {scan, 0.02}, {scan, 0.05}, {test::bumpy_sphere(9, 13, 10, 96), 0.05}};
-  const PreparedCloud cloud(scan.cloud);
-  for (const auto& [s, tolerance] : meshes) {
-    const TriangleTree mesh(s.mesh(), cloud.normalization());
-    const double before = *predicted.counters().predicted_seconds;
+  const auto evaluator = filtering(std::make_unique<Gathering>(std::move(link)));
+  for (std::size_t i = 0; i < Works::kCount; ++i) {
     const auto start = board.now();
-    const EmaxResult answer = search_emax(cloud, mesh, *real);
+    EXPECT_EQ(works.perform(i, *evaluator), predictions[i].answer);
     const double taken = std::chrono::duration<double>(board.now() - start).count();
-    EXPECT_EQ(search_emax(cloud, mesh, *model), answer);
-    const double prediction = *predicted.counters().predicted_seconds - before;
-    std::printf("%zu triangles: %.4g s predicted, %.4g s taken, %.3f\n", s.triangles.size(),
-                prediction, taken, prediction / taken);
-    EXPECT_NEAR(prediction / taken, 1, tolerance);
+    const double ratio = predictions[i].seconds / taken;
+    std::printf("work %zu: %.5f s predicted, %.5f s taken, %.4f\n", i, predictions[i].seconds,
+                taken, ratio);
+    EXPECT_NEAR(ratio, 1, kTolerance);
   }
   EXPECT_EQ(device.link_counters().resends, 0u);
+}
+
+// What a fault changes in some work the test above cannot overlook.
+TEST(BoardTimeFault, EachIsSeen) {
+  const Works works;
+  const std::vector<Prediction> right = predict(works);
+  for (const Fault fault :
+       {Fault::kAnswersLeaveAlone, Fault::kDataNotRepeated, Fault::kSendsBeforeAcknowledged}) {
+    const DeliberateFault broken(fault);
+    const std::vector<Prediction> wrong = predict(works);
+    double change = 0;
+    std::printf("fault %d:", static_cast<int>(fault));
+    for (std::size_t i = 0; i < Works::kCount; ++i) {
+      EXPECT_EQ(wrong[i].answer, right[i].answer);
+      const double ratio = wrong[i].seconds / right[i].seconds;
+      std::printf(" %.4f", ratio);
+      change = std::max(change, std::abs(ratio - 1));
+    }
+    std::printf("\n");
+    EXPECT_GT(change, 2 * kTolerance + kTolerance * kTolerance);
+  }
 }
 
 }  // namespace
