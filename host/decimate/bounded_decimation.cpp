@@ -30,6 +30,8 @@ constexpr double kOnPlane = 1e-7;  // of the limit: what lies on a plane but for
 // Of the limit: the middle of a triangle with its corners on a curved shape. The reference it is of
 // is within the limit of that shape.
 constexpr double kBesideShape = 2;
+constexpr double kSmoothEdges = 1.5;  // of the limit: the usual rise of a smooth reference
+constexpr double kEdgeReach = 3;      // of the limit: to the mesh's edge that stands for a true one
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -72,6 +74,15 @@ void order_by_shape(TriangleMesh& mesh, std::span<const Shape> shapes, double li
   std::vector<Triangle> ordered;
   for (const std::uint32_t t : order) ordered.push_back(mesh.triangles[t]);
   mesh.triangles = std::move(ordered);
+}
+
+// As far apart as the limit. A surface that is rough against the limit turns anywhere.
+std::vector<Point> true_edges_of(const TriangleMesh& start, const DecimationState& state) {
+  std::vector<std::uint32_t> shape_of(start.triangles.size());
+  for (std::uint32_t t = 0; t < shape_of.size(); ++t) shape_of[t] = state.shape_of(t);
+  const double limit = std::sqrt(state.squared_limit());
+  const bool smooth = state.back() != nullptr && state.back()->usual_rise() <= kSmoothEdges * limit;
+  return sample_true_edges(start, state.shapes(), shape_of, smooth, limit);
 }
 
 void require_belonging(const DecimationState& state) {
@@ -320,6 +331,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   if (has_planes(settings)) {
     state.follow(settings.planes->shapes(),
                  planes_of_triangles(ordered, *settings.planes, limit, settings.threads));
+    options.true_edges = TrueEdges(true_edges_of(ordered, state), kEdgeReach * limit);
   }
   ScheduledMesh scheduled = run_passes(state, std::move(options), settings);
   result.interrupted = !scheduled.complete;

@@ -346,6 +346,18 @@ std::size_t DecimationPasses::move_into_place() {
   });
 }
 
+std::size_t DecimationPasses::move_toward_edges() {
+  if (!has_true_edges()) return 0;
+  options_.true_edges.assign(state_);
+  std::vector<std::uint32_t> vertices(state_.mesh().vertex_slots());
+  std::iota(vertices.begin(), vertices.end(), 0u);
+  std::erase_if(vertices, [&](std::uint32_t v) { return !state_.mesh().used(v); });
+  return edit_each(std::move(vertices), {{0, 1}},
+                   [this](EditProposer& proposer, std::uint32_t vertex) {
+                     return proposer.toward_edges(vertex, options_.true_edges);
+                   });
+}
+
 std::size_t DecimationPasses::relocate_each(std::vector<std::uint32_t> vertices, int power,
                                             const Share& share) {
   return edit_each(std::move(vertices), share,

@@ -45,6 +45,10 @@ class DecimationPasses {
   // eighth of the way there if the limits do not permit all of it. Returns the number of moved
   // vertices.
   std::size_t move_into_place();
+  // Moves vertices so that the true edges, of the options, are nearer to those of the mesh. Returns
+  // the number of moved vertices.
+  std::size_t move_toward_edges();
+  bool has_true_edges() const { return !options_.true_edges.empty(); }
   // Flips each edge whose flip lowers the energy. Returns the number of flips.
   std::size_t flip(int power);
   // Tries collapses that break the limit, and relocates vertices and flips edges around them to

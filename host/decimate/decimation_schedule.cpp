@@ -24,6 +24,8 @@ constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth ref
 constexpr int kSpreads = 3;      // of spreading the error
 // A vertex that comes nearer to its place makes room for those around it.
 constexpr int kMostRoundsIntoPlace = 8;
+// Toward the true edges: at first with room made for them, where errors are spread to the limit.
+constexpr int kRoundsWithRoom = 20, kMostRoundsToEdges = 40, kPowerForRoom = 8;
 // Another power changes the energy, and so moves the mesh out of a local minimum.
 constexpr std::array<int, 3> kOtherPowers = {2, 8, 6};
 
@@ -47,19 +49,22 @@ class Schedule {
     sweep();
     if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
     if (state_.follows_shapes() && settings_.effort != Effort::kSweep) settle_on_planes();
-    const bool goes_on =
-        settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
-    if (goes_on && !passes_.stopped() && !lost(Race::At::kCollapsed)) {
+    if (goes_on() && !passes_.stopped() && !lost(Race::At::kCollapsed)) {
       const bool done = may_even_out() ? equidistribute() : lost(Race::At::kUneven);
       if (!done) improve();
     }
     move_into_place();
+    if (settings_.effort != Effort::kSweep && !race_.lost()) move_toward_edges();
     TriangleMesh mesh = state_.mesh().compact();
     if (kept_ && kept_->triangles.size() < mesh.triangles.size()) mesh = std::move(*kept_);
     return {std::move(mesh), !passes_.stopped(), race_.expected()};
   }
 
  private:
+  bool goes_on() const {
+    return settings_.effort != Effort::kSweep && settings_.effort != Effort::kCollapse;
+  }
+
   bool lost(Race::At at) { return race_.lost(at, state_.mesh().triangles()); }
 
   // Returning true ends the passes.
@@ -97,6 +102,20 @@ class Schedule {
       moved += last;
     }
     return tell("vertices moved onto planes", moved);
+  }
+
+  void move_toward_edges() {
+    if (!passes_.has_true_edges()) return;
+    const bool crowded = settings_.spread_on_planes && goes_on();
+    std::size_t last = 1;
+    for (int i = 0; i < kMostRoundsToEdges && last > 0 && !passes_.stopped(); ++i) {
+      if (crowded && i < kRoundsWithRoom) {
+        flip(kPowerForRoom);
+        relocate(kPowerForRoom);
+      }
+      last = tell("vertices moved toward edges", passes_.move_toward_edges());
+      last += move_into_place();
+    }
   }
 
   // Only once the mesh is coarse: vertices as close as their noise would fold over each other.

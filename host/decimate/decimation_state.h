@@ -107,6 +107,7 @@ class DecimationState {
     return slot < shape_of_.size() ? shape_of_[slot] : kNoIndex;
   }
   const Shape& shape(std::uint32_t number) const { return shapes_[number]; }
+  std::span<const Shape> shapes() const { return shapes_; }
 
   // Whether every point was assigned. False after an interrupt.
   bool complete() const { return complete_; }

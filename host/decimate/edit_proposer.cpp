@@ -21,6 +21,11 @@ constexpr double kInPlace = 1e-6;  // of the limit
 // To a place that may be out of reach.
 constexpr std::array kPartsOfWay = {1.0, 0.5, 0.25, 0.125};
 
+// Toward the true edges.
+constexpr std::array kPartsToEdges = {1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125};
+constexpr int kStepsToEdges = 5;
+constexpr double kLeastNearer = 1e-3;  // the share of the distances that a move gains
+
 // Whether the vertex lies on a curved shape that a triangle beside it follows.
 bool lies_on_curved(const DecimationState& state, std::uint32_t vertex) {
   const double apart = kInPlace * std::sqrt(state.squared_limit());
@@ -222,6 +227,32 @@ bool EditProposer::into_place(std::uint32_t vertex) {
   for (const double part : kPartsOfWay) {
     Fit fit;
     if (search_.evaluate(at + part * (place - at), kPower, fit) && fit.worst <= 1 &&
+        search_.finish(fit, true, edit_)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool EditProposer::toward_edges(std::uint32_t vertex, const TrueEdges& edges) {
+  if (options_.features.fixed(vertex) || options_.holds(vertex)) return false;
+  const Point at = state_.mesh().position(vertex);
+  const double before = edges.distance(state_.mesh(), vertex, at);
+  if (!(before > 0) || !search_.prepare_relocation(vertex)) return false;
+  const bool stays = search_.place() && is_in_place(at);
+  Point to = at;
+  for (int i = 0; i < kStepsToEdges; ++i) {
+    const Eigen::Matrix3d along =
+        stays ? search_.place()->along(to) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    to = edges.step(state_.mesh(), vertex, to, along);
+    if (stays) to = search_.place()->project(to);
+  }
+  for (const double part : kPartsToEdges) {
+    Point there = at + part * (to - at);
+    if (stays) there = search_.place()->project(there);
+    if (!(edges.distance(state_.mesh(), vertex, there) < (1 - kLeastNearer) * before)) continue;
+    Fit fit;
+    if (search_.evaluate(there, kPower, fit) && fit.worst <= 1 &&
         search_.finish(fit, true, edit_)) {
       return true;
     }

@@ -5,6 +5,7 @@
 
 #include "host/decimate/feature_edges.h"
 #include "host/decimate/local_search.h"
+#include "host/decimate/true_edges.h"
 
 namespace emax {
 
@@ -28,6 +29,8 @@ class EditProposer {
     // of them.
     std::vector<Point> fixed_places;
     std::vector<char> fixed;
+
+    TrueEdges true_edges;  // that vertices are moved to in the end
 
     bool fixes(std::uint32_t vertex) const { return vertex < fixed.size() && fixed[vertex] != 0; }
     bool stays(std::uint32_t vertex) const { return vertex < held.size() && held[vertex] != 0; }
@@ -69,6 +72,9 @@ class EditProposer {
   bool flip(std::uint32_t a, std::uint32_t b, int power, bool limit);
   // Moves a vertex onto the planes that the triangles around it follow.
   bool into_place(std::uint32_t vertex);
+  // Moves a vertex so that the true edges are nearer to the edges at it; what lies on shapes stays
+  // on them.
+  bool toward_edges(std::uint32_t vertex, const TrueEdges& edges);
   // Edges between two fixed vertices and triangles between three may not.
   bool may_split(std::uint32_t a, std::uint32_t b) const;
   bool may_split(const Triangle& triangle) const;

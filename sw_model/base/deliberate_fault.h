@@ -34,6 +34,7 @@ enum class Fault {
   kForgetsPlanes,       // vertices do not stay on the planes that the mesh follows
   kForgetsThresholds,   // the planes of the thresholds before are taken for others
   kForgetsSpread,       // the error is not spread on planes where a candidate asks for it
+  kForgetsTrueEdges,    // no edge of the mesh stands for a true one
   kTakesTangents,       // the plane that touches a curved surface is taken for it
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change
