@@ -450,7 +450,7 @@ class RoutingTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, mock.patch.object(routing, "FOLDER", Path(folder)):
             board = routing.design(self.candidate(), lower)
             sources = board.sources("ecp5")
-            self.assertEqual(board.parameters, {"NUM_PE": 1, "FILTER_PE": 4})
+            self.assertEqual(board.parameters, {"NUM_PE": 1, "CLOCK_MHZ": 120, "FILTER_PE": 4})
             for path in [designs.GENERATED / "emax_distance.sv", designs.RTL / "emax_element.sv",
                          designs.RTL / "filter/generated/emax_filter_unit.sv", designs.RTL / "filter/filter_element.sv"]:
                 self.assertNotIn(path, sources)
