@@ -30,7 +30,7 @@ double TimedBoard::bytes_out(std::size_t count) const {
   return bytes_in(count) + cycles(kWordGap) * static_cast<double>(count) / sizeof(Word);
 }
 
-// ---- the host
+// The host.
 
 void TimedBoard::send(std::span<const Word> words) {
   for (const Word word : words) {
@@ -125,7 +125,7 @@ void TimedBoard::take_arrivals() {
   }
 }
 
-// ---- the board
+// The board.
 
 void TimedBoard::advance_board() {
   while (send_out(now_)) {
