@@ -1,7 +1,8 @@
 """`./dev bitstream`: a board's bitstream with Yosys, nextpnr and ecppack.
 
-Tries seeds of the placement in order until the clock is met (120 MHz, or a slower one that is asked for), and writes the bitstream to
-build/bitstream and its figures into docs/synthesis.md. It writes no bitstream that misses its clock,
+Tries seeds of the placement in order until the clock is met (120 MHz, or a slower one that is asked
+for), and writes the bitstream to build/bitstream and its figures into docs/synthesis.md. It writes no
+bitstream that misses its clock,
 and none of a design that differed from its source in simulation, as Yosys synthesized it or as nextpnr
 routed it.
 """

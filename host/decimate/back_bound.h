@@ -35,6 +35,8 @@ class BackBound {
   // Three quarters of the reference's inner edges have a triangle whose far corner is at most so
   // high over the plane of the other.
   double usual_rise() const { return usual_rise_; }
+  // Whether the reference is smooth against the limit.
+  bool is_smooth() const { return usual_rise_ <= kSmooth * limit(); }
   // Sights taken before keep shares of the former limit.
   void set_limit(double limit) {
     limit_ = limit;
@@ -75,6 +77,8 @@ class BackBound {
   bool holds(const std::array<Point, 3>& corners, std::uint32_t near, Search& search) const;
 
  private:
+  static constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth reference
+
   class Faces;
   class Segment;
 

@@ -30,8 +30,7 @@ constexpr double kOnPlane = 1e-7;  // of the limit: what lies on a plane but for
 // Of the limit: the middle of a triangle with its corners on a curved shape. The reference it is of
 // is within the limit of that shape.
 constexpr double kBesideShape = 2;
-constexpr double kSmoothEdges = 1.5;  // of the limit: the usual rise of a smooth reference
-constexpr double kEdgeReach = 3;      // of the limit: to the mesh's edge that stands for a true one
+constexpr double kEdgeReach = 3;  // of the limit: to the mesh's edge that stands for a true one
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;
@@ -81,7 +80,7 @@ std::vector<Point> true_edges_of(const TriangleMesh& start, const DecimationStat
   std::vector<std::uint32_t> shape_of(start.triangles.size());
   for (std::uint32_t t = 0; t < shape_of.size(); ++t) shape_of[t] = state.shape_of(t);
   const double limit = std::sqrt(state.squared_limit());
-  const bool smooth = state.back() != nullptr && state.back()->usual_rise() <= kSmoothEdges * limit;
+  const bool smooth = state.back() != nullptr && state.back()->is_smooth();
   return sample_true_edges(start, state.shapes(), shape_of, smooth, limit);
 }
 

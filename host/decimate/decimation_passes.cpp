@@ -347,7 +347,6 @@ std::size_t DecimationPasses::move_into_place() {
 }
 
 std::size_t DecimationPasses::move_toward_edges() {
-  if (!has_true_edges()) return 0;
   options_.true_edges.assign(state_);
   std::vector<std::uint32_t> vertices(state_.mesh().vertex_slots());
   std::iota(vertices.begin(), vertices.end(), 0u);

@@ -20,8 +20,7 @@ constexpr int kPower = DecimationPasses::kPower;
 constexpr int kHighPower = 16;
 // With this share of the triangles left, nothing else is tried.
 constexpr double kMuch = 0.85;
-constexpr double kSmooth = 1.5;  // of the limit: the usual rise of a smooth reference
-constexpr int kSpreads = 3;      // of spreading the error
+constexpr int kSpreads = 3;  // of spreading the error
 // A vertex that comes nearer to its place makes room for those around it.
 constexpr int kMostRoundsIntoPlace = 8;
 // Toward the true edges: at first with room made for them, where errors are spread to the limit.
@@ -154,8 +153,7 @@ class Schedule {
     if (!passes_.features().empty()) return false;
     if (state_.follows_shapes() && !settings_.spread_on_planes) return false;
     if (settings_.effort == Effort::kDeep) return true;
-    return state_.back() != nullptr &&
-           state_.back()->usual_rise() <= kSmooth * state_.back()->limit();
+    return state_.back() != nullptr && state_.back()->is_smooth();
   }
 
   // Spreads the error evenly; with the deep effort as far as can be restored. Returns whether that
