@@ -16,7 +16,7 @@ constexpr double kLineNoise = 9, kLineShare = 0.1;
 constexpr std::size_t kGreatestStep = 16;
 
 struct Orientation {
-  OrientedPoint point;
+  LocalNormal point;
   bool is_line;  // it spreads in one direction alone by more than noise
 };
 
@@ -30,7 +30,7 @@ class Orienter {
         squared_sine_(std::pow(std::sin(angle), 2)),
         squared_noise_(noise * noise) {}
 
-  OrientedPoint orient(std::uint32_t i, std::span<std::uint32_t> neighbours) {
+  LocalNormal orient(std::uint32_t i, std::span<std::uint32_t> neighbours) {
     for (std::size_t step = 1; step <= kGreatestStep && k_ * step < points_.size(); step *= 4) {
       find(i, step, neighbours);
       const Orientation found = oriented(points_[i], neighbours);

@@ -12,8 +12,8 @@
 
 namespace emax {
 
-// An oriented point: what its nearest points say of the surface there.
-struct OrientedPoint {
+// The normal of a point: what its nearest points say of the surface there.
+struct LocalNormal {
   Eigen::Vector3f normal;  // unit, of either sign: of the plane of principal components
   // Standard deviation of the neighbourhood across that plane over the one along its shorter
   // direction: the sine of the angle by which single points tilt the normal. Infinite for points on
@@ -37,7 +37,7 @@ struct OrientedPoint {
 struct Neighbourhoods {
   std::size_t k = 0;                      // neighbours of each point
   std::vector<std::uint32_t> neighbours;  // k for each point, nearest first, without itself
-  std::vector<OrientedPoint> points;
+  std::vector<LocalNormal> points;
 
   std::span<const std::uint32_t> of(std::size_t i) const {
     return std::span(neighbours).subspan(i * k, k);

@@ -31,8 +31,9 @@ void append(Parameters& all, Parameters more) {
 
 // Every method as a gene, with the parameters of each, moving least squares and ways to fill holes.
 Parameters automatic() {
-  const auto methods = reconstruction_methods();
-  Parameters all = {choice(kMethod, "reconstruction", names_of(methods))};
+  const std::vector<MethodDescription> methods = searched_methods();
+  Parameters all = {
+      choice(kMethod, "reconstruction", names_of(std::span<const MethodDescription>(methods)))};
   append(all, Mls::parameters());
   for (std::size_t m = 0; m < methods.size(); ++m) {
     for (const Parameter& p : methods[m].parameters) {
@@ -169,7 +170,7 @@ ChainSettings chain_settings(const std::string& method, const std::string& decim
     kept.erase(gene);
     return choices[static_cast<std::size_t>(values.by_name().at(gene))].name;
   };
-  if (method == kAutoMethod) settings.method = choose(kMethod, reconstruction_methods());
+  if (method == kAutoMethod) settings.method = choose(kMethod, searched_methods());
   if (decimator == kAutoDecimator) settings.decimator = choose(kDecimator, decimators());
   return settings;
 }

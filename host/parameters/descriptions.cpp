@@ -1,6 +1,7 @@
 #include "host/parameters/descriptions.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "sw_model/base/error.h"
 
@@ -18,6 +19,13 @@ const MethodDescription& method_named(std::string_view name) {
   choices.emplace_back("auto");
   throw Error("there is no reconstruction method '" + std::string(name) + "'; choose " +
               alternatives(choices));
+}
+
+std::vector<MethodDescription> searched_methods() {
+  const auto methods = reconstruction_methods();
+  std::vector<MethodDescription> searched;
+  std::ranges::copy_if(methods, std::back_inserter(searched), &MethodDescription::searched);
+  return searched;
 }
 
 const DecimatorDescription& decimator_named(std::string_view name) {

@@ -16,6 +16,7 @@ struct MethodDescription {
   std::string_view remedy;  // where no triangle comes out
   bool interpolates;        // its vertices are points of the cloud
   bool single_use;          // a process that has run it must not reconstruct again
+  bool searched;            // one of those that a search chooses from
 };
 
 struct DecimatorDescription {
@@ -29,7 +30,7 @@ struct DecimatorDescription {
 template <typename... Method>
 std::vector<MethodDescription> descriptions_of(TypeList<Method...>) {
   return {{std::string(Method::kName), Method::parameters(), Method::kRemedy, Method::kInterpolates,
-           Method::kSingleUse}...};
+           Method::kSingleUse, Method::kSearched}...};
 }
 
 template <typename... Decimator>
@@ -41,6 +42,8 @@ std::vector<DecimatorDescription> decimator_descriptions_of(TypeList<Decimator..
 // In the order of the registry.
 std::span<const MethodDescription> reconstruction_methods();
 std::span<const DecimatorDescription> decimators();
+// Of the methods, those that a search chooses from.
+std::vector<MethodDescription> searched_methods();
 
 // Throw Error, which lists the names, when there is no such method or decimator.
 const MethodDescription& method_named(std::string_view name);

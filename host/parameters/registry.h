@@ -39,6 +39,7 @@ struct Normals {
 struct MethodDefaults {
   static constexpr bool kInterpolates = false;  // its vertices are points of the cloud
   static constexpr bool kSingleUse = false;  // a process that has run it must not reconstruct again
+  static constexpr bool kSearched = true;    // one of those that a search chooses from
 };
 
 // Greedy projection triangulation.
@@ -139,6 +140,32 @@ struct Imls : MethodDefaults {
   static Parameters parameters() {
     return parameters_of(Normals::kNeighbours, Normals::kOrientationNeighbours, kCell, kReach,
                          kLeastReach);
+  }
+  static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values,
+                            std::size_t threads);
+};
+
+// Planes and cylinders of the scan, each spanned between its points and up to those that it meets,
+// and Gp3 for the rest. Of scans of buildings and of parts that have such shapes; on others patches
+// that happen to fit a shape stand apart, so it is for whoever names it.
+struct Shapes : MethodDefaults {
+  static constexpr std::string_view kName = "shapes";
+  static constexpr std::string_view kRemedy = "raise shapes.reach or take another method";
+  static constexpr bool kSearched = false;
+
+  static constexpr ParameterKey<double> kReach{
+      "shapes.reach", 2, 20, 6,
+      "half the widest gap that a shape spans, in multiples of the distance of its points"};
+  static constexpr ParameterKey<double> kBand{
+      "shapes.band", 2, 8, 5,
+      "farthest that a point of a shape lies from it, in multiples of the scan's noise"};
+  static constexpr ParameterKey<int> kLeastPoints{"shapes.least_points", 30, 1000, 100,
+                                                  "fewest points of a shape"};
+
+  static Parameters parameters() {
+    return parameters_of(kReach, kBand, kLeastPoints, Normals::kNeighbours,
+                         Normals::kOrientationNeighbours, Gp3::kRadius, Gp3::kMu,
+                         Gp3::kMaxNeighbors, Gp3::kSurfaceAngle, Gp3::kMinAngle, Gp3::kMaxAngle);
   }
   static Reconstruction run(const LocalCloud& cloud, const ParameterValues& values,
                             std::size_t threads);
@@ -287,7 +314,7 @@ struct Schroeder {
 template <typename... T>
 struct TypeList {};
 
-using ReconstructionMethods = TypeList<Gp3, Poisson, Hoppe, Imls>;
+using ReconstructionMethods = TypeList<Gp3, Poisson, Hoppe, Imls, Shapes>;
 using Decimators = TypeList<Bounded, Schroeder>;
 
 }  // namespace emax

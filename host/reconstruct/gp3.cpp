@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/parameters/registry.h"
+#include "host/reconstruct/greedy_projection.h"
 #include "host/reconstruct/local_cloud.h"
 #include "host/reconstruct/reconstruction.h"
 #include "host/surface/mesh_orientation.h"
@@ -104,48 +105,66 @@ void remove_slivers(TriangleMesh& mesh, double flat) {
   }
 }
 
+// Those that no triangle has as a corner.
+std::size_t unmeshed_points(const LocalCloud& cloud, const TriangleMesh& mesh) {
+  std::vector<bool> meshed(cloud.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) meshed[corner] = true;
+  }
+  std::size_t unmeshed = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!meshed[i]) unmeshed += cloud.multiplicity(i);
+  }
+  return unmeshed;
+}
+
 }  // namespace
 
-Reconstruction Gp3::run(const LocalCloud& cloud, const ParameterValues& values,
-                        std::size_t threads) {
-  const auto points = cloud.with_normals(values, threads);
+TriangleMesh greedy_projection(const LocalCloud& cloud, std::span<const Eigen::Vector3f> normals,
+                               const ParameterValues& values) {
+  const auto points = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  points->resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    (*points)[i].getVector3fMap() = (*cloud.points())[i].getVector3fMap();
+    (*points)[i].getNormalVector3fMap() = normals[i];
+  }
   if (cloud.is_regular()) break_ties(*points, cloud.spacing());
   const double radians = std::numbers::pi / 180;
   // PCL searches this many neighbours without asking how many there are.
-  const int max_neighbors = std::min(values.at(kMaxNeighbors), static_cast<int>(cloud.size()));
+  const int max_neighbors = std::min(values.at(Gp3::kMaxNeighbors), static_cast<int>(cloud.size()));
   pcl::GreedyProjectionTriangulation<pcl::PointNormal> gp3;
-  gp3.setSearchRadius(values.at(kRadius) * cloud.spacing());
-  gp3.setMu(values.at(kMu));
+  gp3.setSearchRadius(values.at(Gp3::kRadius) * cloud.spacing());
+  gp3.setMu(values.at(Gp3::kMu));
   gp3.setMaximumNearestNeighbors(max_neighbors);
-  gp3.setMaximumSurfaceAngle(values.at(kSurfaceAngle) * radians);
-  gp3.setMinimumAngle(values.at(kMinAngle) * radians);
-  gp3.setMaximumAngle(values.at(kMaxAngle) * radians);
+  gp3.setMaximumSurfaceAngle(values.at(Gp3::kSurfaceAngle) * radians);
+  gp3.setMinimumAngle(values.at(Gp3::kMinAngle) * radians);
+  gp3.setMaximumAngle(values.at(Gp3::kMaxAngle) * radians);
   gp3.setNormalConsistency(true);
   gp3.setInputCloud(points);
   gp3.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointNormal>>());
   std::vector<pcl::Vertices> polygons;
   gp3.reconstruct(polygons);
 
-  Reconstruction result;
-  TriangleMesh& mesh = result.mesh;
+  TriangleMesh mesh;
   mesh.vertices.resize(cloud.size());
-  std::vector<Eigen::Vector3f> normals(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    mesh.vertices[i] = cloud.original(i);
-    normals[i] = (*points)[i].getNormalVector3fMap();
-  }
+  for (std::size_t i = 0; i < cloud.size(); ++i) mesh.vertices[i] = cloud.original(i);
   mesh.triangles.reserve(polygons.size());
-  std::vector<bool> meshed(cloud.size(), false);
   for (const pcl::Vertices& polygon : polygons) {
     Triangle& t = mesh.triangles.emplace_back();
     for (std::size_t corner = 0; corner < 3; ++corner) {
       t[corner] = static_cast<std::uint32_t>(polygon.vertices[corner]);
-      meshed[t[corner]] = true;
     }
   }
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!meshed[i]) result.unmeshed_points += cloud.multiplicity(i);
-  }
+  return mesh;
+}
+
+Reconstruction Gp3::run(const LocalCloud& cloud, const ParameterValues& values,
+                        std::size_t threads) {
+  const std::vector<Eigen::Vector3f> normals = cloud.oriented_normals(values, threads).normals;
+  Reconstruction result;
+  TriangleMesh& mesh = result.mesh;
+  mesh = greedy_projection(cloud, normals, values);
+  result.unmeshed_points = unmeshed_points(cloud, mesh);
   if (cloud.is_regular()) {
     const double spacing =
         (cloud.world({1, 0, 0}) - cloud.world({0, 0, 0})).norm() * cloud.spacing();

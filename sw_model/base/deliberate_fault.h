@@ -42,6 +42,8 @@ enum class Fault {
   // In the search for planes, cylinders and spheres.
   kCurvedIsPlane,    // a strip of a curved surface counts as a plane
   kFitsEveryNormal,  // a plane takes points whose neighbourhoods do not fit it
+  // In the reconstruction from shapes.
+  kSpansBeyondCurves,  // what curves cut off without a point of the shape stays
   // In the readers of files, messages and frames.
   kTrustsCounts,    // a count or length is not compared with the bytes that are there
   kTrustsIndices,   // an index is not compared with the number of vertices

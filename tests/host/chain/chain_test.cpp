@@ -218,14 +218,14 @@ TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
   EXPECT_FALSE(certify(cloud, mesh.view()).within(1));
 }
 
-// Every candidate of auto is one of a method, with the values that mean something there.
-TEST(ChainParameters, AutoHoldsEveryMethod) {
+// Every candidate of auto is one of a searched method, with the values that mean something there.
+TEST(ChainParameters, AutoHoldsEverySearchedMethod) {
   const auto all = chain_parameters("auto", "bounded");
   const ParameterValues standards(all);
   std::set<std::string> names;
   for (const Parameter& spec : all) EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
-  for (std::size_t m = 0; m < reconstruction_methods().size(); ++m) {
-    const std::string method = reconstruction_methods()[m].name;
+  for (std::size_t m = 0; m < searched_methods().size(); ++m) {
+    const std::string method = searched_methods()[m].name;
     ParameterValues values = standards;
     values.by_name()["method"] = static_cast<double>(m);
     ChainSettings candidate = chain_settings("auto", "bounded", values);
