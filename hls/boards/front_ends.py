@@ -39,6 +39,7 @@ PARAMETERS = {
     "fixed_multiply": [{"WIDTH_A": 8, "WIDTH_B": 9}],
     "fixed_negate": [{"LATENCY": 3}, {"LATENCY": 1, "MAGNITUDE": 1}],
     "pipeline_stream": [{"LATENCY": 3, "WIDTH": 5}],
+    "record_stream": [{"SLOT_BITS": 2, "LAST_READ": 3, "LATENCY": 3, "RECORD_WIDTH": 6, "WIDTH": 5}],
     "signed_multiply": [{"WIDTH_A": 8, "WIDTH_B": 9}],
     "delay_line": [{"WIDTH": 5, "DEPTH": 1}, {"WIDTH": 5, "DEPTH": 6}],
     "axis_fifo": [{"WIDTH": 5, "DEPTH_BITS": 3}],

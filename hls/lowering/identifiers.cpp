@@ -65,7 +65,8 @@ constexpr auto kUsedModules = std::to_array<std::string_view>(
      "fp_square",      "fp_square_root",   "mantissa_multiply", "mantissa_square",
      "fixed_add",      "fixed_fit",        "fixed_less",        "fixed_multiply",
      "fixed_negate",   "multiplier_18x18", "pipeline_stream",   "axis_fifo",
-     "credit_counter", "ring_memory",      "valid_line",        "signed_multiply"});
+     "credit_counter", "ring_memory",      "valid_line",        "signed_multiply",
+     "record_stream",  "record_ring"});
 
 // The names that systemverilog.cpp and record_unit.cpp write into every module, whatever the graph.
 constexpr auto kFixedNames = std::to_array<std::string_view>({"clk",

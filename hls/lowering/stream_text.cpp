@@ -95,7 +95,7 @@ class StreamWriter {
     text += listed("  assign {", "      ", outputs, "} = " + data_ + ";");
     text += "  pipeline_stream #(.LATENCY(" + std::to_string(design_.schedule.latency) +
             "), .WIDTH(" + std::to_string(bits_) + ")) " + stream_ + " (\n" +
-            "      .clk, .aresetn, .s_axis_tvalid, .s_axis_tready, .s_axis_tlast,\n" +
+            "      .clk, .aresetn, .open_next(1'b1), .s_axis_tvalid, .s_axis_tready, .s_axis_tlast,\n" +
             listed("      .result({", "          ", results_, "}),") + "      .m_axis_tdata(" +
             data_ + "), .m_axis_tvalid, .m_axis_tready, .m_axis_tlast);\n";
     return text;

@@ -55,6 +55,9 @@ package emax_mutation;
 
   localparam int STREAM_ALWAYS_READY = 141;  // stream/pipeline_stream: takes samples without room
   localparam int STREAM_LAST_LOST = 142;  // stream/pipeline_stream: no result is marked as the last
+  localparam int STREAM_WITHOUT_RECORD = 143;  // stream/record_stream: takes samples without a record
+  localparam int STREAM_KEEPS_RECORD = 144;  // stream/record_stream: a record is never over
+  localparam int STREAM_RECORD_EARLY = 145;  // stream/record_stream: the next record's words are written
 
   localparam int FILTER_AXES_SWAPPED = 151;  // filter/filter_element: y and z of a point change places
   localparam int FILTER_SEGMENT_LOST = 152;  // filter/filter_element: no record is a segment

@@ -2,7 +2,8 @@
 // both sides. `result` is that of the sample of LATENCY clock edges ago, which the pipeline reads beside
 // s_axis_tvalid. A sample is accepted only when the FIFO behind the pipeline has room for everything in
 // flight, so the results of accepted samples come out once each, in order, with their tlast. Samples that
-// were in flight at a reset never come out. tready and tvalid are registers; a sample a cycle.
+// were in flight at a reset never come out. Where a sample needs more than room, open_next says whether
+// the next cycle has it; else it is 1. tready and tvalid are registers; a sample a cycle.
 `include "mutation.svh"
 
 module pipeline_stream #(
@@ -11,6 +12,7 @@ module pipeline_stream #(
 ) (
     input  logic             clk,
     input  logic             aresetn,
+    input  logic             open_next,
     input  logic             s_axis_tvalid,
     output logic             s_axis_tready,
     input  logic             s_axis_tlast,
@@ -38,7 +40,7 @@ module pipeline_stream #(
   assign accepted = s_axis_tvalid && s_axis_tready;
   always_ff @(posedge clk) begin
     if (!aresetn || reset) s_axis_tready <= 1'b0;
-    else s_axis_tready <= `MUTATED(STREAM_ALWAYS_READY, room_next, 1'b1);
+    else s_axis_tready <= open_next && `MUTATED(STREAM_ALWAYS_READY, room_next, 1'b1);
   end
 
   valid_line #(.DEPTH(WAITING)) valid_beside (.clk, .reset, .d(accepted), .q(valid));

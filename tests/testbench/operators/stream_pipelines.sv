@@ -18,6 +18,6 @@ module stream_pipelines #(
       .clk, .d(s_axis_tdata), .q(result)
   );
   pipeline_stream #(.LATENCY(LATENCY), .WIDTH(8)) stream (
-      .clk, .aresetn, .s_axis_tvalid, .s_axis_tready, .s_axis_tlast, .result, .m_axis_tdata,
+      .clk, .aresetn, .open_next(1'b1), .s_axis_tvalid, .s_axis_tready, .s_axis_tlast, .result, .m_axis_tdata,
       .m_axis_tvalid, .m_axis_tready, .m_axis_tlast);
 endmodule

@@ -121,7 +121,7 @@ TEST(PipelineStream, ResetInFlightLeavesNothingBehind) {
 TEST(PipelineStream, EveryMutantIsCaught) {
   int tried = 0;
   for (const Mutant& mutant : read_mutants(EMAX_MUTATION_LIST)) {
-    if (!mutant.module.starts_with("stream/")) continue;
+    if (mutant.module != "stream/pipeline_stream") continue;
     ++tried;
     VerilatedContext context;
     context.assertOn(false);  // the FIFO's own check would end the run
