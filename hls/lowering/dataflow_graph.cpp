@@ -202,6 +202,11 @@ void DataflowGraph::set_output_name(std::size_t output, std::string name) {
   outputs_[output].name = std::move(name);
 }
 
+void DataflowGraph::keep_input_in_record(std::size_t input, std::uint32_t record_bit) {
+  inputs_[input].arrival = Arrival::kMemory;
+  inputs_[input].record_bit = record_bit;
+}
+
 std::vector<NodeId> DataflowGraph::remove_dead() {
   std::vector<bool> live(nodes_.size(), false);
   std::vector<NodeId> order;

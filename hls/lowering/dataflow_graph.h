@@ -170,6 +170,8 @@ class DataflowGraph {
   // Also names the input's node.
   void set_input_name(std::size_t input, const std::string& name);
   void set_output_name(std::size_t output, std::string name);
+  // Lets the input come from a memory, which has it from `record_bit` of the record on.
+  void keep_input_in_record(std::size_t input, std::uint32_t record_bit);
 
   // The operands of a node, without the unused places.
   struct Operands {

@@ -18,20 +18,20 @@
 namespace emax {
 namespace {
 
-constexpr int kBarycentricWords = sizeof(BarycentricRecord<float>) / 4;
+constexpr int kBarycentricBits = 8 * sizeof(BarycentricRecord<float>);
 
 // In the order of kForms.
 constexpr FormInfo kFormInfo[] = {
     {"visible_edge", "squared_distance", "hls/kernel/point_triangle.h", "emax_distance",
-     kRecordWords},
+     32 * kRecordWords},
     {"three_edge", "squared_distance_three_edge", "hls/kernel/forms/three_edge.h",
-     "emax_distance_three_edge", kRecordWords},
+     "emax_distance_three_edge", 32 * kRecordWords},
     {"barycentric", "squared_distance_barycentric", "hls/kernel/forms/barycentric.h",
-     "emax_distance_barycentric", kBarycentricWords},
+     "emax_distance_barycentric", kBarycentricBits},
     {"minimum", "minimum", "hls/kernel/reduce.h", "emax_minimum", 0},
     {"maximum", "maximum", "hls/kernel/reduce.h", "emax_maximum", 0},
     {"filter", "squared_distance_below_one", "hls/kernel/forms/guarded_edge.h", "emax_filter",
-     kFilterRecordWords, "emax::FilterNumber"},
+     32 * kFilterRecordWords, "emax::FilterNumber"},
 };
 
 // Inputs are named by their path in the arguments. Those of a record are in the order of its words.
@@ -197,6 +197,10 @@ int LoweredDesign::last_read() const {
 }
 
 LoweredDesign lower(Form form, const LoweringOptions& options) {
+  if (!options.record.empty()) {
+    throw std::invalid_argument("--record is for functions of one's own; leave it out for " +
+                                std::string(info(form).name));
+  }
   DataflowGraph graph;
   Labels labels;
   record(form, graph, labels);

@@ -22,7 +22,7 @@ struct FormInfo {
   std::string_view function;               // in the source
   std::string_view source;                 // path in the repository
   std::string_view module;                 // of the datapath, if the options give no other
-  int record_words;                        // of the record memory beside it; 0 for none
+  int record_bits;                         // of the record memory beside it; 0 for none
   std::string_view scalar = kModelScalar;  // of the model's function, in C++
 };
 const FormInfo& info(Form form);
@@ -46,6 +46,8 @@ struct LoweringOptions {
   std::string module;  // empty: the form's own
   Latencies latencies;
   DelayStyles delays = delay_styles(Family::kEcp5);
+  // The parameters of a function of one's own that are a record: they come from a memory.
+  std::vector<std::string> record = {};
 };
 
 struct LoweredDesign {
@@ -61,8 +63,14 @@ struct LoweredDesign {
   int last_read() const;
 };
 
+// Whether it is a function of one's own, and no form of the kernel.
+inline bool is_own(const LoweredDesign& design) {
+  return design.about.module == design.about.function;
+}
+
 // Records, shares, schedules and names. Throws std::invalid_argument for latencies that cannot be
-// built and for a module name that SystemVerilog does not permit.
+// built, for a module name that SystemVerilog does not permit, and for options with a record: a
+// form has its own or none.
 LoweredDesign lower(Form form, const LoweringOptions& options);
 
 // The same for a graph that was recorded elsewhere. `about` determines the comments of the text and

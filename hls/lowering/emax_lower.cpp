@@ -15,11 +15,12 @@
 namespace {
 
 constexpr std::string_view kFileHelp = R"(
-       emax_lower HEADER --function FUNCTION [--folder FOLDER] [--scalar SCALAR] [--stream]
-                  [OPTION...]
+       emax_lower HEADER --function FUNCTION [--folder FOLDER] [--scalar SCALAR]
+                  [--record P,Q,...] [--stream] [OPTION...]
 
 Lowers a function of one's own and compares the pipeline, simulated, with the function itself. The
-files come into FOLDER (lowered/FUNCTION); --stream adds the pipeline between two AXI4-Streams.
+files come into FOLDER (lowered/FUNCTION); --record adds a memory of records, which are the
+parameters P, Q, ..., and --stream the pipeline between AXI4-Streams.
 SCALAR is binary32, float:EXPONENT:MANTISSA, where MANTISSA is the number of bits that are stored
 of it (float:5:10 is binary16, float:8:7 bfloat16), or fixed:WIDTH:FRACTION[:down][:wrap].)";
 

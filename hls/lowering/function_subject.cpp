@@ -1,5 +1,6 @@
 #include "hls/lowering/function_subject.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -7,6 +8,52 @@
 #include "hls/lowering/source_text.h"
 
 namespace emax {
+namespace {
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+// For each parameter, whether it belongs to the record. Throws std::invalid_argument.
+std::vector<bool> parameters_in_record(const std::vector<std::string>& record,
+                                       const std::vector<std::string>& parameters,
+                                       std::string_view function) {
+  const std::string has =
+      "; " + std::string(function) + " has the parameters " + list_of(parameters);
+  std::vector<bool> in_record(parameters.size(), false);
+  for (const std::string& name : record) {
+    const auto place = std::ranges::find(parameters, name);
+    if (place == parameters.end()) {
+      throw std::invalid_argument("--record: no parameter is called '" + name + "'" + has);
+    }
+    const auto at = static_cast<std::size_t>(place - parameters.begin());
+    if (in_record[at]) {
+      throw std::invalid_argument("--record names " + name + " twice; once is enough");
+    }
+    in_record[at] = true;
+  }
+  if (!record.empty() && std::ranges::find(in_record, false) == in_record.end()) {
+    throw std::invalid_argument("--record has every parameter, so that nothing meets the record; " +
+                                std::string("leave one out of ") + list_of(parameters));
+  }
+  return in_record;
+}
+
+}  // namespace
+
+// Packs the fields without gaps, the first one lowest; returns the record's bits.
+int FunctionRecorder::keep_record(const std::vector<bool>& in_record,
+                                  const std::vector<std::size_t>& parameter_of) {
+  int bits = 0;
+  for (std::size_t i = 0; i < graph_.inputs().size(); ++i) {
+    if (!in_record[parameter_of[i]]) continue;
+    graph_.keep_input_in_record(i, static_cast<std::uint32_t>(bits));
+    bits += graph_.node(graph_.inputs()[i].node).type.width;
+  }
+  return bits;
+}
 
 LoweredDesign FunctionRecorder::lower(const LoweringOptions& options) {
   const PortNames names = port_names(source_text(header_), function_);
@@ -31,7 +78,9 @@ LoweredDesign FunctionRecorder::lower(const LoweringOptions& options) {
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     graph_.set_output_name(i, names.outputs[i]);
   }
-  const FormInfo about = {function_, function_, header_, function_, 0, scalar_};
+  const int bits = keep_record(parameters_in_record(options.record, names.parameters, function_),
+                               names.parameter_of);
+  const FormInfo about = {function_, function_, header_, function_, bits, scalar_};
   return lower_graph(about, std::move(graph_), source_text, {}, options);
 }
 

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "hls/lowering/fields.h"
 #include "hls/lowering/lowering_program.h"
@@ -43,11 +44,13 @@ class FunctionRecorder {
   }
 
   // Names the ports from the text, and lowers. Throws std::invalid_argument if the text does not
-  // give as many names as the function has ports, or if no result needs one of the inputs.
+  // give as many names as the function has ports, if no result needs one of the inputs, or if the
+  // record of the options has a parameter that there is not, one twice, all of them or none.
   LoweredDesign lower(const LoweringOptions& options);
 
  private:
   NodeId input(ValueType type) { return graph_.add_input("", type, Arrival::kSample); }
+  int keep_record(const std::vector<bool>& in_record, const std::vector<std::size_t>& parameter_of);
 
   std::string_view function_, header_, scalar_;
   DataflowGraph graph_;

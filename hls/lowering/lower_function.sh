@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [--stream] [OPTION...]: lowers a
-# function of a header, and runs the testbench of its pipeline. BUILD is a build folder of emax;
+# lower_function.sh BUILD HEADER FUNCTION FOLDER [--scalar SCALAR] [--record P,Q,...] [--stream] [OPTION...]:
+# lowers a function of a header, and runs the testbench of its pipeline. BUILD is a build folder of emax;
 # options are emax_lower's. SCALAR is binary32, which is the default, float:EXPONENT:MANTISSA or
 # fixed:WIDTH:FRACTION[:down][:wrap]. float:5:10 is binary16, float:8:7 bfloat16: MANTISSA is the number of bits
 # that are stored of it.
@@ -14,10 +14,12 @@
 #   coverage.txt            what its samples reach: outcomes of conditions, kinds of numbers
 #   mutants.txt             the faults that a pipeline could have, and whether its samples notice them
 #   lower                   the program that wrote them; --help lists its options
-# and with --stream, the pipeline between two AXI4-Streams:
+# with --record, the pipeline with a memory of records, which are the named parameters:
+#   FUNCTION_unit.sv, FUNCTION_unit_testbench.cpp, unit_bench
+# and with --stream, the pipeline between two AXI4-Streams, or the memory of records between three:
 #   FUNCTION_stream.sv, FUNCTION_stream_testbench.cpp, stream_bench
 set -euo pipefail
-[ $# -ge 4 ] || { sed -n '2,6s/^# //p' "$0" >&2 && exit 2; }
+[ $# -ge 4 ] || { sed -n '2,7s/^# //p' "$0" >&2 && exit 2; }
 build=$(realpath "$1") header=$(realpath "$2") function=$3 folder=$4
 shift 4
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -65,13 +67,13 @@ scalar_type() {
   echo "$type"
 }
 
-scalar=binary32 stream=no options=()
+scalar=binary32 stream=no record=no options=()
 while [ $# -gt 0 ]; do
   case $1 in
     --module | -o)
       fail 2 "the module has the name of the function, and the files are in $folder; leave out --module and -o"
       ;;
-    --unit | --schedule | --opencl | --testbench | --stream-testbench | --dot | --report | --graph)
+    --unit | --unit-testbench | --schedule | --opencl | --testbench | --stream-testbench | --dot | --report | --graph)
       fail 2 "$1 is for the program that is made: leave it out here, then call $folder/lower $1"
       ;;
     --scalar)
@@ -80,6 +82,12 @@ while [ $# -gt 0 ]; do
       shift
       ;;
     --stream) stream=yes ;;
+    --record)
+      [ $# -ge 2 ] || fail 2 "--record needs a value: names of parameters, with commas between"
+      record=yes
+      options+=("$1" "$2")
+      shift
+      ;;
     *) options+=("$1") ;;
   esac
   shift
@@ -124,7 +132,8 @@ rm -f "$folder/$function.cl"
 
 operators=("$root"/hls/rtl/fp_*.sv "$root"/hls/rtl/division/*.sv "$root"/hls/rtl/fixed/*.sv
   "$root"/hls/rtl/delay_line.sv "$root"/hls/rtl/behavioural/*.sv)
-streams=("$root"/hls/rtl/stream/*.sv "$root"/hls/rtl/{axis_fifo,credit_counter,ring_memory,valid_line}.sv)
+streams=("$root"/hls/rtl/stream/pipeline_stream.sv "$root"/hls/rtl/{axis_fifo,credit_counter,ring_memory,valid_line}.sv)
+unit=()
 
 # run_testbench MODULE PROGRAM SOURCE...: builds the program of the module's testbench and runs it.
 run_testbench() {
@@ -145,9 +154,16 @@ for check in coverage mutants; do
   "$folder/bench" --$check >"$folder/$check.txt" || { cat "$folder/$check.txt" >&2 && exit 1; }
   tail -n 1 "$folder/$check.txt"
 done
-rm -f "$folder/${function}_stream"* "$folder/stream_bench"
+rm -f "$folder/${function}_unit"* "$folder/unit_bench" "$folder/${function}_stream"* "$folder/stream_bench"
+if [ $record = yes ]; then
+  "$folder/lower" "${options[@]}" --unit -o "$folder/${function}_unit.sv"
+  "$folder/lower" "${options[@]}" --unit-testbench -o "$folder/${function}_unit_testbench.cpp"
+  unit=("$root/hls/rtl/field_memory.sv" "$folder/${function}_unit.sv")
+  streams+=("$root"/hls/rtl/{record_ring,stream/record_stream}.sv)
+  run_testbench "${function}_unit" unit_bench "${unit[@]}"
+fi
 if [ $stream = yes ]; then
   "$folder/lower" "${options[@]}" --stream -o "$folder/${function}_stream.sv"
   "$folder/lower" "${options[@]}" --stream-testbench -o "$folder/${function}_stream_testbench.cpp"
-  run_testbench "${function}_stream" stream_bench "${streams[@]}" "$folder/${function}_stream.sv"
+  run_testbench "${function}_stream" stream_bench "${streams[@]}" "${unit[@]}" "$folder/${function}_stream.sv"
 fi

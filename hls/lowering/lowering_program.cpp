@@ -30,13 +30,17 @@ what to write (the datapath unless one of these is given)
   --schedule          macros with the schedule's figures, for the modules that use the unit
   --opencl            the same arithmetic as a function in OpenCL C
   --testbench         a main for Verilator: the pipeline beside the function itself
-  --stream            the datapath between two AXI4-Streams, module NAME_stream
+  --unit-testbench    a main for Verilator: that module beside the function itself
+  --stream            the datapath between two AXI4-Streams, module NAME_stream; with --record
+                      the record memory between three, of which one has the records
   --stream-testbench  a main for Verilator: that module beside the function itself
   --dot               the graph, for Graphviz
   --report            operations, latency and delay bits, as JSON
   --graph             the graph with its schedule, as JSON
 
 how to lower
+  --record P,Q,...    of a function of one's own: parameters that come once, as a record, and
+                      stay in a memory while many arguments for the others run past it
   --module NAME       name of the datapath's module: an identifier of SystemVerilog
   --latency K=N,...   cycles of each operator, and levels of lookup tables between registers:
 LATENCIES                      of numbers with a mantissa of M stored bits, divide takes at most
@@ -113,6 +117,20 @@ void read_numbers(const std::string& option, const std::string& text,
   }
 }
 
+// Reads "a,b".
+std::vector<std::string> parameters_of(const std::string& option, const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream parts(text + ',');
+  for (std::string part; std::getline(parts, part, ',');) {
+    if (!is_identifier(part)) {
+      throw std::invalid_argument(option + " takes names of parameters with commas between, not '" +
+                                  text + "'");
+    }
+    names.push_back(part);
+  }
+  return names;
+}
+
 const LoweringSubject& subject_of(const std::string& name, const Subjects& subjects) {
   if (name.empty() && subjects.size() == 1) return subjects[0];
   if (name.empty()) throw std::invalid_argument("no form is given");
@@ -149,10 +167,15 @@ int run(const std::string& program, const std::vector<std::string>& arguments,
   std::optional<std::string> delay;
   std::string (*writer)(const LoweredDesign&) = datapath_module;
   const std::map<std::string, std::string (*)(const LoweredDesign&)> writers = {
-      {"--unit", unit_module},       {"--schedule", schedule_header},
-      {"--opencl", opencl_function}, {"--testbench", testbench_source},
-      {"--stream", stream_module},   {"--stream-testbench", stream_testbench_source},
-      {"--dot", dot_graph},          {"--report", report_json},
+      {"--unit", unit_module},
+      {"--unit-testbench", unit_testbench_source},
+      {"--schedule", schedule_header},
+      {"--opencl", opencl_function},
+      {"--testbench", testbench_source},
+      {"--stream", stream_module},
+      {"--stream-testbench", stream_testbench_source},
+      {"--dot", dot_graph},
+      {"--report", report_json},
       {"--graph", graph_json}};
   bool has_writer = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -176,6 +199,8 @@ int run(const std::string& program, const std::vector<std::string>& arguments,
       } catch (const std::invalid_argument& error) {
         throw std::invalid_argument(argument + ": " + error.what());
       }
+    } else if (argument == "--record") {
+      options.record = parameters_of(argument, value());
     } else if (argument == "--latency") {
       std::map<std::string, Field> fields;
       for (const LatencyLimits& limits : kLatencyLimits) {

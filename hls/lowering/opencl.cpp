@@ -69,14 +69,18 @@ class OpenclWriter {
   static std::string type(ValueKind kind) {
     return kind == ValueKind::kReal ? "real" : kind == ValueKind::kWord ? "word" : "condition";
   }
+  // In words of a global record; the record of a function of one's own is arguments here.
+  bool is_in_record(const Input& input) const {
+    return input.arrival == Arrival::kMemory && !is_own(design_);
+  }
   bool returns() const { return graph_.outputs().size() == 1; }
 
   std::string head() const {
     std::vector<std::string> parameters;
     bool reads_memory = false;
     for (const Input& input : graph_.inputs()) {
-      reads_memory = reads_memory || input.arrival == Arrival::kMemory;
-      if (input.arrival == Arrival::kSample) {
+      reads_memory = reads_memory || is_in_record(input);
+      if (!is_in_record(input)) {
         parameters.push_back("const " + type(graph_.node(input.node).type.kind) + " " +
                              names_[input.node]);
       }
@@ -96,7 +100,7 @@ class OpenclWriter {
   std::string fields() const {
     std::string text;
     for (const Input& input : graph_.inputs()) {
-      if (input.arrival != Arrival::kMemory) continue;
+      if (!is_in_record(input)) continue;
       const ValueKind kind = graph_.node(input.node).type.kind;
       const std::string word = "record[" + std::to_string(input.record_bit / 32) + "]";
       text += line(input.node,

@@ -64,6 +64,8 @@ class Names {
     for (const std::size_t end : ends(begin, close)) {
       const Declared parameter = declared(code_view(begin, end));
       add(parameter.type, parameter.name, names.inputs);
+      names.parameter_of.resize(names.inputs.size(), names.parameters.size());
+      names.parameters.push_back(parameter.name);
       begin = end + 1;
     }
     const std::string result = type_name(code_view(begin_of_result(at), at));

@@ -8,6 +8,8 @@ namespace emax {
 
 struct PortNames {
   std::vector<std::string> inputs, outputs;
+  std::vector<std::string> parameters;    // of the function
+  std::vector<std::size_t> parameter_of;  // for each input, its place in `parameters`
 };
 
 // The names of a function's scalars, from the text that defines it and the structs that it takes

@@ -29,10 +29,11 @@ class RecordUnit {
       : design_(design),
         module_(design.options.module),
         identifiers_(module_),
-        used_(static_cast<std::size_t>(32 * design.about.record_words), false) {
+        used_(static_cast<std::size_t>(design.about.record_bits), false) {
     if (used_.empty()) {
       throw std::invalid_argument(std::string(design.about.name) +
-                                  " has no record, so there is no unit: leave --unit out");
+                                  " has no record, so there is no unit: leave --unit out" +
+                                  (is_own(design) ? ", or give parameters with --record" : ""));
     }
     for (const Input& input : design_.graph.inputs()) identifiers_.take(input.name);
     for (const Output& output : design_.graph.outputs()) identifiers_.take(output.name);
@@ -96,7 +97,7 @@ class RecordUnit {
     const int bits = design_.graph.node(input.node).type.width;
     fields_[bits].push_back(input.name);
     for (int bit = 0; bit < bits; ++bit)
-      used_[input.record_bit + static_cast<unsigned>(bit)] = true;
+      used_.at(input.record_bit + static_cast<unsigned>(bit)) = true;
     memories_ +=
         instance("field_memory #(.WIDTH(" + std::to_string(bits) + "), .SLOT_BITS(SLOT_BITS))",
                  identifiers_.take(input.name + "_memory"),
@@ -160,6 +161,31 @@ class RecordUnit {
     return unused;
   }
 
+  // Where the bits of a record are, and how they are stored.
+  std::string record_comment() const {
+    if (!is_own(design_)) {
+      return R"(, word w of a record
+// at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
+// own, read with the slot delayed to the cycle in which the datapath needs the field, and written
+// a cycle later than the fields that are read before: a write reaches a few memories at a time.
+)";
+    }
+    std::vector<std::string> fields;
+    for (const Input& input : design_.graph.inputs()) {
+      if (input.arrival != Arrival::kMemory) continue;
+      const int bits = design_.graph.node(input.node).type.width;
+      const std::string low = std::to_string(input.record_bit);
+      const std::string high =
+          std::to_string(input.record_bit + static_cast<unsigned>(bits) - 1) + ":";
+      fields.push_back(input.name + " [" + (bits == 1 ? "" : high) + low + "]");
+    }
+    return ". The bits of a record:\n" + listed("// ", "// ", fields, ".") +
+           R"(// Each field has a memory of its own, read with the slot delayed to the cycle in which the datapath
+// needs the field, and written a cycle later than the fields that are read before: a write reaches a
+// few memories at a time.
+)";
+  }
+
   std::string head() const {
     std::string sample_ports, output_ports;
     for (const Input* input : samples_) {
@@ -175,11 +201,8 @@ class RecordUnit {
                       std::to_string(design_.schedule.latency) + "\n";
     }
     return generated_line(design_) + "//\n// " + module_ +
-           R"( with the memory of its records beside it: 2^SLOT_BITS slots, word w of a record
-// at bits 32 w + 31 to 32 w, in the order of the record's fields. Each field has a memory of its
-// own, read with the slot delayed to the cycle in which the datapath needs the field, and written
-// a cycle later than the fields that are read before: a write reaches a few memories at a time.
-//
+           " with the memory of its records beside it: 2^SLOT_BITS slots" + record_comment() +
+           R"(//
 // A record written at a clock edge may be used by a slot presented in the cycle after it. A slot
 // may be written again in any cycle later than LAST_READ after the one that presented it last.
 module )" + module_ +

@@ -18,9 +18,9 @@ std::string datapath_module(const LoweredDesign& design);
 // without a record.
 std::string unit_module(const LoweredDesign& design);
 
-// The datapath between two AXI4-Streams, `<module>_stream` (hls/rtl/stream/pipeline_stream.sv).
-// Throws std::invalid_argument for a design with inputs from a memory, and where a port has the
-// name of a handshake.
+// The datapath between two AXI4-Streams, `<module>_stream` (hls/rtl/stream/pipeline_stream.sv); the
+// unit of a design with a record between three (record_stream.sv). Throws std::invalid_argument for
+// the kernel's forms, and where a port has the name of a handshake.
 std::string stream_module(const LoweredDesign& design);
 
 // Whether anything in the datapath takes a cycle; else the module has no clock.

@@ -12,9 +12,11 @@ namespace {
 bool is_equal_every_cycle(const FunctionBench& bench, const BenchOptions& options) {
   const auto samples = drawn_samples(bench.name, bench.model, options);
   for (int cycle = 0; cycle < options.samples + bench.latency; ++cycle) {
-    if (cycle < options.samples) {
-      const std::vector<Bits>& given = samples[static_cast<std::size_t>(cycle)];
-      for (std::size_t i = 0; i < given.size(); ++i) bench.inputs[i].set(given[i]);
+    for (std::size_t i = 0; i < bench.inputs.size(); ++i) {
+      const int given = cycle - (bench.cycles.empty() ? 0 : bench.cycles[i]);
+      if (given >= 0 && given < options.samples) {
+        bench.inputs[i].set(samples[static_cast<std::size_t>(given)][i]);
+      }
     }
     bench.evaluate(false);
     const int sample = cycle - bench.latency - options.late;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -63,6 +64,8 @@ struct FunctionBench {
   FunctionModel model;
   std::function<void(bool clock)> evaluate;  // the module, with its clock at this level
   std::function<LoweredDesign()> lowered;    // the function, as the module was made of it
+  // For each input, how many cycles after its sample's first ones it comes; empty: all at once.
+  std::vector<int> cycles = {};
 };
 
 // Gives the pipeline a new sample in every cycle and compares every result with the model's.
@@ -70,6 +73,45 @@ struct FunctionBench {
 // code: 0 if all results are equal, 1 if one is not, 2 for arguments that are not understood.
 // --coverage and --mutants say what the samples are worth instead (graph_checks.h).
 int run_bench(const FunctionBench& bench, int argc, char** argv);
+
+struct UnitPorts {
+  BenchPort write_enable, write_slot, slot;
+};
+
+// The module `<name>_unit` with 16 slots for records.
+struct UnitBench {
+  std::string_view name;
+  int latency, last_read;
+  std::vector<std::size_t> record;         // places of the arguments that a record holds, in order
+  std::vector<BenchPort> inputs, outputs;  // those of the other arguments, and of the results
+  FunctionModel model;
+  UnitPorts slots;
+  std::function<void(const std::vector<Word>&)> write_record;  // the lowest bits in the first word
+  std::function<void(bool clock)> evaluate;
+};
+
+// Writes records into slots, each as soon as the unit permits it, gives a slot and the other
+// arguments in every cycle, and compares every result. --samples, --seed and the exit code as of
+// run_bench; --late compares each result with the sample before its own, which has to fail.
+int run_unit_bench(const UnitBench& bench, int argc, char** argv);
+
+// A port of any width, given words of which the first is the lowest.
+template <class Port>
+void set_words(Port& port, const std::vector<Word>& words) {
+  if constexpr (std::is_integral_v<Port>) {
+    Bits bits = 0;
+    for (std::size_t i = words.size(); i-- > 0;) bits = bits << 32 | words[i];
+    port = static_cast<Port>(bits);
+  } else {
+    for (std::size_t i = 0; i < words.size(); ++i) port.at(i) = words[i];
+  }
+}
+
+// The stream of records of a function that has one.
+struct RecordPorts {
+  BenchPort tvalid, tready;
+  std::vector<std::size_t> arguments;  // their places; the inputs there belong to a record's beat
+};
 
 struct StreamPorts {
   BenchPort aresetn, s_axis_tvalid, s_axis_tready, s_axis_tlast;
@@ -83,10 +125,12 @@ struct StreamBench {
   FunctionModel model;
   StreamPorts streams;
   std::function<void(bool clock)> evaluate;
+  std::optional<RecordPorts> records = {};
 };
 
 // Drives the streams through idle cycles and back-pressure, in stretches with and without either,
-// and compares every result and its tlast. --samples, --seed and the exit code as of run_bench;
+// and compares every result and its tlast. Records have 1 to some dozens of samples. --samples,
+// --seed and the exit code as of run_bench;
 // --late compares each result with the sample before its own, which has to fail.
 int run_stream_bench(const StreamBench& bench, int argc, char** argv);
 

@@ -232,6 +232,12 @@ class Copy {
   std::vector<NodeId> of_sample_, of_next_;
 };
 
+bool is_record_field(const DataflowGraph& graph, NodeId id) {
+  const Node& node = graph.node(id);
+  return node.operation == Operation::kInput &&
+         graph.inputs()[node.word].arrival == Arrival::kMemory;
+}
+
 }  // namespace
 
 std::string described_value(const LoweredDesign& design, NodeId node) {
@@ -260,6 +266,10 @@ std::vector<GraphMutant> graph_mutants(const LoweredDesign& design) {
     for (const int tap : names.taps(id)) {
       mutants.push_back({value + ": a cycle early as " + names.signal(id, tap),
                          Copy(design).with_early(id, tap)});
+    }
+    if (is_record_field(design.graph, id)) {
+      mutants.push_back(
+          {value + ": read a cycle early", Copy(design).with_early(id, design.schedule.start[id])});
     }
   }
   return mutants;

@@ -18,8 +18,8 @@ struct GraphMutant {
 
 // Every fault at every place of the design: another operator, one left out, operands exchanged, a
 // condition inverted or true at equality too, a choice that never changes, another rounding or
-// overflow, a constant off by its lowest bit, a delay short by a cycle. In the order of the nodes.
-// O(nodes) for each.
+// overflow, a constant off by its lowest bit, a delay short by a cycle, a record's field read a
+// cycle early. In the order of the nodes. O(nodes) for each.
 std::vector<GraphMutant> graph_mutants(const LoweredDesign& design);
 
 // The graph without a fault, on the same inputs.

@@ -27,6 +27,14 @@ expect pass "return squared_distance;" "the function in OpenCL C" \
 expect pass "*result_index_out = result_index;" "several outputs in OpenCL C" \
   "$lower" maximum --opencl
 expect fail "--stream is for functions of one's own" "streams of a form" "$lower" visible_edge --stream
+expect fail "--record is for functions of one's own; leave it out for visible_edge" "a record of a form" \
+  "$lower" visible_edge --record t
+for record in "" "," "a,,b" "a, b" "a.b"; do
+  expect fail "--record takes names of parameters with commas between, not '$record'" "the record '$record'" \
+    "$lower" minimum --record "$record"
+done
+expect fail "a testbench is for functions of one's own" "a testbench of a reduction" \
+  "$lower" minimum --testbench
 expect fail "a testbench is for functions of one's own" "a testbench of a form" \
   "$lower" visible_edge --testbench
 script=$project/hls/lowering/lower_function.sh example=$project/docs/examples/lowering/kalman_update.h
@@ -76,6 +84,26 @@ for fault in "a cycle early as in_red_at_8=s/DEPTH(8)\(.*in_red_at_8_delay\)/DEP
   expect fail "sample ${sample##* } of seed 1, output" "the fault ${fault%%=*}" env VERILATOR="$folder/faulty" \
     FAULT="${fault#*=}" "$lower" "$colours" --function colour_transform --folder "$folder/faults" --scalar fixed:18:16
 done
+scaled_function=("$lower" "$project/tests/hls/lowering/functions/scaled_in_range.h" --function scaled_in_range
+  --folder "$folder/scaled")
+expect fail "no parameter is called 'offset'; scaled_in_range has the parameters range, x, always, gain" \
+  "a parameter that is not there" env VERILATOR="$verilator" \
+  "${scaled_function[@]}" --record range,offset
+expect fail "--record has every parameter, so that nothing meets the record" "a record of everything" \
+  env VERILATOR="$verilator" "${scaled_function[@]}" --record range,x,always,gain
+expect fail "--record needs a value" "no record" "$script" . "$example" kalman_update none --record
+expect fail "--unit-testbench is for the program that is made" "a testbench of the unit alone" \
+  "$script" . "$example" kalman_update none --unit-testbench
+expect fail "scaled_in_range has no record; give its parameters with --record" "a unit's testbench without a record" \
+  "$folder/scaled/lower" --unit-testbench
+expect fail "leave --unit out, or give parameters with --record" "a unit without a record" "$folder/scaled/lower" --unit
+cat >"$folder/record_clash.h" <<'TEXT'
+template <class Scalar>
+Scalar clash(Scalar s_axis_record_tvalid, Scalar b) { return s_axis_record_tvalid * b; }
+TEXT
+expect fail "a port is called s_axis_record_tvalid, which --stream needs" "a port like a record's handshake" \
+  env VERILATOR="$verilator" "$lower" "$folder/record_clash.h" --function clash --folder "$folder/clash" --record b --stream
+
 cat >"$folder/clash.h" <<'TEXT'
 template <class Scalar>
 Scalar clash(Scalar m_axis_tdata) { return m_axis_tdata * m_axis_tdata; }

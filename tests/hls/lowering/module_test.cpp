@@ -82,7 +82,7 @@ TEST(Module, OfEveryFormHasOneDriverASignalAndLegalUniqueNames) {
   for (const Form form : kForms) {
     const LoweredDesign design = lower(form, {});
     EXPECT_EQ(test::fault_of_module(datapath_module(design)), "");
-    if (info(form).record_words > 0) {
+    if (info(form).record_bits > 0) {
       EXPECT_EQ(test::fault_of_module(unit_module(design)), "");
     }
   }
