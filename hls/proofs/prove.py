@@ -63,6 +63,7 @@ def prove_lowered(folder):
     from proving import lowered, prover
     from table import FIXED_OPERATORS, OPERATORS
     proof = lowered.proof_of(folder, (*OPERATORS, *FIXED_OPERATORS))
+    print(lowered.plan(proof), flush=True)
     holds, line = lowered.sentence(proof, prover.run(proof, FOLDER / f"lowered_{proof.name}"))
     print(line)
     return 0 if holds else 1

@@ -44,6 +44,12 @@ def proof_of(folder, stubs):
                  rule=Graph(file=str(files[0].resolve())))
 
 
+def plan(proof):
+    """A line that says what is about to be proven."""
+    return (f"{proof.name}: proving that the pipeline of {proof.depth} edges is the function's dataflow graph, then the same with "
+            f"{len(proof.faults)} faults; each takes seconds, and at most {proof.limit // 60} minutes")
+
+
 def sentence(proof, result):
     """(whether the proof counts, a line that says so)"""
     if result.get("failure"):

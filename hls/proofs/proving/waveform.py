@@ -31,18 +31,21 @@ class Trace:
                 lines.append(f"$var wire {width} {code} {leaf.split('[')[0]} $end")
             lines += ["$upscope $end"] * (1 + len(folders))
         lines.append("$enddefinitions $end")
+        words, clocks = [], []
+        for _, signals in sorted(scopes.items()):
+            words += [(self.system.names[name], code) for leaf, name, code in signals if leaf != "clk"]
+            # The clock is no signal of the netlist's: a step is one of its edges.
+            clocks += [code for leaf, _, code in signals if leaf == "clk"]
         last = {}
         for step, values in enumerate(self.values):
             lines.append(f"#{10 * step}")
-            for _, signals in sorted(scopes.items()):
-                for leaf, name, code in signals:
-                    # The clock is no signal of the netlist's: a step is one of its edges.
-                    value = 1 if leaf == "clk" else values[self.system.names[name]]
-                    if last.get(code) != value or leaf == "clk":
-                        last[code] = value
-                        lines.append(f"b{value:b} {code}")
+            lines += [f"b1 {code}" for code in clocks]
+            for number, code in words:
+                if last.get(code) != values[number]:
+                    last[code] = values[number]
+                    lines.append(f"b{values[number]:b} {code}")
             lines.append(f"#{10 * step + 5}")
-            lines += [f"b0 {code}" for _, signals in sorted(scopes.items()) for leaf, _, code in signals if leaf == "clk"]
+            lines += [f"b0 {code}" for code in clocks]
         lines.append(f"#{10 * len(self.values)}")
         path.write_text("\n".join(lines) + "\n")
 
