@@ -112,7 +112,7 @@ DECODER_FAULTS = (*mutants("ONE_POINT_TOO_MANY", "REDUCE_LEAVES_BLOCK_OPEN"),
                         patch=("command_decoder.sv", "sequencer_idle && !finish && !drop && !block", "!finish && !drop && !block")),
                   Fault("the first of the faults is answered",
                         patch=("command_decoder.sv", "if (!fits) fault", "if (!fits && fault == '0) fault")),
-                  Fault("an answered fault stays", patch=("command_decoder.sv", "fault  <= '0;\n          block", "block")),
+                  Fault("an answered fault stays", patch=("command_decoder.sv", "fault  <= '0;\n        block", "block")),
                   Fault("records without a block reach the elements", patch=("command_decoder.sv", "block ? RECORD : SKIP", "RECORD")))
 
 STREAM_PROOFS = [

@@ -111,27 +111,24 @@ module command_decoder #(
         : block && fault == '0 ? ASK_RESULT : ASK_FAULT;
     request_count <= fault != '0 ? 11'(fault) : block ? points : 11'(NO_POINTS);
 
-    if (take_header) begin
-      case (1'b1)
-        is_identify, is_counters: request_valid <= 1'b1;
-        is_points: begin
-          points <= count[10:0];
-          met    <= 1'b0;
-          block  <= fits && !none;
-          if (!fits) fault <= TOO_MANY_POINTS;
-          if (!none) state <= fits ? POINTS : SKIP;
-        end
-        is_records: if (!none) state <= block ? RECORD : SKIP;
-        is_reduce: begin
-          request_valid <= 1'b1;
-          finish <= block && fault == '0 && met;
-          drop   <= fault != '0 && met;
-          fault  <= '0;
-          block  <= `MUTATED(REDUCE_LEAVES_BLOCK_OPEN, 1'b0, block);
-          met    <= 1'b0;
-        end
-        default: fault <= UNKNOWN_COMMAND;
-      endcase
+    if (take_header) begin  // at most one of the commands is set
+      request_valid <= asks;
+      if (is_points) begin
+        points <= count[10:0];
+        met    <= 1'b0;
+        block  <= fits && !none;
+        if (!fits) fault <= TOO_MANY_POINTS;
+        if (!none) state <= fits ? POINTS : SKIP;
+      end
+      if (is_records && !none) state <= block ? RECORD : SKIP;
+      if (is_reduce) begin
+        finish <= block && fault == '0 && met;
+        drop   <= fault != '0 && met;
+        fault  <= '0;
+        block  <= `MUTATED(REDUCE_LEAVES_BLOCK_OPEN, 1'b0, block);
+        met    <= 1'b0;
+      end
+      if (!asks && !is_points && !is_records) fault <= UNKNOWN_COMMAND;
     end else if (take) begin
       left <= left - 1'b1;
       if (last_word) begin
