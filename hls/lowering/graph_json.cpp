@@ -17,13 +17,26 @@ std::string format_of(const ValueType& type) {
          ", \"saturate\": " + boolean(type.overflow == Overflow::kSaturate);
 }
 
+// The inputs that a memory of records gives: their nodes, and their lowest bits in a record.
+std::string record_of(const DataflowGraph& graph) {
+  std::string fields;
+  for (const Input& input : graph.inputs()) {
+    if (input.arrival != Arrival::kMemory) continue;
+    fields += std::string(fields.empty() ? "" : ", ") + "{\"node\": " + std::to_string(input.node) +
+              ", \"bit\": " + std::to_string(input.record_bit) + "}";
+  }
+  return "[" + fields + "]";
+}
+
 }  // namespace
 
 std::string graph_json(const LoweredDesign& design) {
   const DataflowGraph& graph = design.graph;
   const auto quoted = [](std::string_view text) { return "\"" + std::string(text) + "\""; };
   std::string text = "{\"module\": " + quoted(design.options.module) +
-                     ", \"latency\": " + std::to_string(design.schedule.latency) + ", \"nodes\": [";
+                     ", \"latency\": " + std::to_string(design.schedule.latency) +
+                     ",\n\"last_read\": " + std::to_string(design.last_read()) +
+                     ", \"record\": " + record_of(graph) + ",\n\"nodes\": [";
   for (NodeId id = 0; id < graph.nodes().size(); ++id) {
     const Node& node = graph.node(id);
     std::string operands;

@@ -62,11 +62,16 @@ def prove_lowered(folder):
     """Proves a lowered function; its counterexamples come into build/proofs/lowered_NAME."""
     from proving import lowered, prover
     from table import FIXED_OPERATORS, OPERATORS
-    proof = lowered.proof_of(folder, (*OPERATORS, *FIXED_OPERATORS))
-    print(lowered.plan(proof), flush=True)
-    holds, line = lowered.sentence(proof, prover.run(proof, FOLDER / f"lowered_{proof.name}"))
-    print(line)
-    return 0 if holds else 1
+    pipeline = lowered.proof_of(folder, (*OPERATORS, *FIXED_OPERATORS))
+    for proof in (pipeline, lowered.unit_proof_of(folder, pipeline)):
+        if proof is None:
+            continue
+        print(lowered.plan(proof), flush=True)
+        holds, line = lowered.sentence(proof, prover.run(proof, FOLDER / f"lowered_{proof.name}"))
+        print(line, flush=True)
+        if not holds:
+            return 1
+    return 0
 
 
 class Work:

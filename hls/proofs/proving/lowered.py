@@ -17,12 +17,22 @@ FAULTS = (
     (r"(assign \w+ =\s+)(.*(?:\[|\w [&|] |~).*);", lambda m: f"{m[1]}~({m[2]});", "a line of logic is inverted"),
 )
 
+# The same of the memory of records.
+UNIT_FAULTS = (
+    (r"\.DEPTH\((\d+)\)(.*slot_at_)", lambda m: f".DEPTH({int(m[1]) - 1}){m[2]}", "a slot is delayed by an edge less"),
+    (r"\.DEPTH\((\d+)\)(.*_late_delay|\) \w+_late_delay)", lambda m: f".DEPTH({int(m[1]) - 1}){m[2]}", "a field is written an edge early"),
+    (r"write_enable\((\w+)\), \.write_slot\(\w+\)(.*)", lambda m: f"write_enable(1'b0), .write_slot(write_slot){m[2]}", "a field is never written"),
+    (r"write_enable\((\w+)\)(, \.write_slot.*)", lambda m: f"write_enable(1'b1){m[2]}", "a field is always written"),
+    (r"write_data\(write_record\[(\d+):(\d+)\]\)", lambda m: f"write_data({{write_record[{m[2]}], write_record[{m[1]}:{int(m[2]) + 1}]}})",
+     "a field's bits change places"),
+)
 
-def faults_of(file, text):
+
+def faults_of(file, text, kinds=FAULTS):
     """A fault of each kind that the pipeline has a place for."""
     start = text.index(");\n", text.index("\nmodule ")) + 3  # after the ports
     faults = []
-    for pattern, replacement, what in FAULTS:
+    for pattern, replacement, what in kinds:
         place = next((m for m in re.finditer(pattern, text[start:]) if text.count(m[0]) == 1), None)
         if place is not None:
             faults.append(Fault(what, patch=(file, place[0], replacement(place))))
@@ -44,9 +54,19 @@ def proof_of(folder, stubs):
                  rule=Graph(file=str(files[0].resolve())))
 
 
+def unit_proof_of(folder, pipeline):
+    """The proof of the memory of records in a folder, beside that of its pipeline; None where there is no record."""
+    unit = Path(folder).resolve() / f"{pipeline.name}_unit.sv"
+    if not unit.exists():
+        return None
+    return Proof(f"{pipeline.name}_unit", "each field is that of its record in the cycle in which the pipeline reads it",
+                 "record", f"{pipeline.name}_unit", pipeline.depth, faults_of(unit.name, unit.read_text(), UNIT_FAULTS),
+                 files=(*pipeline.files, str(unit)), parameters={"SLOT_BITS": 2}, spread=True, rule=pipeline.rule)
+
+
 def plan(proof):
     """A line that says what is about to be proven."""
-    return (f"{proof.name}: proving that the pipeline of {proof.depth} edges is the function's dataflow graph, then the same with "
+    return (f"{proof.name}: proving that {proof.what}, then the same with "
             f"{len(proof.faults)} faults; each takes seconds, and at most {proof.limit // 60} minutes")
 
 

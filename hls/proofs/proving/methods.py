@@ -10,7 +10,7 @@ from bitwuzla import Kind
 
 from synthesis.tools import Failure
 
-from . import floats, graph, split
+from . import floats, graph, record, split
 from .btor import apply, initial
 from .solve import Solver, trace_of
 from .unroll import Terms, Unrolling
@@ -294,10 +294,10 @@ def words(proof, system, refute=False):
 
 
 METHODS = {"words": words, "induction": induction, "bounded": bounded, "graph": graph.graph, "split": split.split,
-           "delays": delays}
+           "delays": delays, "record": record.record}
 DESCRIPTIONS = {
     "words": "all words", "induction": "induction", "bounded": "bounded check", "graph": "congruence", "split": "partial products",
-    "delays": "all words"}
+    "delays": "all words", "record": "all records"}
 
 
 def depth(proof):

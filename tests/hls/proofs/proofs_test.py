@@ -308,6 +308,33 @@ endmodule
             self.assertEqual(sum(place in text for text in texts), 1, place)
         self.assertEqual(lowered.faults_of("f.sv", "\nmodule f (\n);\n  assign f = a;\nendmodule\n"), ())
 
+    UNIT = """
+module f_unit #(
+    parameter int SLOT_BITS = 4
+) (
+    input  logic clk
+);
+  delay_line #(.WIDTH(SLOT_BITS), .DEPTH(9), .STYLE("registers")) slot_at_9_delay (
+      .clk, .d(slot), .q(slot_at_9));
+  delay_line #(.WIDTH(32), .DEPTH(1)) gain_late_delay (
+      .clk, .d(write_record[63:32]), .q(gain_late));
+  field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) from_memory (
+      .clk, .write_enable(write_enable), .write_slot(write_slot), .write_data(write_record[31:0]),
+      .read_slot(slot), .read_data(from));
+  field_memory #(.WIDTH(32), .SLOT_BITS(SLOT_BITS)) gain_memory (
+      .clk, .write_enable(write_enable_1), .write_slot(write_slot_1), .write_data(gain_late),
+      .read_slot(slot_at_9), .read_data(gain));
+endmodule
+"""
+
+    def test_a_fault_of_each_kind_is_found_in_a_memory_of_records(self):
+        faults = lowered.faults_of("f_unit.sv", self.UNIT, lowered.UNIT_FAULTS)
+        self.assertEqual(len(faults), len(lowered.UNIT_FAULTS))
+        texts = [netlist.with_fault({"f_unit.sv": self.UNIT}, fault)["f_unit.sv"] for fault in faults]
+        self.assertEqual(len({self.UNIT, *texts}), len(faults) + 1)
+        for place in (".DEPTH(8)", ".DEPTH(0)", "write_enable(1'b0)", "write_enable(1'b1)", "{write_record[0], write_record[31:1]}"):
+            self.assertEqual(sum(place in text for text in texts), 1, place)
+
     def test_only_a_proof_that_holds_and_that_a_fault_refutes_counts(self):
         of = proof("graph")
         counts, line = lowered.sentence(of, self.RESULT)
