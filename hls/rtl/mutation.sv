@@ -94,6 +94,27 @@ package emax_mutation;
   localparam int STORE_READS_THE_NEXT = 162;  // board/command_store: a piece begins a word late
   localparam int ROUTER_MIXES_ANSWERS = 163;  // board/command_router: the filter's answers go first
 
+  localparam int SDRAM_STARTS_EARLY = 171;  // sdram/sdram_controller: the first command comes in half of the time
+  localparam int SDRAM_FEW_REFRESHES = 172;  // sdram/sdram_controller: one refresh at the start
+  localparam int SDRAM_MODE_LEFT_OUT = 173;  // sdram/sdram_controller: the mode is not loaded
+  localparam int SDRAM_MODE_SHORT = 174;  // sdram/sdram_controller: a command a cycle too early after LOAD MODE (tMRD)
+  localparam int SDRAM_ROW_SHORT = 175;  // sdram/sdram_controller: READ or WRITE a cycle too early after ACTIVATE (tRCD)
+  localparam int SDRAM_PRECHARGE_SHORT = 176;  // sdram/sdram_controller: ACTIVATE or REFRESH a cycle too early after PRECHARGE (tRP)
+  localparam int SDRAM_ACTIVE_SHORT = 177;  // sdram/sdram_controller: PRECHARGE a cycle too early after ACTIVATE (tRAS)
+  localparam int SDRAM_CYCLE_SHORT = 178;  // sdram/sdram_controller: ACTIVATE too early after ACTIVATE (tRC)
+  localparam int SDRAM_REFRESH_SHORT = 179;  // sdram/sdram_controller: a command a cycle too early after REFRESH (tRFC)
+  localparam int SDRAM_RECOVERY_SHORT = 180;  // sdram/sdram_controller: PRECHARGE a cycle too early after a write (tWR)
+  localparam int SDRAM_REFRESH_LATE = 181;  // sdram/sdram_controller: refreshes do not count that they may wait
+  localparam int SDRAM_REFRESH_OPEN = 182;  // sdram/sdram_controller: REFRESH while a row is open
+  localparam int SDRAM_TURN_SHORT = 183;  // sdram/sdram_controller: a write drives the pins next to the chip's data
+  localparam int SDRAM_BURST_CUT = 184;  // sdram/sdram_controller: a command cuts a burst
+  localparam int SDRAM_KEEPS_ROW = 185;  // sdram/sdram_controller: another row is taken for the open one
+  localparam int SDRAM_HALVES_SWAPPED = 186;  // sdram/sdram_controller: the halves of a word are written in the other order
+  localparam int SDRAM_READS_EARLY = 187;  // sdram/sdram_controller: data are taken a cycle early
+  localparam int SDRAM_DRIVES_ONCE = 188;  // sdram/sdram_controller: the second half is not driven
+  localparam int SDRAM_ONE_HALF_BURSTS = 189;  // sdram/sdram_controller: the mode says bursts of one
+  localparam int SDRAM_CLOSES_ITSELF = 190;  // sdram/sdram_controller: READ and WRITE ask for a precharge of their own
+
   localparam int LINK_CRC_NOT_CHECKED = 201;  // link_receiver: every frame is whole
   localparam int LINK_LENGTH_NOT_CHECKED = 202;  // link_receiver: reads on after an impossible length
   localparam int LINK_GAP_IGNORED = 203;  // link_receiver: a frame that broke off swallows the next

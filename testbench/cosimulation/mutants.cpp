@@ -22,10 +22,13 @@ namespace {
 constexpr std::uint64_t kOperatorPairs = 2'000'000;
 
 // The test for a mutant that is not in the simulated element: of a family's multipliers, of
-// operators for lowered functions, of a core or of the link. Empty for a mutant of the element.
+// operators for lowered functions, of a core, of the link, of what lies between them or of a
+// memory's controller. Empty for a mutant of the element.
 std::string other_test(const Mutant& mutant) {
   if (mutant.module.starts_with("core/")) return "core_test";
   if (mutant.module.starts_with("filter/")) return "filter_core_test";
+  if (mutant.module.starts_with("board/")) return "device_core_test";
+  if (mutant.module.starts_with("sdram/")) return "sdram_test";
   if (mutant.module.find('/') != std::string::npos) return "operators_test";
   if (mutant.name.starts_with("LINK_")) return "link_rtl_test";
   return {};
