@@ -47,6 +47,6 @@ module sdram_bench #(
   end
 
   sdram_chip #(.PERIOD_PS(1000000000 / CLOCK_KHZ), .ROW_BITS(ADDRESS_BITS - 10), .RC_NS(RC_NS)) chip (
-      .clk, .restart(!aresetn), .command(chip_command), .bank(chip_bank), .address(chip_address), .mask(chip_mask),
+      .clk, .command(chip_command), .bank(chip_bank), .address(chip_address), .mask(chip_mask),
       .write_data(chip_input), .drive(chip_drive), .read_data(chip_output), .broken);
 endmodule

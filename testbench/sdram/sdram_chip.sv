@@ -3,8 +3,8 @@
 // broken sets its bit of `broken` and is reported once. Its clock is the controller's; on a board the
 // chip's clock comes earlier, so that what it gives is there at the controller's next edge.
 //
-// What the data pins show while nobody drives them is wrong on purpose. `restart` is power-on: it leaves
-// the words, so that a test need not fill them again, and forgets all else.
+// What the data pins show while nobody drives them is wrong on purpose. A controller that starts holds the
+// mask high; the chip then asks for the whole sequence of the start again, and for no refresh until then.
 /* verilator lint_off BLKSEQ */  // steps within a clock edge; the outputs change after it
 module sdram_chip #(
     parameter int PERIOD_PS = 8333,
@@ -22,7 +22,6 @@ module sdram_chip #(
     parameter int REFRESH_NS = 7812
 ) (
     input  logic        clk,
-    input  logic        restart,
     input  logic [2:0]  command,  // RAS, CAS, WE, active low
     input  logic [1:0]  bank,
     input  logic [12:0] address,
@@ -42,12 +41,12 @@ module sdram_chip #(
 
   logic [15:0] words[1<<(ROW_BITS+11)];
 
-  longint now;  // ps since power-on
+  longint now, started;  // ps since power-on; when the controller's latest start began
   longint activated[4], precharged[4], written[4];
   longint latest_refresh, mode_set;
   logic [3:0] open;
   logic [ROW_BITS-1:0] rows[4];
-  logic all_precharged, ready;  // ready: the sequence of the start is done
+  logic all_precharged, ready, was_masked;  // ready: the sequence of the start is done
   int refreshes;
   // The burst under way: its second half is due at this edge.
   logic reads_second, writes_second;
@@ -59,6 +58,12 @@ module sdram_chip #(
   logic drives, drove;  // the chip, in this cycle and in the one before
 
   function automatic void start();
+    started = now;
+    refreshes = 0;
+    {all_precharged, ready, reads_second, writes_second} = '0;
+  endfunction
+  initial begin
+    broken = '0;
     now = 0;
     latest_refresh = LONG_AGO;
     mode_set = LONG_AGO;
@@ -67,12 +72,7 @@ module sdram_chip #(
       precharged[i] = LONG_AGO;
       written[i] = LONG_AGO;
     end
-    open = '0;
-    refreshes = 0;
-    {all_precharged, ready, reads_second, writes_second, first_valid, second_valid, drives, drove} = '0;
-  endfunction
-  initial begin
-    broken = '0;
+    {open, first_valid, second_valid, drives, drove, was_masked} = '0;
     start();
   end
 
@@ -107,7 +107,7 @@ module sdram_chip #(
   endfunction
 
   function automatic void take_command();
-    rule(START, now >= 64'(START_NS) * 1000);
+    rule(START, since(started, START_NS));
     rule(RFC, since(latest_refresh, RFC_NS));
     rule(MRD, since(mode_set, MRD_NS) && now - mode_set >= 64'(MRD_CYCLES) * 64'(PERIOD_PS));
     case (command)
@@ -153,9 +153,11 @@ module sdram_chip #(
 
   always @(posedge clk) begin
     now = now + 64'(PERIOD_PS);
+    if (mask && !was_masked) start();
+    was_masked = mask;
     rule(BUS, !(drive && (drives || drove)));
     rule(REFRESHED, !ready || now - latest_refresh <= 64'(REFRESH_NS) * 1000);
-    if (command != NOTHING && !restart) take_command();
+    if (command != NOTHING) take_command();
 
     drove = drives;
     drives = second_valid;
@@ -170,7 +172,6 @@ module sdram_chip #(
     writes_second = command == WRITE;
     burst_bank = bank;
     burst_column = address[8:0];
-    if (restart) start();
   end
 endmodule
 /* verilator lint_on BLKSEQ */

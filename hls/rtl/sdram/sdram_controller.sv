@@ -202,7 +202,7 @@ module sdram_controller #(
       OPEN: sdram_address <= {2'b0, `MUTATED(SDRAM_CLOSES_ITSELF, closes, 1'b1), 1'b0, address[WORD_BITS-1:0], 1'b0};
       default: sdram_address <= 13'h400;  // precharges all banks
     endcase
-    sdram_mask <= state != CLOSED && state != OPEN;
+    sdram_mask <= !aresetn || (state != CLOSED && state != OPEN);
     sdram_write_data <= `MUTATED(SDRAM_HALVES_SWAPPED, served, !served) ? data[31:16] : data[15:0];
     sdram_drive <= aresetn && (command == WRITE || `MUTATED(SDRAM_DRIVES_ONCE, served && write, 1'b0));
   end
