@@ -93,6 +93,8 @@ package emax_mutation;
   localparam int STORE_KEEPS_OLD_WORDS = 161;  // board/command_store: nothing is written
   localparam int STORE_READS_THE_NEXT = 162;  // board/command_store: a piece begins a word late
   localparam int ROUTER_MIXES_ANSWERS = 163;  // board/command_router: the filter's answers go first
+  localparam int STORE_OVERTAKES = 164;  // board/command_store: words pass those that the memory owes
+  localparam int STORE_KEEPS_STALE_WORDS = 165;  // board/command_store: words of before a reset come after it
 
   localparam int SDRAM_STARTS_EARLY = 171;  // sdram/sdram_controller: the first command comes in half of the time
   localparam int SDRAM_FEW_REFRESHES = 172;  // sdram/sdram_controller: one refresh at the start

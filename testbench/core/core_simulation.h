@@ -42,5 +42,9 @@ std::unique_ptr<CoreSimulation> make_mutated_filter();
 // The same of both cores behind a store, of one element each.
 constexpr unsigned kMutatedStoreBits = 8;
 std::unique_ptr<CoreSimulation> make_mutated_device();
+// The same with the store in an SDRAM (testbench/sdram/). Breaking a rule of the chip fails an
+// assertion.
+constexpr unsigned kSdramStoreBits = 12;
+std::unique_ptr<CoreSimulation> make_mutated_device_with_sdram();
 
 }  // namespace emax

@@ -10,6 +10,10 @@
 #include <Vemax_device_mutated___024root.h>
 #include <Vemax_device_mutated_emax_mutation.h>
 
+#include <Vemax_sdram_device_mutated.h>
+#include <Vemax_sdram_device_mutated___024root.h>
+#include <Vemax_sdram_device_mutated_emax_mutation.h>
+
 #include "testbench/core/verilated_core.h"
 
 namespace emax {
@@ -33,6 +37,13 @@ std::unique_ptr<CoreSimulation> make_mutated_device() {
     model.rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
   };
   return std::make_unique<VerilatedCore<Vemax_device_mutated, 1>>(set_active);
+}
+
+std::unique_ptr<CoreSimulation> make_mutated_device_with_sdram() {
+  const auto set_active = [](Vemax_sdram_device_mutated& model, std::uint32_t mutant) {
+    model.rootp->__PVT__emax_mutation->active = static_cast<IData>(mutant);
+  };
+  return std::make_unique<VerilatedCore<Vemax_sdram_device_mutated, 1>>(set_active);
 }
 
 }  // namespace emax

@@ -18,7 +18,10 @@ module emax_ulx3s #(
   logic clk, locked, runs_first, runs, aresetn;
   logic [3:0] settling, activity;
 
-  ulx3s_clock #(.MHZ(CLOCK_MHZ)) clock (.clk_25mhz, .clk, .locked);
+  /* verilator lint_off UNUSEDSIGNAL */
+  logic clk_early;  // of a memory outside
+  /* verilator lint_on UNUSEDSIGNAL */
+  ulx3s_clock #(.MHZ(CLOCK_MHZ)) clock (.clk_25mhz, .clk, .clk_early, .locked);
 
   always_ff @(posedge clk) begin
     runs_first <= locked && !reset_button;
@@ -27,9 +30,17 @@ module emax_ulx3s #(
     aresetn <= runs && settling == '1;
   end
 
+  // The store is block RAM; nothing is behind the ports of another memory.
+  /* verilator lint_off UNUSEDSIGNAL */
+  logic memory_valid, memory_write;
+  logic [STORE_BITS-1:0] memory_address;
+  logic [31:0] memory_write_data;
+  /* verilator lint_on UNUSEDSIGNAL */
   emax_board #(.NUM_PE(NUM_PE), .FILTER_PE(FILTER_PE), .STORE_BITS(STORE_BITS),
       .CLOCK_KHZ(1000 * CLOCK_MHZ), .CLOCKS_PER_BIT(CLOCKS_PER_BIT)) board (
-      .clk, .aresetn, .uart_rxd(ftdi_txd), .uart_txd(ftdi_rxd), .activity);
+      .clk, .aresetn, .uart_rxd(ftdi_txd), .uart_txd(ftdi_rxd), .activity, .memory_valid,
+      .memory_ready(1'b0), .memory_write, .memory_address, .memory_write_data, .memory_read_valid(1'b0),
+      .memory_read_data('0));
 
   assign led = {aresetn, 3'b0, activity};
   assign wifi_gpio0 = 1'b1;

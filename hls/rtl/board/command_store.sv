@@ -7,20 +7,34 @@
 //
 // All other commands pass. A word a cycle, in and out; a piece takes a cycle more than its words. The
 // memory outlives a reset, what it holds after power-on is unknown.
+//
+// The memory is block RAM, or with OUTSIDE one behind the ports memory_*, of any speed: requests to write
+// or read a word, in order, and the words that were read, in that order, for which there is always room.
+// Words that are not of the memory then wait until those that are have come. `memory_aresetn` is the reset
+// of that memory; words that it owes when aresetn comes are dropped when they come.
 `include "mutation.svh"
 
 module command_store #(
-    parameter int STORE_BITS = 14  // at most 22
+    parameter int STORE_BITS = 14,  // at most 22
+    parameter int OUTSIDE = 0
 ) (
-    input  logic        clk,
-    input  logic        aresetn,
-    input  logic [31:0] s_axis_tdata,
-    input  logic        s_axis_tvalid,
-    output logic        s_axis_tready,
-    output logic [31:0] m_axis_tdata,
-    output logic        m_axis_tvalid,
-    input  logic        m_axis_tready,
-    output logic        under_way  // a command is not finished, or words have not left
+    input  logic                  clk,
+    input  logic                  aresetn,
+    input  logic [31:0]           s_axis_tdata,
+    input  logic                  s_axis_tvalid,
+    output logic                  s_axis_tready,
+    output logic [31:0]           m_axis_tdata,
+    output logic                  m_axis_tvalid,
+    input  logic                  m_axis_tready,
+    output logic                  under_way,  // a command is not finished, or words have not left
+    input  logic                  memory_aresetn,
+    output logic                  memory_valid,
+    input  logic                  memory_ready,
+    output logic                  memory_write,
+    output logic [STORE_BITS-1:0] memory_address,
+    output logic [31:0]           memory_write_data,
+    input  logic                  memory_read_valid,
+    input  logic [31:0]           memory_read_data
 );
   localparam logic [7:0] IDENTIFY = 8'd1, STORE = 8'd9, RECALL = 8'd10;
   localparam logic [31:0] VERSION = 32'd1;
@@ -56,6 +70,8 @@ module command_store #(
   logic [31-PIECE_ADDRESS:0] run;  // words of the piece after the next one
   logic at_header, room, room_next, gives_word, gives, passes, last;
   logic is_store, is_recall, is_question;
+  // The memory takes a request; it owes no word; it owes words of before a reset.
+  logic free, settled, stale, go;
 
   assign is_store = at_header && says_store;
   assign is_recall = at_header && says_recall;
@@ -64,24 +80,23 @@ module command_store #(
   // Words that give none wait for room as well: that decides soon.
   always_comb begin
     case (state)
+      WRITE, READ: go = room && free;
+      PASS, MAKE, SAY_VERSION, SAY_SIZE: go = room && settled;
+      default: go = room;
+    endcase
+    case (state)
       READ, SAY_VERSION, SAY_SIZE: take = 1'b0;
-      default: take = word_valid && room;
+      default: take = word_valid && go;
     endcase
   end
   assign passes = take && state == PASS && gives_word && !is_question;
-  assign gives = gives_word ? take : room && (state == READ || state == SAY_VERSION || state == SAY_SIZE);
+  assign gives = gives_word ? take : go && (state == READ || state == SAY_VERSION || state == SAY_SIZE);
   assign last = left == 24'd1;
 
   command_payload payload (
       .clk, .reset(!aresetn), .take(passes), .count(word[23:0]), .extent, .at_header);
 
-  logic write_enable;
-  logic [STORE_BITS-1:0] write_address;
-  logic [31:0] write_data;
   always_ff @(posedge clk) begin
-    write_enable <= `MUTATED(STORE_KEEPS_OLD_WORDS, aresetn && take && state == WRITE, 1'b0);
-    write_address <= address;
-    write_data <= word;
     case (state)
       PASS: if (take) begin
         left <= word[23:0];
@@ -109,30 +124,23 @@ module command_store #(
         left <= left - 1'b1;
         state <= READ;
       end
-      READ: if (room) begin
+      READ: if (go) begin
         address <= address + 1'b1;
         run <= run - 1'b1;
         if (run == '0) state <= left == '0 ? PASS : PIECE;
       end
-      SAY_VERSION: if (room) state <= SAY_SIZE;
-      SAY_SIZE: if (room) state <= PASS;
+      SAY_VERSION: if (go) state <= SAY_SIZE;
+      SAY_SIZE: if (go) state <= PASS;
       default: state <= PASS;
     endcase
-    if (!aresetn) begin
-      state <= PASS;
-      write_enable <= 1'b0;
-    end
+    if (!aresetn) state <= PASS;
   end
 
-  // A word given reaches the FIFO two cycles later, as words of the memory do.
+  // A word given that is not of the memory reaches the FIFO two cycles later, as those of block RAM do.
   logic early_valid, valid, early_stored, stored;
   logic [31:0] early_word, literal, memory_word;
-  block_memory #(.WIDTH(32), .ADDRESS_BITS(STORE_BITS)) memory (
-      .clk, .write_enable, .write_address, .write_data, .read_enable(1'b1),
-      .read_address(`MUTATED(STORE_READS_THE_NEXT, address, address + 1'b1)), .output_enable(1'b1),
-      .read_data(memory_word));
   always_ff @(posedge clk) begin
-    room <= aresetn && !reset && room_next;
+    room <= aresetn && !reset && !stale && room_next;
     early_valid <= aresetn && gives;
     valid <= aresetn && early_valid;
     {stored, early_stored} <= {early_stored, state == READ};
@@ -140,9 +148,51 @@ module command_store #(
     literal <= early_word;
   end
 
+  logic [STORE_BITS-1:0] read_address;
+  logic push;
+  assign read_address = `MUTATED(STORE_READS_THE_NEXT, address, address + 1'b1);
+  if (OUTSIDE == 0) begin : in_block_ram
+    logic write_enable;
+    logic [STORE_BITS-1:0] write_address;
+    logic [31:0] write_data;
+    always_ff @(posedge clk) begin
+      write_enable <= `MUTATED(STORE_KEEPS_OLD_WORDS, aresetn && take && state == WRITE, 1'b0);
+      write_address <= address;
+      write_data <= word;
+    end
+    block_memory #(.WIDTH(32), .ADDRESS_BITS(STORE_BITS)) memory (
+        .clk, .write_enable, .write_address, .write_data, .read_enable(1'b1), .read_address,
+        .output_enable(1'b1), .read_data(memory_word));
+    assign {free, settled, stale} = 3'b110;
+    assign push = valid;
+    assign {memory_valid, memory_write, memory_address, memory_write_data} = '0;
+    /* verilator lint_off UNUSEDSIGNAL */
+    logic unused;
+    assign unused = ^{memory_aresetn, memory_ready, memory_read_valid, memory_read_data};
+    /* verilator lint_on UNUSEDSIGNAL */
+  end else begin : elsewhere
+    // Words that were asked for and have not come: at most those that the FIFO has room for.
+    logic [ROOM_BITS:0] owed;
+    logic asks;
+    assign free = memory_ready;
+    assign memory_valid = room && (state == READ || (state == WRITE && word_valid));
+    assign memory_write = `MUTATED(STORE_KEEPS_OLD_WORDS, state == WRITE, 1'b0);
+    assign memory_address = memory_write ? address : read_address;
+    assign memory_write_data = word;
+    assign asks = state == READ && go;
+    always_ff @(posedge clk) begin
+      if (!memory_aresetn) owed <= '0;
+      else owed <= owed + (ROOM_BITS + 1)'(asks) - (ROOM_BITS + 1)'(memory_read_valid);
+      settled <= `MUTATED(STORE_OVERTAKES, !memory_aresetn || (!asks && owed <= (ROOM_BITS + 1)'(memory_read_valid)), 1'b1);
+      stale <= `MUTATED(STORE_KEEPS_STALE_WORDS, !aresetn || (stale && !settled), 1'b0);
+    end
+    assign memory_word = memory_read_data;
+    assign push = memory_read_valid ? !stale : valid && !stored;
+  end
+
   axis_fifo #(.WIDTH(32), .DEPTH_BITS(ROOM_BITS)) given (
-      .clk, .aresetn, .reset, .push(valid), .push_data(stored ? memory_word : literal), .m_axis_tdata,
-      .m_axis_tvalid, .m_axis_tready);
+      .clk, .aresetn, .reset, .push, .push_data((OUTSIDE == 0 ? stored : memory_read_valid) ? memory_word : literal),
+      .m_axis_tdata, .m_axis_tvalid, .m_axis_tready);
   credit_counter #(.CREDIT_BITS(ROOM_BITS)) credit (
       .clk, .reset, .take(gives), .give(m_axis_tvalid && m_axis_tready), .room_next);
 

@@ -1,18 +1,27 @@
 // Everything of a board that is reached over a serial line, but for its clock, reset and pins: UART,
 // link, cores and store. `activity`, for lamps: the cores have work, a session is known, bytes leave, bytes
-// come; each stays for a sixteenth of a second or so.
+// come; each stays for a sixteenth of a second or so. A memory behind the ports memory_*, with STORE_OUTSIDE,
+// has the reset aresetn.
 module emax_board #(
     parameter int NUM_PE = 1,
     parameter int FILTER_PE = 4,
     parameter int STORE_BITS = 14,
+    parameter int STORE_OUTSIDE = 0,
     parameter int CLOCK_KHZ = 0,  // 0: not known
     parameter int CLOCKS_PER_BIT = 40
 ) (
-    input  logic       clk,
-    input  logic       aresetn,
-    input  logic       uart_rxd,
-    output logic       uart_txd,
-    output logic [3:0] activity
+    input  logic                        clk,
+    input  logic                        aresetn,
+    input  logic                        uart_rxd,
+    output logic                        uart_txd,
+    output logic [3:0]                  activity,
+    output logic                        memory_valid,
+    input  logic                        memory_ready,
+    output logic                        memory_write,
+    output logic [STORE_BITS-1:0]       memory_address,
+    output logic [31:0]                 memory_write_data,
+    input  logic                        memory_read_valid,
+    input  logic [31:0]                 memory_read_data
 );
   localparam int STRETCH_BITS = 23;
 
@@ -39,11 +48,13 @@ module emax_board #(
       .s_axis_answer_tready(answer_tready), .core_aresetn, .connected);
 
   emax_device #(.NUM_PE(NUM_PE), .FILTER_PE(FILTER_PE), .CLOCK_KHZ(CLOCK_KHZ),
-      .STORE_BITS(STORE_BITS)) device (
+      .STORE_BITS(STORE_BITS), .STORE_OUTSIDE(STORE_OUTSIDE)) device (
       .clk, .aresetn(core_aresetn), .s_axis_command_tdata(command_tdata),
       .s_axis_command_tvalid(command_tvalid), .s_axis_command_tready(command_tready),
       .m_axis_answer_tdata(answer_tdata), .m_axis_answer_tvalid(answer_tvalid),
-      .m_axis_answer_tready(answer_tready), .under_way);
+      .m_axis_answer_tready(answer_tready), .under_way, .memory_aresetn(aresetn), .memory_valid,
+      .memory_ready, .memory_write, .memory_address, .memory_write_data, .memory_read_valid,
+      .memory_read_data);
 
   // Lit from an event until the second tick after it.
   logic [STRETCH_BITS-1:0] clocks;
