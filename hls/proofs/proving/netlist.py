@@ -20,7 +20,7 @@ ACTIVE = re.compile(r"^  int active .*= 0;$", re.MULTILINE)
 def sources(family, replaced):
     """{file of a module: text}. A family's file replaces the behavioural file of the same name. A file of `replaced`,
     paths in the harness, replaces every file of the same name."""
-    folders = [RTL / "behavioural", RTL, RTL / "core", RTL / "link", RTL / "generated", RTL / "fixed", RTL / "filter/generated"]
+    folders = [RTL / "behavioural", RTL, RTL / "core", RTL / "link", RTL / "sdram", RTL / "generated", RTL / "fixed", RTL / "filter/generated"]
     if family != "behavioural":
         folders.append(RTL / family)
     paths = {path.name: path for folder in folders for path in sorted(folder.glob("*.sv"))}
