@@ -61,7 +61,7 @@ PARTS_PROVEN = ["emax_element", "emax_distance", "emax_distance_unit", "emax_cor
 # Modules of a family without cells of the family: their other parts are driven in a simulation.
 FAMILY_PROOFS = [("signed_multiply", {"WIDTH_A": 8, "WIDTH_B": 19, "LATENCY": 4}, family) for family in ("ecp5", "xilinx")]
 PACKAGES = ["mutation"]  # no module
-SOURCES = ["", "core", "link", "board", "filter", "filter/generated", "fixed", "stream", "generated", "behavioural"]
+SOURCES = ["", "core", "link", "board", "sdram", "filter", "filter/generated", "fixed", "stream", "generated", "behavioural"]
 
 
 def script(top, parameters, files):
@@ -107,7 +107,7 @@ def proofs():
 
 def prove(runner, top, parameters, family, replaced={}):
     design = designs.Design("", top, 0, replaced=replaced)
-    more = [path for folder in ("core", "link", "board", "filter", "filter/generated", "fixed", "stream") for path in sorted((RTL / folder).glob("*.sv"))]
+    more = [path for folder in ("core", "link", "board", "sdram", "filter", "filter/generated", "fixed", "stream") for path in sorted((RTL / folder).glob("*.sv"))]
     files = " ".join(map(str, [*design.sources(family), *more]))
     name = "_".join([top, family, *(["misread"] if replaced else []), *map(str, parameters.values())]).replace('"', "")
     runner.step("yosys", f"{top} {parameters or ''}, {family}", f"front_ends/{name}",
