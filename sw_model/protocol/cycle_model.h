@@ -37,6 +37,7 @@ struct BoardModel {
   // Of a board with a filtering core and a store; 0 without.
   std::uint32_t filter_elements = 0;
   unsigned store_bits = 0;  // the store has 2^store_bits words
+  bool store_in_sdram = false;
 };
 
 std::span<const BoardModel> board_models();
@@ -81,6 +82,11 @@ class CycleModel {
   std::array<std::uint64_t, kSlots> slot_free_ = {};
   std::uint64_t busy_ = 0;
 };
+
+// Cycles until the last word of a Recall is out of an SDRAM (hls/rtl/sdram) at the ULX3S's clocks:
+// two a word with its share of refreshes and of rows that end, and those that a piece's own row and
+// the way to the pins and back take. Measured on the Verilated controller.
+double sdram_recall_cycles(std::uint64_t words, std::uint64_t pieces);
 
 // Seconds that work takes on a board whose computing and transfer overlap: the longer of the two.
 double predicted_seconds(const BoardModel& board, std::uint64_t cycles, std::uint64_t words_in,

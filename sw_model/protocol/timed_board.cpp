@@ -63,16 +63,26 @@ void TimedBoard::put(std::size_t words) {
   owes_acknowledgement_ = false;
 }
 
+// Block RAM gives a word a cycle, as the cores take them.
+void TimedBoard::give_words(const std::vector<Word>& command) {
+  given_ = std::max(given_, line_in_);
+  if (!model_.store_in_sdram || header_opcode(command[0]) != kRecall || command.size() < 3) return;
+  std::uint64_t words = 0;
+  for (const Word piece : std::span(command).subspan(2)) words += piece_words(piece);
+  given_ += cycles(sdram_recall_cycles(words, command.size() - 2));
+}
+
 // The command has come; its last word is the line's last so far.
 void TimedBoard::perform(const std::vector<Word>& command, double begins) {
   const std::uint64_t exact = board_.exact_cycles(), filter = board_.filter_cycles();
   board_.send(command);
   const std::uint64_t of_exact = board_.exact_cycles() - exact;
   const std::uint64_t of_filter = board_.filter_cycles() - filter;
-  if (of_exact > 0) exact_ = std::max(std::max(exact_, begins) + cycles(of_exact), line_in_);
-  if (of_filter > 0) filter_ = std::max(std::max(filter_, begins) + cycles(of_filter), line_in_);
+  give_words(command);
+  if (of_exact > 0) exact_ = std::max(std::max(exact_, begins) + cycles(of_exact), given_);
+  if (of_filter > 0) filter_ = std::max(std::max(filter_, begins) + cycles(of_filter), given_);
   if (!is_answered(command[0], CommandSet::kBoard)) return;
-  const double done = std::max({line_in_, of_exact > 0 ? exact_ : 0, of_filter > 0 ? filter_ : 0});
+  const double done = std::max({given_, of_exact > 0 ? exact_ : 0, of_filter > 0 ? filter_ : 0});
   const double before = answers_.empty() ? 0 : answers_.back().ready;
   Answer answer = {std::vector<Word>(1), std::max(done + cycles(kAnswerCycles), before)};
   board_.receive(answer.words);

@@ -12,8 +12,9 @@ namespace emax {
 // of the line carries (docs/protocol.md) and from the cycles of the cores' models. The host takes
 // no time. Words of send() leave in frames of 128, the last of them when an answer is awaited; a
 // frame counts once it is whole; a core begins with a command at its first word, if it is idle, and
-// ends no earlier than the last word comes. The board answers the host's frames, and sends answers
-// in frames of up to 256 words, each after the one before has been acknowledged.
+// ends no earlier than the last word comes, from the line or out of an SDRAM. The board answers the
+// host's frames, and sends answers in frames of up to 256 words, each after the one before has been
+// acknowledged.
 //
 // Not in it: a host that waits for room on the board, and what a real computer and its USB add.
 class TimedBoard : public Device {
@@ -39,13 +40,15 @@ class TimedBoard : public Device {
     std::vector<Word> words;  // none where the frame is a repetition
   };
 
-  double cycles(std::uint64_t count) const { return static_cast<double>(count) / model_.clock_hz; }
+  double cycles(double count) const { return count / model_.clock_hz; }
+  double cycles(std::uint64_t count) const { return cycles(static_cast<double>(count)); }
   double bytes_in(std::size_t count) const;
   double bytes_out(std::size_t count) const;
 
   void end_frame();
   void put(std::size_t words);
   void perform(const std::vector<Word>& command, double begins);
+  void give_words(const std::vector<Word>& command);
   void wait_for_byte();
   void await_frame();
   void take_arrivals();
@@ -60,7 +63,9 @@ class TimedBoard : public Device {
   CommandCursor cursor_{CommandSet::kBoard};
   std::vector<Word> frame_, command_;  // those that are arriving
   double command_begins_ = 0;
-  double exact_ = 0, filter_ = 0;  // when the cores are free; as all times, in seconds
+  // When the store has given the words of the latest command, and when the cores are free; as all
+  // times, in seconds.
+  double given_ = 0, exact_ = 0, filter_ = 0;
 
   // The host and its direction of the line.
   double now_ = 0, line_in_ = 0;

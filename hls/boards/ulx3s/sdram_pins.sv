@@ -1,7 +1,7 @@
 // The pins of the ULX3S's SDRAM: all signals of sdram_controller, which has READ_LATENCY = 5 with them,
 // pass a register in an I/O cell, and so do the chip's data. The chip's clock is `clk_early`, some 3.2 ns
 // ahead of `clk` (ulx3s_clock), through a cell of the same kind. From a cell to the chip, t is the same for
-// all signals, 2 to 4 ns:
+// all signals; it is taken to be 2 to 4 ns, which nobody has measured:
 //
 //   to the chip     signals have a period less 3.2 ns to settle, and stay for 3.2 ns: it asks 1.5 and 0.8
 //   from the chip   what it gives at its clock, t + 5.4 ns later at the latest, is taken a period and

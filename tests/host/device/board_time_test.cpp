@@ -16,6 +16,8 @@
 #include "testbench/board/simulated_board.h"
 #include "tests/support/stimuli.h"
 
+// This file is a test for each board: EMAX_BOARD with its suites EMAX_BOARD_TIME and
+// EMAX_BOARD_TIME_FAULT.
 namespace emax {
 namespace {
 
@@ -101,7 +103,7 @@ struct Prediction {
 };
 
 std::vector<Prediction> predict(const Works& works) {
-  auto timed = std::make_unique<TimedBoard>(board_model("ulx3s"));
+  auto timed = std::make_unique<TimedBoard>(board_model(EMAX_BOARD));
   const TimedBoard& board = *timed;
   const auto evaluator = filtering(std::move(timed));
   std::vector<Prediction> predictions;
@@ -114,7 +116,7 @@ std::vector<Prediction> predict(const Works& works) {
 }
 
 // By the board's own time: the Verilated logic at 120 MHz on a line of 3 Mbaud.
-TEST(BoardTime, IsWhatTheSimulatedBoardTakes) {
+TEST(EMAX_BOARD_TIME, IsWhatTheSimulatedBoardTakes) {
   const Works works;
   const std::vector<Prediction> predictions = predict(works);
   auto channel = std::make_unique<SimulatedBoard>();
@@ -135,7 +137,7 @@ TEST(BoardTime, IsWhatTheSimulatedBoardTakes) {
 }
 
 // What a fault changes in some work the test above cannot overlook.
-TEST(BoardTimeFault, EachIsSeen) {
+TEST(EMAX_BOARD_TIME_FAULT, EachIsSeen) {
   const Works works;
   const std::vector<Prediction> right = predict(works);
   for (const Fault fault :

@@ -1,11 +1,14 @@
 // The Verilated cores of a board behind their store beside the twin in C++, bit for bit.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "sw_model/base/error.h"
 #include "sw_model/protocol/cpp_board.h"
+#include "sw_model/protocol/cycle_model.h"
 #include "testbench/core/board_stimuli.h"
 #include "testbench/core/core_driver.h"
 #include "testbench/core/rtl_device.h"
@@ -137,6 +140,30 @@ TEST(DeviceWithSdram, AnswersAnyCommandsAsItsTwin) {
   EXPECT_EQ(run_core(*core, std::vector<Word>{command_header(kIdentify, kOfStore)}),
             (std::vector<Word>{command_header(kIdentify, kAnswerStore), kStoreVersion,
                                1u << kSdramStoreBits}));
+}
+
+// The cycles that the model has for recalls, of long pieces and of short ones in rows far apart.
+TEST(DeviceWithSdram, RecallsInTheModelsCycles) {
+  const auto core = make_mutated_device_with_sdram();
+  EXPECT_TRUE(keeps_words_over_a_reset(*core));  // the chip has been started
+  const auto cycles_of = [&](Word pieces, Word length) {
+    std::vector<Word> words = {command_header(kRecall, 1 + pieces),
+                               command_header(kEcho, pieces * length)};
+    for (Word i = 0; i < pieces; ++i) {
+      words.push_back(store_piece(i * 1040 % (1u << kSdramStoreBits), length));
+    }
+    std::uint64_t cycles = 0;
+    EXPECT_EQ(run_core(*core, words, {}, &cycles).size(), 1 + pieces * length);
+    return static_cast<double>(cycles);
+  };
+  for (const auto& [pieces, length] :
+       {std::pair<Word, Word>{3, 1000}, {8, 500}, {100, 22}, {300, 8}}) {
+    const double taken = cycles_of(pieces, length), none = cycles_of(1, 1);
+    const double model = sdram_recall_cycles(pieces * length, pieces) - sdram_recall_cycles(1, 1);
+    std::printf("%u pieces of %u words: %.0f cycles, %.0f by the model\n", pieces, length,
+                taken - none, model);
+    EXPECT_NEAR((taken - none) / model, 1, 0.01);
+  }
 }
 
 TEST(DeviceWithSdram, KeepsItsWordsOverAReset) {
