@@ -1,7 +1,7 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
 NAME is KIND_FAMILY. KIND is operators, element, form_FORM, core, board1 or board2 (with 1 or 2 elements),
-board1at105 (with another clock in MHz), filter1 or filter4.
+board1at105 (with another clock in MHz), filter1 or filter4, sdram120 (the SDRAM's controller at 120 MHz).
 FAMILY is one of these:
   ecp5, nexus, xc7, xcup   mapped to the family
   words             as the front end reads the sources, before anything is mapped
@@ -73,7 +73,10 @@ def text_of(runner, name):
     if kind == "element" and family in netlists.FAMILIES:
         return {".v": netlists.renamed(netlist_of(runner, lowered.xilinx_element(0), family), "emax_element")}
     board = re.fullmatch(r"board(\d)(?:at(\d+))?", kind)
-    if board:
+    sdram = re.fullmatch(r"sdram(\d+)", kind)
+    if sdram:
+        design = designs.sdram_controller(int(sdram[1]))
+    elif board:
         design = designs.ulx3s(int(board[1]), int(board[2] or designs.ULX3S_CLOCK))
     else:
         design = {"operators": BENCH, "core": designs.core(1), "element": designs.element(0),

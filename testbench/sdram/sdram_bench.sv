@@ -23,8 +23,12 @@ module sdram_bench #(
   logic mask, chip_mask, drive, chip_drive;
   logic [15:0] to_chip, chip_input, from_chip, chip_output;
 
+`ifdef EMAX_NETLIST  // of a controller, which has no parameters any more
+  sdram_controller controller (
+`else
   sdram_controller #(.CLOCK_KHZ(CLOCK_KHZ), .ADDRESS_BITS(ADDRESS_BITS),
       .READ_LATENCY(3 + 2 * PIN_REGISTERS), .RC_NS(RC_NS)) controller (
+`endif
       .clk, .aresetn, .request_valid, .request_ready, .request_write, .request_address, .request_data,
       .read_valid, .read_data, .sdram_command(command), .sdram_bank(bank), .sdram_address(address),
       .sdram_mask(mask), .sdram_write_data(to_chip), .sdram_drive(drive), .sdram_read_data(from_chip));

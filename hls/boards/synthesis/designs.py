@@ -90,6 +90,12 @@ def filter_core(elements, target):
     return Design(f"filter_core, elements: {elements}", "filter_core", target, {"NUM_PE": elements}, more=more)
 
 
+def sdram_controller(clock):
+    """The controller of the ULX3S's SDRAM at a clock of so many MHz, with registers in the I/O cells."""
+    return Design(f"sdram_controller at {clock} MHz", "sdram_controller", clock, {"CLOCK_KHZ": 1000 * clock, "READ_LATENCY": 5},
+                  more=[RTL / "core/axis_register.sv", RTL / "sdram/sdram_controller.sv"])
+
+
 ULX3S_CLOCK = 120  # MHz
 
 
