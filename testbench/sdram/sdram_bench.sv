@@ -34,7 +34,8 @@ module sdram_bench #(
       .sdram_mask(mask), .sdram_write_data(to_chip), .sdram_drive(drive), .sdram_read_data(from_chip));
 
   if (PIN_REGISTERS == 0) begin : direct
-    assign {chip_command, chip_bank, chip_address, chip_mask, chip_input, chip_drive} = {command, bank, address, mask, to_chip, drive};
+    assign {chip_command, chip_bank, chip_address, chip_mask, chip_input, chip_drive} =
+        {command, bank, address, mask, to_chip, drive};
     assign from_chip = chip_output;
   end else begin : registered
     logic [35:0] out[PIN_REGISTERS];

@@ -183,7 +183,8 @@ module command_store #(
     always_ff @(posedge clk) begin
       if (!memory_aresetn) owed <= '0;
       else owed <= owed + (ROOM_BITS + 1)'(asks) - (ROOM_BITS + 1)'(memory_read_valid);
-      settled <= `MUTATED(STORE_OVERTAKES, !memory_aresetn || (!asks && owed <= (ROOM_BITS + 1)'(memory_read_valid)), 1'b1);
+      settled <= `MUTATED(STORE_OVERTAKES,
+          !memory_aresetn || (!asks && owed <= (ROOM_BITS + 1)'(memory_read_valid)), 1'b1);
       stale <= `MUTATED(STORE_KEEPS_STALE_WORDS, !aresetn || (stale && !settled), 1'b0);
     end
     assign memory_word = memory_read_data;

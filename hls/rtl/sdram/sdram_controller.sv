@@ -101,7 +101,8 @@ module sdram_controller #(
       address <= next_address;
       data <= next_data;
       write <= next_write;
-      same_row <= `MUTATED(SDRAM_KEEPS_ROW, next_address[ADDRESS_BITS-1:WORD_BITS] == address[ADDRESS_BITS-1:WORD_BITS], 1'b1);
+      same_row <= `MUTATED(SDRAM_KEEPS_ROW,
+          next_address[ADDRESS_BITS-1:WORD_BITS] == address[ADDRESS_BITS-1:WORD_BITS], 1'b1);
     end
     if (command == ACTIVATE) same_row <= 1'b1;
     valid <= aresetn && (load ? next_valid : valid);
@@ -160,7 +161,8 @@ module sdram_controller #(
       READ, WRITE: pause <= PAUSE_BITS'(`MUTATED(SDRAM_BURST_CUT, BURST - 1, 0));
       default: if (pause != '0) pause <= pause - 1'b1;
     endcase
-    if (command == ACTIVATE) row_left <= 4'(`MUTATED(SDRAM_CYCLE_SHORT, RAS, RAS_ALONE) - `MUTATED(SDRAM_ACTIVE_SHORT, 1, 2));
+    if (command == ACTIVATE)
+      row_left <= 4'(`MUTATED(SDRAM_CYCLE_SHORT, RAS, RAS_ALONE) - `MUTATED(SDRAM_ACTIVE_SHORT, 1, 2));
     else if (row_left != '0) row_left <= row_left - 1'b1;
     if (command == WRITE) recovery_left <= 4'(`MUTATED(SDRAM_RECOVERY_SHORT, WR, WR - 1) + BURST - 2);
     else if (recovery_left != '0) recovery_left <= recovery_left - 1'b1;
