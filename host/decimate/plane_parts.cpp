@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <variant>
 
 #include "host/features/find_features.h"
+#include "host/geometry/edge_sides.h"
 #include "host/geometry/point_tree.h"
 #include "sw_model/base/parallel.h"
 
@@ -25,26 +27,17 @@ Point middle(const std::array<Point, 3>& corners) {
 using Neighbours = std::array<std::uint32_t, 3>;  // of a triangle, over the edge at each corner
 
 std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh) {
-  struct Side {
-    std::uint32_t low, high, triangle, place;
-    auto operator<=>(const Side&) const = default;
-  };
-  std::vector<Side> sides;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
-      sides.push_back({low, high, t, i});
-    }
-  }
-  std::ranges::sort(sides);
   constexpr std::uint32_t kNone = PlaneParts::kNoPlane;
   std::vector<Neighbours> neighbours(mesh.triangles.size(), {kNone, kNone, kNone});
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &a = sides[i], &b = sides[i + 1];
-    if (a.low != b.low || a.high != b.high) continue;
-    neighbours[a.triangle][a.place] = b.triangle;
-    neighbours[b.triangle][b.place] = a.triangle;
-  }
+  EdgeSides(mesh.view()).for_each_edge([&](std::span<const EdgeSide> sides) {
+    if (sides.size() != 2) return;
+    const auto set = [&](const EdgeSide& side, const EdgeSide& other) {
+      const std::size_t first = side.ascends ? side.lower_corner : side.upper_corner;
+      neighbours[first / 3][first % 3] = static_cast<std::uint32_t>(other.lower_corner / 3);
+    };
+    set(sides[0], sides[1]);
+    set(sides[1], sides[0]);
+  });
   return neighbours;
 }
 

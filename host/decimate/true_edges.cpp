@@ -3,11 +3,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "host/decimate/shape_place.h"
+#include "host/geometry/edge_sides.h"
 #include "sw_model/base/deliberate_fault.h"
 #include "sw_model/certify/exact_distance.h"
 
@@ -20,24 +22,10 @@ constexpr double kEdgeDamping = 1e-3;               // share of the trace
 
 double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
-struct SideOfTriangle {
-  std::uint32_t low, high, triangle;
-  auto operator<=>(const SideOfTriangle&) const = default;
+struct EdgeOfTwo {
+  std::uint32_t low, high;
+  std::array<std::uint32_t, 2> triangles;
 };
-
-// Sorted, so that the two sides of an edge follow each other.
-std::vector<SideOfTriangle> sides_of(const TriangleMesh& mesh) {
-  std::vector<SideOfTriangle> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
-      sides.push_back({low, high, t});
-    }
-  }
-  std::ranges::sort(sides);
-  return sides;
-}
 
 class TrueEdgeSampler {
  public:
@@ -46,21 +34,29 @@ class TrueEdgeSampler {
       : mesh_(mesh), shapes_(shapes), shape_of_(shape_of), smooth_(smooth), spacing_(spacing) {}
 
   std::vector<Point> run() {
-    const std::vector<SideOfTriangle> sides = sides_of(mesh_);
-    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-      const SideOfTriangle &a = sides[i], &b = sides[i + 1];
-      if (a.low == b.low && a.high == b.high && is_true(a, b.triangle)) sample(a, b.triangle);
-    }
+    EdgeSides(mesh_.view()).for_each_edge([&](std::span<const EdgeSide> sides) {
+      if (sides.size() != 2) return;
+      const std::size_t corner = sides[0].lower_corner;
+      const EdgeOfTwo edge = {.low = mesh_.triangles[corner / 3][corner % 3],
+                              .high = sides[0].upper,
+                              .triangles = {triangle_of(sides[0]), triangle_of(sides[1])}};
+      if (is_true(edge)) sample(edge);
+    });
     return std::move(samples_);
   }
 
  private:
-  bool is_true(const SideOfTriangle& side, std::uint32_t other) const {
-    const std::uint32_t first = shape_of_[side.triangle], second = shape_of_[other];
+  static std::uint32_t triangle_of(const EdgeSide& side) {
+    return static_cast<std::uint32_t>(side.lower_corner / 3);
+  }
+
+  bool is_true(const EdgeOfTwo& edge) const {
+    const auto [one, other] = edge.triangles;
+    const std::uint32_t first = shape_of_[one], second = shape_of_[other];
     if (first == second && first != kNoIndex) return false;
     if (!smooth_ && (first == kNoIndex || second == kNoIndex)) return false;
-    const Point middle = 0.5 * (mesh_.vertices[side.low] + mesh_.vertices[side.high]);
-    return normal_at(side.triangle, middle).dot(normal_at(other, middle)) <= cosine_of(kTrueEdge);
+    const Point middle = 0.5 * (mesh_.vertices[edge.low] + mesh_.vertices[edge.high]);
+    return normal_at(one, middle).dot(normal_at(other, middle)) <= cosine_of(kTrueEdge);
   }
 
   // Of the shape that the triangle follows, on the side to which the triangle turns.
@@ -73,12 +69,12 @@ class TrueEdgeSampler {
     return normal.dot(own) < 0 ? Point(-normal) : normal;
   }
 
-  void sample(const SideOfTriangle& side, std::uint32_t other) {
+  void sample(const EdgeOfTwo& edge) {
     std::vector<Shape> meeting;
-    for (const std::uint32_t triangle : {side.triangle, other}) {
+    for (const std::uint32_t triangle : edge.triangles) {
       if (shape_of_[triangle] != kNoIndex) meeting.push_back(shapes_[shape_of_[triangle]]);
     }
-    const Point &from = mesh_.vertices[side.low], &to = mesh_.vertices[side.high];
+    const Point &from = mesh_.vertices[edge.low], &to = mesh_.vertices[edge.high];
     const int count = std::max(1, static_cast<int>((to - from).norm() / spacing_));
     for (int i = 0; i < count; ++i) {
       const Point p = from + (i + 0.5) / count * (to - from);
