@@ -112,7 +112,7 @@ void expect_within(const std::string& text, const std::string& part) {
 
 TEST_F(RegistryTest, OptionsTakeItAndTheHelpNamesIt) {
   for (const char* command : {"optimize", "config"}) {
-    expect_within(help(command), "{fit,gp3,poisson,hoppe,imls,tetrahedron,auto}");
+    expect_within(help(command), "{fit,gp3,poisson,hoppe,imls,shapes,tetrahedron,auto}");
     expect_within(help(command), "{bounded,schroeder,first,auto}");
     expect_within(help(command), "; first: the first triangles are left; auto: ");
   }
@@ -120,13 +120,13 @@ TEST_F(RegistryTest, OptionsTakeItAndTheHelpNamesIt) {
   EXPECT_EQ(refusal("config --method tetrahedron --decimator first"), "none");
   EXPECT_EQ(line_.config_method, "tetrahedron");
   EXPECT_EQ(line_.config_decimator, "first");
-  expect_within(refusal("config --method alpha"), "imls,tetrahedron,auto");
+  expect_within(refusal("config --method alpha"), "imls,shapes,tetrahedron,auto");
   expect_within(refusal("config --decimator alpha"), "schroeder,first,auto");
 }
 
 TEST(Registry, ErrorTextsNameIt) {
   EXPECT_EQ(message_of([] { method_named("alpha"); }),
-            "there is no reconstruction method 'alpha'; choose gp3, poisson, hoppe, imls, "
+            "there is no reconstruction method 'alpha'; choose gp3, poisson, hoppe, imls, shapes, "
             "tetrahedron or auto");
   EXPECT_EQ(message_of([] { decimator_named("quadric"); }),
             "there is no decimator 'quadric'; choose bounded, schroeder or first");
