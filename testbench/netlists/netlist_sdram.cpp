@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   for (const std::uint32_t words : {1u << 12, 1u << 22}) {
     broken |= emax::broken_by(bench, words, rounds);
   }
-  std::printf("netlist: %llu rounds, rules broken: %08x\n",
-              static_cast<unsigned long long>(rounds), broken);
+  std::printf("netlist: %llu rounds, rules broken: %08x\n", static_cast<unsigned long long>(rounds),
+              broken);
   return broken == 0 && rounds > 0 ? 0 : 1;
 }
