@@ -45,7 +45,7 @@ RunSettings run_settings(const OptimizeOptions& options, const OptimizeSettings&
       {"cloud.skip_invalid", options.common.reading.skip_invalid ? "true" : "false"},
       {"max_error", fmt::format("{}", epsilon)},
       {"exclude_outliers", fmt::format("{}", parse_share(options.common.excluded_share))},
-      {"method", settings.method},
+      {"method", settings.reference_method.empty() ? settings.method : settings.reference_method},
       {"decimator", settings.decimator},
       {"bound", settings.epsilon_back ? "two-sided" : "one-sided"},
       {"closed", settings.closed ? "true" : "false"},

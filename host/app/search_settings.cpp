@@ -65,6 +65,9 @@ bool is_two_sided(const OptimizeOptions& options) {
 OptimizeSettings search_settings(const OptimizeOptions& options) {
   OptimizeSettings settings;
   settings.method = method_for(options.method, options.decimator);
+  if (settings.method == kFitMethod && options.method != kFitMethod) {
+    settings.reference_method = options.method;
+  }
   settings.decimator = options.decimator;
   if (options.features != kNoFeatures && !keeps_bound(options.decimator)) {
     throw Error("--features needs --decimator " + alternatives(names_of_decimators(true)) +

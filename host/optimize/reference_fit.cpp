@@ -85,7 +85,8 @@ class Fit {
       break;
     }
     choose();
-    if (settings_.method == kFitMethod && is_faulty(fit_.best())) {
+    const bool may_choose = settings_.method == kFitMethod && settings_.reference_method.empty();
+    if (may_choose && is_faulty(fit_.best())) {
       submit(*pool, std::string(kLastMethod));
       take(*pool, fit_.tried.size() - 1);
       choose();
@@ -99,6 +100,7 @@ class Fit {
 
  private:
   std::vector<std::string> candidates() const {
+    if (!settings_.reference_method.empty()) return {settings_.reference_method};
     if (settings_.method == kAutoMethod) return {reconstruction_methods().front().name};
     if (settings_.method != kFitMethod) return {settings_.method};
     std::string first = first_method(scan_);

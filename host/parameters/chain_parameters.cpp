@@ -62,8 +62,11 @@ bool keeps_bound(std::string_view decimator) {
 }
 
 std::string method_for(const std::string& method, const std::string& decimator) {
-  const bool unknown = method == kFitMethod && !keeps_bound(decimator);
-  return unknown ? reconstruction_methods().front().name : method;
+  const MethodDescription* const named = find_method(method);
+  if (!keeps_bound(decimator)) {
+    return method == kFitMethod ? reconstruction_methods().front().name : method;
+  }
+  return named && !named->searched ? kFitMethod : method;
 }
 
 namespace {

@@ -82,8 +82,9 @@ inline constexpr const char* kOnPlanes = "planes";
 inline constexpr const char* kAllFeatures = "all";
 inline constexpr const char* kAutoFeatures = "auto";
 
-// The method itself, but for kFitMethod with a decimator that knows no reference: the first of
-// reconstruction_methods().
+// That of a run's candidates: the method itself, but for kFitMethod with a decimator that knows no
+// reference the first of reconstruction_methods(), and kFitMethod for a method that is not searched
+// with a decimator that knows one: it makes the reference.
 std::string method_for(const std::string& method, const std::string& decimator);
 
 // Whether a run with this decimator fixes a bound before its search, because a candidate may be

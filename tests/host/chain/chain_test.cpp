@@ -218,6 +218,14 @@ TEST(RunChain, OutliersDoNotHoldTheDecimatorBack) {
   EXPECT_FALSE(certify(cloud, mesh.view()).within(1));
 }
 
+// A method that is not searched makes the reference, where there is one.
+TEST(ChainParameters, CandidatesOfAMethodThatIsNotSearchedTakeTheReference) {
+  EXPECT_EQ(method_for("shapes", "bounded"), kFitMethod);
+  EXPECT_EQ(method_for("shapes", "schroeder"), "shapes");
+  EXPECT_EQ(method_for("imls", "bounded"), "imls");
+  EXPECT_EQ(method_for(kFitMethod, "schroeder"), "gp3");
+}
+
 // Every candidate of auto is one of a searched method, with the values that mean something there.
 TEST(ChainParameters, AutoHoldsEverySearchedMethod) {
   const auto all = chain_parameters("auto", "bounded");

@@ -135,6 +135,19 @@ TEST(ReferenceFit, TakesTheMethodThatIsNamed) {
   }
 }
 
+// Also where another fits as well, or better.
+TEST(ReferenceFit, IsMadeByTheMethodThatIsNamedForIt) {
+  const ScanOfShape scan = scan_of_shape({.shape = "box"});
+  ErrorConstraint constraint(scan.points, kEpsilon, 0);
+  for (const char* const method : {"gp3", "imls", "shapes"}) {
+    OptimizeSettings settings = settings_for(kFitMethod);
+    settings.reference_method = method;
+    const ReferenceFit fit = fit_reference(scan.points, kEpsilon, settings);
+    ASSERT_EQ(fit.tried.size(), 1u) << method;
+    EXPECT_EQ(fit.best().chain.method, method);
+  }
+}
+
 TEST(ReferenceFit, ASearchBeginsWithTheValuesThatFitTheScan) {
   const ScanOfShape scan = scan_of_shape({.shape = "torus", .noise = kEpsilon / 2});
   OptimizeSettings settings = settings_for("imls");
