@@ -27,8 +27,8 @@ namespace emax {
 // e_max <= epsilon (paper, sections 3 and 3.1).
 struct OptimizeSettings {
   std::string method{Gp3::kName};
-  std::string
-      reference_method;  // of kFitMethod: the one that makes the reference; empty: a fitting one
+  // Of kFitMethod: the one that makes the reference; empty: one that fits the scan.
+  std::string reference_method;
   std::string decimator{Bounded::kName};
   // Of a two-sided bound: how far a mesh may be from the reference.
   std::optional<double> epsilon_back;

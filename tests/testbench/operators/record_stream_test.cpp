@@ -14,6 +14,7 @@
 
 #include "testbench/operators/mutant_list.h"
 #include "testbench/stimuli/random.h"
+#include "tests/testbench/operators/clock_edge.h"
 
 namespace emax {
 namespace {
@@ -30,21 +31,13 @@ struct RecordRun {
 };
 
 template <class Rtl>
-void record_clock_edge(Rtl& rtl) {
-  rtl.clk = 1;
-  rtl.eval();
-  rtl.clk = 0;
-  rtl.eval();
-}
-
-template <class Rtl>
 void reset_record_stream(Rtl& rtl) {
   rtl.s_axis_record_tvalid = 0;
   rtl.s_axis_tvalid = 0;
   rtl.m_axis_tready = 0;
   rtl.clk = 0;
   rtl.aresetn = 0;
-  for (int i = 0; i < 4; ++i) record_clock_edge(rtl);
+  for (int i = 0; i < 4; ++i) clock_edge(rtl);
   rtl.aresetn = 1;
 }
 
@@ -63,7 +56,7 @@ class RecordStreamRun {
       rtl_.eval();
       take_result();
       accept();
-      record_clock_edge(rtl_);
+      clock_edge(rtl_);
     }
     return run_;
   }
@@ -155,7 +148,7 @@ TEST(RecordStream, ResetInFlightLeavesNothingBehind) {
       rtl.s_axis_record_tvalid = rtl.s_axis_tvalid = 1;
       rtl.s_axis_tlast = random.one_in(2);
       rtl.s_axis_record_tdata = rtl.s_axis_tdata = 0xff;
-      record_clock_edge(rtl);
+      clock_edge(rtl);
     }
     reset_record_stream(rtl);
     EXPECT_TRUE(RecordStreamRun(rtl, {8, 8, 8, 2}, random).run(200).sound());

@@ -13,6 +13,7 @@
 
 #include "testbench/operators/mutant_list.h"
 #include "testbench/stimuli/random.h"
+#include "tests/testbench/operators/clock_edge.h"
 
 namespace emax {
 namespace {
@@ -26,14 +27,6 @@ struct StreamRun {
   int accepted = 0, received = 0, wrong = 0;
   bool sound() const { return wrong == 0 && accepted == received && received > 0; }
 };
-
-template <class Rtl>
-void clock_edge(Rtl& rtl) {
-  rtl.clk = 1;
-  rtl.eval();
-  rtl.clk = 0;
-  rtl.eval();
-}
 
 template <class Rtl>
 void reset_stream(Rtl& rtl) {
