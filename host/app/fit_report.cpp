@@ -35,7 +35,7 @@ void print_fit(Facts& facts, const ReferenceFit& fit, double epsilon) {
   if (fit.on_planes) print_on_planes(facts, *fit.on_planes);
   if (fit.joined + fit.left_out > 0) {
     facts.add("far points", "{} farther than {:.3g} joined to it, {} left out", grouped(fit.joined),
-              fit.joined_beyond, grouped(fit.left_out));
+              fit.joined_beyond.with_others, grouped(fit.left_out));
   }
 }
 

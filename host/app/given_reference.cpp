@@ -23,7 +23,7 @@ TriangleMesh closed_on_planes(TriangleMesh mesh, const ReferenceWishes& wishes,
 }
 
 // Makes the surface by cutting the mesh apart where it is not manifold, then closes it.
-void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, double far,
+void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
                       const ReferenceWishes& wishes, const std::function<bool()>& interrupted,
                       GivenReference& made) {
   CutSurface cut = cut_to_manifold(given);
@@ -45,7 +45,7 @@ void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, do
   surface.cut_vertices += cut.cut_vertices;
 }
 
-void repair(const TriangleMesh& given, std::span<const Point> kept, double far,
+void repair(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
             const ReferenceWishes& wishes, const std::function<bool()>& interrupted,
             GivenReference& made) {
   made.before_repair = topology_of(cut_to_manifold(given).mesh.view());
@@ -75,7 +75,7 @@ bool GivenReference::is_as_given() const {
          s.inserted == 0;
 }
 
-GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, double far,
+GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
                               const ReferenceWishes& wishes,
                               const std::function<bool()>& interrupted) {
   GivenReference made;

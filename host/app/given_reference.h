@@ -7,6 +7,7 @@
 #include "host/app/facts.h"
 #include "host/decimate/bounded_decimation.h"
 #include "host/decimate/close_on_planes.h"
+#include "host/decimate/joining_distance.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/surface/close_holes.h"
 
@@ -34,9 +35,9 @@ struct ReferenceWishes {
   double plane_epsilon = 0, plane_farthest = 0;
 };
 
-// `kept`: points that become vertices of the reference if they are farther than `far` from it.
+// `kept`: points that become vertices of the reference where `far` says so.
 // Throws Error as reference_surface() does.
-GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, double far,
+GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
                               const ReferenceWishes& wishes,
                               const std::function<bool()>& interrupted);
 

@@ -44,7 +44,7 @@ TriangleMesh BoundedStage::without_needless(TriangleMesh surface) const {
 
 TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   if (!(bound_.epsilon > 0)) throw Error("the bounded decimator was given no bound");
-  return reference_surface(surface, kept_, bound_.epsilon / 2).mesh;
+  return reference_surface(surface, kept_, joining_distance(1, bound_.epsilon)).mesh;
 }
 
 SurfaceVerdict BoundedStage::judge(const TriangleMesh& mesh) const {

@@ -108,8 +108,9 @@ DataExtent extent_of(const TriangleMesh& reference, const TriangleMesh& start,
 }
 
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                   double far, const std::function<bool()>& interrupted,
-                                   MadeManifold how, std::size_t threads) {
+                                   const JoiningDistance& far,
+                                   const std::function<bool()>& interrupted, MadeManifold how,
+                                   std::size_t threads) {
   if (cloud.empty()) throw Error("there is no point to keep a mesh close to; give a cloud");
   ReferenceSurface surface;
   if (how == MadeManifold::kByDropping) {
@@ -124,7 +125,7 @@ ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Poi
   if (surface.mesh.triangles.empty()) {
     throw Error("the mesh has no triangle of any area that could be decimated; reconstruct first");
   }
-  const double reach = std::max(far, kBelongs * bounds_of(surface.mesh.vertices).width());
+  const double reach = std::max(far.alone, kBelongs * bounds_of(surface.mesh.vertices).width());
   DecimationState::Guards guards;
   guards.threads = threads;
   DecimationState state(surface.mesh, cloud, nullptr, reach * reach, guards, interrupted);

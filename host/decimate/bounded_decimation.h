@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/decimate/hoppe_energy.h"
+#include "host/decimate/joining_distance.h"
 #include "host/decimate/plane_parts.h"
 #include "host/geometry/triangle_mesh.h"
 
@@ -23,16 +24,17 @@ struct ReferenceSurface {
   TriangleMesh mesh;
   // The changes of the mesh: counts of CutSurface or of ManifoldPart.
   std::size_t merged = 0, turned = 0, dropped = 0, split = 0, cut_edges = 0, cut_vertices = 0;
-  std::size_t inserted = 0;             // points that were farther than `far`
-  std::vector<std::uint32_t> left_out;  // points still farther, which could not be inserted
+  std::size_t inserted = 0;             // points that `far` names
+  std::vector<std::uint32_t> left_out;  // those of them that could not be inserted
 };
 
-// `far`: with epsilon / 2 decimation has room from the start. Throws Error for a mesh without a
-// usable triangle, a cloud without points, or a cloud that does not belong to the mesh: most of its
-// points are farther from the mesh than a tenth of its width. `interrupted` is polled from time to
-// time; true ends the work with the mesh reached so far.
+// `far`: with joining_distance() decimation has room from the start. Throws Error for a mesh
+// without a usable triangle, a cloud without points, or a cloud that does not belong to the mesh:
+// most of its points are farther from the mesh than a tenth of its width. `interrupted` is polled
+// from time to time; true ends the work with the mesh reached so far.
 ReferenceSurface reference_surface(const TriangleMesh& mesh, std::span<const Point> cloud,
-                                   double far, const std::function<bool()>& interrupted = nullptr,
+                                   const JoiningDistance& far,
+                                   const std::function<bool()>& interrupted = nullptr,
                                    MadeManifold how = MadeManifold::kByDropping,
                                    std::size_t threads = 1);
 

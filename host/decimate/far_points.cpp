@@ -4,16 +4,24 @@
 #include <cmath>
 #include <limits>
 
+#include "host/geometry/point_tree.h"
 #include "sw_model/base/sort_once.h"
+
 namespace emax {
 namespace {
 
 constexpr std::size_t kMostTriangles = 24;  // triangles near a point where its insertion is tried
+// Of far points, the share that is alone where noise made them. Normal noise that puts 2% of the
+// points there leaves 92% of them alone.
+constexpr double kNoise = 0.75;
+constexpr std::size_t kNeighbours = 8;  // among which another point may be as far
 
 class Insertion {
  public:
-  Insertion(DecimationState& state, double squared_far)
-      : state_(state), squared_far_(squared_far) {}
+  Insertion(DecimationState& state, const JoiningDistance& far)
+      : state_(state),
+        squared_far_(far.with_others * far.with_others),
+        squared_farther_(far.alone * far.alone) {}
 
   bool insert(std::uint32_t point) {
     const Point& p = state_.point(point);
@@ -109,7 +117,10 @@ class Insertion {
           answer.added = i;
         }
         const double before = state_.assigned().squared_distance(p);
-        kept = kept && (before > squared_far_ || answer.squared_distance <= squared_far_);
+        const double limit = before > squared_farther_ ? std::numeric_limits<double>::infinity()
+                             : before > squared_far_   ? squared_farther_
+                                                       : squared_far_;
+        kept = kept && answer.squared_distance <= limit;
         edit_.answers.push_back(answer);
       });
     }
@@ -119,32 +130,87 @@ class Insertion {
   }
 
   DecimationState& state_;
-  double squared_far_;
+  double squared_far_, squared_farther_;
   std::uint32_t point_ = kNoIndex, vertex_ = kNoIndex;
   MeshEdit edit_;
 };
 
+bool is_farther(const DecimationState& state, std::uint32_t p, double distance) {
+  const AssignedPoints& assigned = state.assigned();
+  const double squared = distance * distance;
+  const bool near = assigned.owner(p) != kNoIndex && assigned.squared_distance(p) <= squared;
+  return !near && state.tree().nearest(state.mesh(), state.point(p), squared).slot == kNoIndex;
+}
+
+// A point that is farther than far.with_others, and what it is joined for.
+struct Away {
+  std::uint32_t point;
+  Point from_mesh;
+  bool is_joined;
+};
+
+// Marks those that have another one among their nearest, on the same side of the mesh, and returns
+// how many have none.
+std::size_t mark_with_others(std::vector<Away>& away, const DecimationState& state) {
+  if (away.empty()) return 0;
+  const PointTree tree(state.cloud());
+  std::vector<PointTree::Neighbour> near;
+  std::size_t alone = 0;
+  for (Away& one : away) {
+    tree.nearest(state.point(one.point), kNeighbours + 1, near);  // itself too
+    const bool has_other = std::ranges::any_of(near, [&](const PointTree::Neighbour& n) {
+      const auto other = std::ranges::lower_bound(away, n.index, {}, &Away::point);
+      return n.index != one.point && other != away.end() && other->point == n.index &&
+             other->from_mesh.dot(one.from_mesh) > 0;
+    });
+    if (has_other) one.is_joined = true;
+    if (!has_other) ++alone;
+  }
+  return alone;
+}
+
+// Ascending.
+std::vector<std::uint32_t> points_to_join(const DecimationState& state, const JoiningDistance& far,
+                                          const std::function<bool()>& interrupted) {
+  std::vector<Away> away;
+  const auto points = static_cast<std::uint32_t>(state.cloud().size());
+  for (std::uint32_t p = 0; p < points; ++p) {
+    if (!is_farther(state, p, far.with_others)) continue;
+    if (interrupted && interrupted()) return {};
+    const Point& at = state.point(p);
+    const std::uint32_t slot =
+        state.tree().nearest(state.mesh(), at, std::numeric_limits<double>::infinity()).slot;
+    if (slot == kNoIndex) continue;
+    const Foot foot = foot_on(local_frame(state.mesh().corners(slot)), at);
+    away.push_back({p, foot.residual, is_farther(state, p, far.alone)});
+  }
+  const auto far_points = static_cast<double>(away.size());
+  const bool all = far.alone <= far.with_others ||
+                   static_cast<double>(mark_with_others(away, state)) <= kNoise * far_points;
+  std::vector<std::uint32_t> joined;
+  for (const Away& one : away) {
+    if (all || one.is_joined) joined.push_back(one.point);
+  }
+  return joined;
+}
+
 }  // namespace
 
-FarPoints insert_far_points(DecimationState& state, double far,
+FarPoints insert_far_points(DecimationState& state, const JoiningDistance& far,
                             const std::function<bool()>& interrupted) {
-  Insertion insertion(state, far * far);
+  Insertion insertion(state, far);
   FarPoints result;
-  const auto is_far = [&](std::uint32_t p) {
-    const bool near =
-        state.assigned().owner(p) != kNoIndex && state.assigned().squared_distance(p) <= far * far;
-    return !near && state.tree().nearest(state.mesh(), state.point(p), far * far).slot == kNoIndex;
-  };
-  const auto points = static_cast<std::uint32_t>(state.cloud().size());
+  const std::vector<std::uint32_t> joined = points_to_join(state, far, interrupted);
   bool stopped = interrupted && interrupted();
-  for (std::uint32_t p = 0; p < points && !stopped; ++p) {
-    if (!is_far(p)) continue;
+  for (const std::uint32_t p : joined) {
+    if (stopped) break;
+    if (!is_farther(state, p, far.with_others)) continue;
     stopped = interrupted && interrupted();
     if (!stopped && insertion.insert(p)) ++result.inserted;
   }
   // Later insertions may have brought the mesh within reach of a point.
-  for (std::uint32_t p = 0; p < points && !stopped; ++p) {
-    if (is_far(p)) result.left_out.push_back(p);
+  for (const std::uint32_t p : joined) {
+    if (!stopped && is_farther(state, p, far.with_others)) result.left_out.push_back(p);
   }
   result.mesh = state.mesh().compact();
   return result;

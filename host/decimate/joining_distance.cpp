@@ -14,16 +14,17 @@ constexpr double kManyBeyondHalf = 0.02;
 
 }  // namespace
 
-double joining_distance(double within_half, double epsilon) {
-  return epsilon * (1 - within_half > kManyBeyondHalf ? kNearly : kHalf);
+JoiningDistance joining_distance(double within_half, double epsilon) {
+  const double nearly = kNearly * epsilon;
+  return {1 - within_half > kManyBeyondHalf ? nearly : kHalf * epsilon, nearly};
 }
 
-double joining_distance(const TriangleMesh& mesh, std::span<const Point> cloud, double epsilon,
-                        const std::function<bool()>& interrupted) {
+JoiningDistance joining_distance(const TriangleMesh& mesh, std::span<const Point> cloud,
+                                 double epsilon, const std::function<bool()>& interrupted) {
   const double half = kHalf * epsilon;
-  if (mesh.triangles.empty() || cloud.empty()) return half;
+  if (mesh.triangles.empty() || cloud.empty()) return joining_distance(1, epsilon);
   const std::vector<double> distances = sampled_distances(mesh, cloud, half, interrupted);
-  if (distances.empty()) return half;
+  if (distances.empty()) return joining_distance(1, epsilon);
   return joining_distance(1 - share_beyond(distances, half), epsilon);
 }
 

@@ -39,7 +39,7 @@ Decimation decimate(OwnedSurface given, const std::vector<Point>& cloud,
 
   TriangleMesh mesh = {std::move(given.vertices), std::move(given.triangles)};
   drop_unused_vertices(mesh.vertices, mesh.triangles);
-  const double far = joining_distance(mesh, cloud, options.max_error, options.interrupted);
+  const JoiningDistance far = joining_distance(mesh, cloud, options.max_error, options.interrupted);
   const ReferenceSurface reference = reference_surface(mesh, cloud, far, options.interrupted);
   const CertifiedDecimation made = decimate_certified(reference.mesh, cloud, settings);
   Decimation result;

@@ -55,7 +55,8 @@ std::size_t small_pieces(const TriangleMesh& mesh) {
 
 // The share of the points that noise alone puts where points are joined.
 double explained_by_noise(const TriedSurface& tried, const ScanEstimate& scan, double epsilon) {
-  return std::erfc(joining_distance(tried.within_half, epsilon) / scan.noise / std::numbers::sqrt2);
+  return std::erfc(joining_distance(tried.within_half, epsilon).with_others / scan.noise /
+                   std::numbers::sqrt2);
 }
 
 class Fit {
@@ -198,7 +199,8 @@ class Fit {
         sampled_distances(mesh, all_, epsilon_ / 2, settings_.interrupted);
     if (distances.empty()) throw Interrupted{};
     tried.within_half = 1 - share_beyond(distances, epsilon_ / 2);
-    tried.joined = share_beyond(distances, joining_distance(tried.within_half, epsilon_));
+    tried.joined =
+        share_beyond(distances, joining_distance(tried.within_half, epsilon_).with_others);
     tried.points = all_.size();
     // What interpolates the points has their noise.
     if (interpolates(tried.chain)) tried.roughness = scan_.noise / epsilon_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/decimate/close_on_planes.h"
+#include "host/decimate/joining_distance.h"
 #include "host/geometry/mesh_topology.h"
 #include "host/geometry/scan_estimate.h"
 #include "host/optimize/optimize.h"
@@ -51,7 +52,7 @@ struct ReferenceFit {
   std::size_t chosen = 0;  // of these
   CrackFreeSurface surface;
   // Points that were farther than joined_beyond and became vertices, and those that could not.
-  double joined_beyond = 0;
+  JoiningDistance joined_beyond;
   std::size_t joined = 0, left_out = 0;
   // Where a closed surface was asked for: holes of the scan that were closed, and borders left.
   std::size_t closed_holes = 0;

@@ -23,16 +23,21 @@ std::vector<Point> points_above(std::size_t thousands, std::size_t far) {
   return points;
 }
 
+std::pair<double, double> as_pair(const JoiningDistance& far) {
+  return {far.with_others, far.alone};
+}
+
 TEST(JoiningDistance, IsHalfOfTheToleranceWhereFewPointsAreFartherThanThat) {
-  EXPECT_EQ(joining_distance(unit_square(), points_above(3, 19), 1), 0.5);
-  EXPECT_EQ(joining_distance(unit_square(), points_above(3, 21), 1), 0.9);
-  EXPECT_EQ(joining_distance(unit_square(), points_above(3, 21), 2), 1);
+  EXPECT_EQ(as_pair(joining_distance(unit_square(), points_above(3, 19), 1)), std::pair(0.5, 0.9));
+  EXPECT_EQ(as_pair(joining_distance(unit_square(), points_above(3, 21), 1)), std::pair(0.9, 0.9));
+  EXPECT_EQ(as_pair(joining_distance(unit_square(), points_above(3, 21), 2)), std::pair(1.0, 1.8));
 }
 
 TEST(JoiningDistance, IsHalfOfTheToleranceWhereNothingCanBeMeasured) {
-  EXPECT_EQ(joining_distance({}, points_above(1, 900), 1), 0.5);
-  EXPECT_EQ(joining_distance(unit_square(), {}, 1), 0.5);
-  EXPECT_EQ(joining_distance(unit_square(), points_above(1, 900), 1, [] { return true; }), 0.5);
+  EXPECT_EQ(as_pair(joining_distance({}, points_above(1, 900), 1)), std::pair(0.5, 0.9));
+  EXPECT_EQ(as_pair(joining_distance(unit_square(), {}, 1)), std::pair(0.5, 0.9));
+  EXPECT_EQ(as_pair(joining_distance(unit_square(), points_above(1, 900), 1, [] { return true; })),
+            std::pair(0.5, 0.9));
 }
 
 TEST(JoiningDistance, MeasuresAnEvenPartOfAllPoints) {
