@@ -47,6 +47,10 @@ TriangleMesh BoundedStage::start(const TriangleMesh& surface) const {
   return reference_surface(surface, kept_, joining_distance(1, bound_.epsilon)).mesh;
 }
 
+bool BoundedStage::made_reference(const ChainSettings& settings) const {
+  return two_sided() && keeps_bound(settings.decimator) && surface_key(settings) == bound_.made_by;
+}
+
 SurfaceVerdict BoundedStage::judge(const TriangleMesh& mesh) const {
   SurfaceVerdict verdict;
   if (!two_sided() || equal(mesh, bound_.reference)) return verdict;

@@ -56,6 +56,10 @@ class BoundedStage {
   // from it. Throws what reference_surface() throws, and Error where the run fixed no bound.
   TriangleMesh start(const TriangleMesh& surface) const;
 
+  // Whether the reference is what the settings reconstruct, mended and closed beyond what a
+  // candidate is, and so the better start.
+  bool made_reference(const ChainSettings& settings) const;
+
   SurfaceVerdict judge(const TriangleMesh& mesh) const;
   bool keeps_bounds(const SurfaceVerdict& verdict) const;
 

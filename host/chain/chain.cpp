@@ -90,7 +90,7 @@ double Chain::spacing() {
 const Chain::Surface& Chain::surface(const ChainSettings& settings, StageSeconds& seconds,
                                      std::size_t threads) {
   return surfaces_.get({surface_key(settings), settings.decimator}, [&] {
-    if (settings.method == kFitMethod) {
+    if (settings.method == kFitMethod || bounded_.made_reference(settings)) {
       const TriangleMesh& reference = bounded_.reference();
       return Surface{reference, reference.triangles.size(), 0, {}};
     }

@@ -263,6 +263,16 @@ ParameterValues ReferenceFit::fitted_values() const {
   return values;
 }
 
+ChainSettings ReferenceFit::chain(const std::string& decimator) const {
+  const ChainSettings& made = best().chain;
+  ChainSettings whole{made.method, decimator,
+                      ParameterValues(chain_parameters(made.method, decimator))};
+  for (const auto& [name, value] : made.parameters.by_name()) {
+    whole.parameters.by_name()[name] = value;
+  }
+  return whole;
+}
+
 std::string describe(const TriedSurface& tried) {
   const auto count = [](std::size_t n, const char* what) {
     return (n == 0 ? "no" : std::to_string(n)) + " " + what + (n == 1 ? "" : "s");

@@ -62,6 +62,8 @@ struct ReferenceFit {
   const TriedSurface& best() const { return tried[chosen]; }
   // Of the parameters of its method: those whose values were fitted to the scan.
   ParameterValues fitted_values() const;
+  // What made the best, as a chain that ends with the decimator.
+  ChainSettings chain(const std::string& decimator) const;
 };
 
 // Reconstructs the cloud with `method`, its standard values fitted to the scan; with kFitMethod

@@ -65,6 +65,7 @@ DecimationBound decimation_bound(std::span<const Point> cloud, ErrorConstraint& 
       reference_surface(fit.surface.mesh, points_without(cloud, bound.outliers), fit.joined_beyond,
                         settings.interrupted);
   bound.reference = std::move(joined.mesh);
+  bound.made_by = surface_key(fit.chain(settings.decimator));
   fit.joined = joined.inserted;
   fit.left_out = joined.left_out.size();
   if (settings.interrupted()) throw Interrupted{};

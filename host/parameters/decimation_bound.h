@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/geometry/triangle_mesh.h"
+#include "host/parameters/chain_parameters.h"
 
 namespace emax {
 
@@ -15,6 +16,7 @@ struct DecimationBound {
   double epsilon_back = 0;  // and all of the mesh within this of the reference; 0: one-sided
   TriangleMesh reference;   // of a two-sided bound, as reference_surface() gives it
   std::vector<std::uint32_t> outliers;  // ascending; points that count for nothing
+  StageKey made_by = {};                // surface_key() of the chain that made the reference
 
   bool two_sided() const { return epsilon_back > 0; }
 };

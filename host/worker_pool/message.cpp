@@ -35,6 +35,8 @@ json to_json(const PointsMessage& m) {
           {"epsilon_back", m.bound.epsilon_back},
           {"reference_vertices", packed(m.bound.reference.vertices)},
           {"reference_triangles", packed(m.bound.reference.triangles)},
+          {"reference_method", m.bound.made_by.first},
+          {"reference_parameters", m.bound.made_by.second.by_name()},
           {"outliers", packed(m.bound.outliers)}};
 }
 
@@ -109,6 +111,8 @@ Message points_from_json(const json& j) {
   j.at("epsilon").get_to(m.bound.epsilon);
   j.at("epsilon_back").get_to(m.bound.epsilon_back);
   m.bound.reference = mesh_from_binary(j.at("reference_vertices"), j.at("reference_triangles"));
+  m.bound.made_by = {j.at("reference_method"),
+                     ParameterValues(j.at("reference_parameters").get<ParameterValues::ByName>())};
   m.bound.outliers = unpacked<std::uint32_t>(j.at("outliers"));
   return m;
 }

@@ -14,8 +14,9 @@
 //
 // A message is its length (8 bytes, little-endian, not counting themselves) and one CBOR map:
 //   {"kind": "points", "points": P, "epsilon": number, "epsilon_back": number,
-//    "reference_vertices": P, "reference_triangles": T, "outliers": I}   to a worker, first and
-//    once
+//    "reference_vertices": P, "reference_triangles": T,
+//    "reference_method": s, "reference_parameters": {name: number}, "outliers": I}
+//                                                                  to a worker, first and once
 //   {"kind": "run", "ticket": n, "method": s, "decimator": s, "parameters": {name: number},
 //    "rival": n, "threads": n}
 //   {"kind": "part", "folder": s, "step": s, "part": n}   to a worker, in place of "points": a step

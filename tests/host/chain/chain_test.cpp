@@ -287,6 +287,22 @@ TEST(ChainParameters, PlanesAreGenesWhereTheyAreAskedFor) {
   EXPECT_THROW(require_values(incomplete), Error);
 }
 
+// The reference has a border that no surface of the cloud has.
+TEST(RunChain, DecimatesTheReferenceWithTheValuesThatMadeIt) {
+  const std::vector<Point> cloud = torus_cloud(60, 24);
+  DecimationBound bound = two_sided_bound(cloud, 0.05, 0.06);
+  bound.reference.triangles.pop_back();
+  EXPECT_GT(Chain(cloud, bound).run(bounded()).topology_difference, 0u);
+  bound.made_by = surface_key(bounded());
+  const ChainResult made = Chain(cloud, bound).run(bounded());
+  EXPECT_EQ(made.topology_difference, 0u);
+  EXPECT_LT(made.mesh.triangles.size(), bound.reference.triangles.size() / 2);
+  const ChainSettings fit{kFitMethod, "bounded",
+                          ParameterValues(chain_parameters(kFitMethod, "bounded"))};
+  EXPECT_TRUE(same_bytes(made.mesh, Chain(cloud, bound).run(fit).mesh));
+  EXPECT_GT(Chain(cloud, bound).run(bounded(2.4)).topology_difference, 0u);
+}
+
 // A noisy cube, as its own reference.
 struct NoisyCube {
   static constexpr double kWithin = 0.03, kNoise = 0.006;

@@ -45,12 +45,17 @@ TEST(Message, CarriesEveryBitOfPoints) {
 }
 
 TEST(Message, CarriesTheBoundOfTheDecimator) {
-  const DecimationBound bound = {0.1, 1e-300, tetrahedron().result.mesh, {3, 7, ~0u}};
+  const DecimationBound bound = {0.1,
+                                 1e-300,
+                                 tetrahedron().result.mesh,
+                                 {3, 7, ~0u},
+                                 {"gp3", ParameterValues({{"a", 0.1}, {"b", -0.0}})}};
   const DecimationBound got = round_trip(PointsMessage{sphere_cloud(5), bound}).bound;
   EXPECT_EQ(got.epsilon, bound.epsilon);
   EXPECT_EQ(got.epsilon_back, bound.epsilon_back);
   EXPECT_TRUE(same_bytes(got.reference, bound.reference));
   EXPECT_EQ(got.outliers, bound.outliers);
+  EXPECT_EQ(got.made_by, bound.made_by);
 }
 
 TEST(Message, CarriesSettings) {
