@@ -72,6 +72,9 @@ struct DecimationSettings {
     // several local minima of the energy.
     kDeep,
   } effort = Effort::kRelax;
+  // With kCollapse: for a mesh that is decimated further, which ends with fewer triangles where an
+  // edge that was refused once stays.
+  bool leaves_room = false;
 
   // Of the whole that a tile belongs to, so that all tiles have the same limits; zeros: its own.
   DataExtent extent;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "sw_model/base/deliberate_fault.h"
 #include "sw_model/base/parallel.h"
 #include "sw_model/base/sort_once.h"
 
@@ -186,7 +187,28 @@ std::vector<DecimationPasses::Collapse> DecimationPasses::judge_each(const std::
 }
 
 void DecimationPasses::push(const std::vector<Edge>& edges, const Part& part) {
-  for (const Collapse& collapse : judge_each(edges, part, kPower)) queue_.push(collapse);
+  const std::vector<Collapse> judged = judge_each(edges, part, kPower);
+  auto next = judged.begin();
+  for (const Edge& e : edges) {
+    if (next != judged.end() && next->a == e[0] && next->b == e[1]) {
+      queue_.push(*next++);
+    } else {
+      refused_.push_back({e, edits_});
+    }
+  }
+}
+
+// Of the refused edges, those with another triangle at an end since then.
+std::vector<DecimationPasses::Edge> DecimationPasses::take_changed() {
+  std::vector<Edge> changed;
+  std::erase_if(refused_, [&](const Refused& refused) {
+    const auto [a, b] = refused.edge;
+    if (!state_.mesh().used(a) || !state_.mesh().used(b)) return true;
+    if (refused.stamp >= touched_[a] && refused.stamp >= touched_[b]) return false;
+    changed.push_back(refused.edge);
+    return true;
+  });
+  return changed;
 }
 
 bool DecimationPasses::apply_collapse(const Collapse& candidate) {
@@ -266,19 +288,22 @@ std::size_t DecimationPasses::sweep() {
   }
 }
 
-std::size_t DecimationPasses::collapse() {
+std::size_t DecimationPasses::collapse(bool again) {
   const EditableMesh& mesh = state_.mesh();
   queue_ = {};
+  refused_.clear();
   touched_.assign(mesh.vertex_slots(), 0);
   edits_ = 0;
   push(edges(), {{0, 0.5}});
   if (stopped_) return 0;
   std::size_t collapses = 0;
   const std::size_t triangles = mesh.triangles();
-  while (!queue_.empty()) {
+  while (true) {
     // The queue shrinks with the triangles. When no more of them can be removed, it empties.
-    const double left = static_cast<double>(mesh.triangles()) / static_cast<double>(triangles);
-    if (poll(1 - 0.5 * left)) break;
+    const double done = 1 - 0.5 * share_of(mesh.triangles(), triangles);
+    if (queue_.empty() && again && !EMAX_FAULT(kForgetsRefused))
+      push(take_changed(), {{done, done}});
+    if (queue_.empty() || poll(done)) break;
     const Collapse candidate = queue_.top();
     queue_.pop();
     const std::uint32_t a = candidate.a, b = candidate.b;
@@ -288,7 +313,10 @@ std::size_t DecimationPasses::collapse() {
       continue;
     }
     mesh.neighbours(a, of_a_);
-    if (!apply_collapse(candidate)) continue;
+    if (!apply_collapse(candidate)) {
+      refused_.push_back({{a, b}, edits_});
+      continue;
+    }
     ++collapses;
     ++edits_;
     mesh.neighbours(a, around_);

@@ -32,8 +32,9 @@ class DecimationPasses {
   // the number of collapses.
   std::size_t sweep();
   // Edge collapses, the one that adds least to the energy first, until the limit and the guards
-  // permit no more. Returns the number of collapses.
-  std::size_t collapse();
+  // permit no more. With `again` what was refused is tried again where the mesh has changed since,
+  // once the others are done. Returns the number of collapses.
+  std::size_t collapse(bool again = false);
   // Rounds of collapses, flips and relocations that lower Hoppe's energy (power 2). Ends after
   // eight rounds, or after one without a collapse in which the other edits are fewer than one for
   // each hundred triangles. Returns the number of edits.
@@ -156,6 +157,7 @@ class DecimationPasses {
   bool mend(std::uint32_t vertex);
   bool all_within(const std::vector<std::uint32_t>& points) const;
   std::vector<Edge> edges() const;
+  std::vector<Edge> take_changed();
 
   DecimationState& state_;
   Options options_;
@@ -168,6 +170,11 @@ class DecimationPasses {
   IndependentEdits independent_;
   std::uint32_t spare_ = kNoIndex;  // a vertex that no triangle has
   std::priority_queue<Collapse> queue_;
+  struct Refused {
+    Edge edge;
+    std::uint64_t stamp;  // the last edit before
+  };
+  std::vector<Refused> refused_;
   std::vector<std::uint64_t> touched_;  // the edit that last changed the triangles of each vertex
   std::uint64_t edits_ = 0;
   std::uint64_t polls_ = 0;

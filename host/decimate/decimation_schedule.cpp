@@ -46,7 +46,7 @@ class Schedule {
       return {state_.mesh().compact(), !passes_.stopped(), 0};
     }
     sweep();
-    if (settings_.effort != Effort::kSweep) tell("collapses", passes_.collapse());
+    if (settings_.effort != Effort::kSweep) collapse();
     if (state_.follows_shapes() && settings_.effort != Effort::kSweep) settle_on_planes();
     if (goes_on() && !passes_.stopped() && !lost(Race::At::kCollapsed)) {
       const bool done = may_even_out() ? equidistribute() : lost(Race::At::kUneven);
@@ -119,7 +119,13 @@ class Schedule {
 
   // Only once the mesh is coarse: vertices as close as their noise would fold over each other.
   void settle_on_planes() {
-    if (move_into_place() > 0) tell("collapses", passes_.collapse());
+    if (move_into_place() > 0) collapse();
+  }
+
+  // What other passes follow ends with fewer triangles where some room is left to them.
+  void collapse() {
+    const bool again = settings_.effort == Effort::kCollapse && !settings_.leaves_room;
+    tell("collapses", passes_.collapse(again));
   }
 
   void relocate(int power) { tell("relocations", passes_.relocate(power)); }

@@ -46,6 +46,7 @@ DecimatedMesh DecimationSequence::cut(const DecimationSettings& settings) {
       finer.epsilon = below;
       finer.two_sided = settings.two_sided;
       finer.effort = DecimationSettings::Effort::kCollapse;
+      finer.leaves_room = true;
       finer.interrupted = settings.interrupted;
       DecimatedMesh made = decimator_.run(*start, finer, reach_);
       if (made.interrupted) return made;

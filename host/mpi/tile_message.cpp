@@ -32,6 +32,7 @@ Bytes encode(const TileTask& task) {
                         {"two_sided", s.two_sided},
                         {"epsilon_back", s.epsilon_back},
                         {"effort", static_cast<int>(s.effort)},
+                        {"leaves_room", s.leaves_room},
                         {"normal_cosine", s.normal_cosine},
                         {"flatness", s.flatness}});
 }
@@ -54,6 +55,7 @@ TileTask decode_tile_task(std::span<const std::uint8_t> bytes) {
   j.at("two_sided").get_to(s.two_sided);
   j.at("epsilon_back").get_to(s.epsilon_back);
   s.effort = static_cast<DecimationSettings::Effort>(j.at("effort").get<int>());
+  j.at("leaves_room").get_to(s.leaves_room);
   j.at("normal_cosine").get_to(s.normal_cosine);
   j.at("flatness").get_to(s.flatness);
   return task;

@@ -158,6 +158,7 @@ class TiledDecimator::Run {
     own.advanced = nullptr;
     own.early = nullptr;
     if (round == 0 && patches_.size() > 1 && own.effort != Effort::kSweep) {
+      own.leaves_room = own.effort != Effort::kCollapse;
       own.effort = Effort::kCollapse;
     }
     std::vector<Origin> origins(batch.size());

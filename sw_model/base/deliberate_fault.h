@@ -35,6 +35,7 @@ enum class Fault {
   kForgetsThresholds,   // the planes of the thresholds before are taken for others
   kForgetsSpread,       // the error is not spread on planes where a candidate asks for it
   kForgetsTrueEdges,    // no edge of the mesh stands for a true one
+  kForgetsRefused,      // an edge that was refused once is not collapsed later
   kTakesTangents,       // the plane that touches a curved surface is taken for it
   kGivesUpEarly,        // a race counts as lost that can still be won
   kMovesSeams,          // the surroundings of a tile may change

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "host/geometry/mesh_validity.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "tests/host/support/surfaces.h"
+#include "tests/support/stimuli.h"
 
 namespace emax::test {
 namespace {
@@ -56,6 +58,30 @@ TEST(DecimationPasses, CollapsesLeaveACubeItsCorners) {
   EXPECT_EQ(bench.state.mesh().triangles(), 12u);
   bench.expect_all_within();
   EXPECT_EQ(bench.passes.collapse(), 0u);
+}
+
+TriangleMesh noisy(TriangleMesh mesh) {
+  Random random(named_seed("noisy", 1));
+  for (Point& v : mesh.vertices) v += random.point(-0.02, 0.02);
+  return mesh;
+}
+
+// Another pass judges every edge anew.
+TEST(DecimationPasses, CollapsesLeaveNoEdgeThatCouldCollapse) {
+  for (const TriangleMesh& mesh : {noisy(bumpy(20, 30)), noisy(cube(16))}) {
+    PassesBench bench(mesh, 0.03);
+    EXPECT_GT(bench.passes.collapse(true), 0u);
+    bench.expect_all_within();
+    EXPECT_EQ(bench.passes.collapse(true), 0u);
+  }
+}
+
+TEST(DecimationPassesFault, WhatWasRefusedOnceIsLeft) {
+  const DeliberateFault fault(Fault::kForgetsRefused);
+  PassesBench bench(noisy(cube(16)), 0.03);
+  bench.passes.collapse(true);
+  const std::size_t triangles = bench.state.mesh().triangles();
+  EXPECT_GT(10 * bench.passes.collapse(true), triangles);
 }
 
 TEST(DecimationPasses, SweepsCollapseFarBelowTheLimit) {

@@ -15,6 +15,7 @@ TEST(TileMessage, CarriesATileAndItsBounds) {
   sent.settings.extent = {1e3, -2.5};
   sent.settings.two_sided = false;
   sent.settings.effort = DecimationSettings::Effort::kDeep;
+  sent.settings.leaves_room = true;
   sent.settings.normal_cosine = 0.3;
   sent.settings.flatness = 1e-5;
   const TileTask got = decode_tile_task(encode(sent));
@@ -31,6 +32,7 @@ TEST(TileMessage, CarriesATileAndItsBounds) {
   EXPECT_EQ(got.settings.extent.greatest, sent.settings.extent.greatest);
   EXPECT_EQ(got.settings.two_sided, sent.settings.two_sided);
   EXPECT_EQ(got.settings.effort, sent.settings.effort);
+  EXPECT_EQ(got.settings.leaves_room, sent.settings.leaves_room);
   EXPECT_EQ(got.settings.normal_cosine, sent.settings.normal_cosine);
   EXPECT_EQ(got.settings.flatness, sent.settings.flatness);
 }
