@@ -1,24 +1,25 @@
-// Sends wrong frames of every kind into the whole Verilated board (UART, link, core). After any of
-// them the board must take a reset in time and then answer a block correctly. It must never give a
-// wrong word to a request that was sent in order.
+// Sends wrong frames of every kind into the whole Verilated board (UART, link, store, cores). After
+// any of them the board must take a reset in time and then answer a block of either core correctly,
+// of words that are sent or that lie in the store. It must never give a wrong word to a request
+// that was sent in order.
 //
 //   emax_frame_fuzz [--frames N] [--blocks N] [--seed N]
 //
 // --blocks: the number of blocks that are asked after every 200 frames (1).
 // Exit code 0 when nothing was wrong, 1 otherwise, 2 for wrong arguments.
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
 
-#include "sw_model/model/triangle_frame.h"
+#include "sw_model/base/error.h"
 #include "sw_model/protocol/commands.h"
 #include "sw_model/protocol/frames.h"
 #include "testbench/board/simulated_board.h"
-#include "testbench/core/core_driver.h"
+#include "testbench/core/board_stimuli.h"
 #include "testbench/stimuli/random.h"
-#include "testbench/stimuli/stimuli.h"
 
 namespace emax {
 namespace {
@@ -148,16 +149,23 @@ std::vector<std::uint8_t> any_frame(const Host& host, std::uint8_t turn, Random&
   return bytes;
 }
 
-std::vector<Word> any_block(Random& random) {
-  static const test::Stimulus s = test::bumpy_sphere(6, 9, 60, 3);
-  static const Normalization normalization = normalization_of(s.cloud);
-  static const auto points = normalized_points(s.cloud, normalization);
-  static const auto records = make_records(s.mesh(), normalization);
-  std::vector<Word> words;
-  append_load_points(words, std::span(points).first(1 + random.below(20)));
-  append_records(words, std::span(records).first(random.below(5)));
-  append_reduce(words, random.one_in(2));
-  return words;
+std::vector<Word> any_block(unsigned store_bits, Random& random) {
+  static const auto exact = test::materials(3);
+  static const test::FilterMaterial filter = test::filter_material(3);
+  const auto& material = exact[random.below(static_cast<std::uint32_t>(exact.size()))];
+  const std::size_t points = 1 + random.below(20), records = random.below(5);
+  return test::any_board_block(material, filter, {points, records}, store_bits, random);
+}
+
+// The board's store is asked for; what lies in it at first is not known, so that every piece that a
+// block names was stored before.
+unsigned store_bits(Host& host) {
+  const Word question = command_header(kIdentify, kOfStore);
+  const auto answer = host.ask(std::span(&question, 1), 1 + kAnswerStore);
+  if (answer.size() != 1 + kAnswerStore || !std::has_single_bit(answer[2])) {
+    throw Error("the board has no store");
+  }
+  return static_cast<unsigned>(std::countr_zero(answer[2]));
 }
 
 int run(std::uint64_t frames, std::uint64_t blocks, std::uint64_t seed) {
@@ -165,6 +173,8 @@ int run(std::uint64_t frames, std::uint64_t blocks, std::uint64_t seed) {
   Host host;
   std::uint64_t sent = 0, right = 0, wrong = 0;
   std::uint16_t session = 0;
+  host.reset(++session);
+  const unsigned bits = store_bits(host);
   while (sent < frames) {
     host.reset(++session);
     std::uint8_t turn = 0;
@@ -176,8 +186,8 @@ int run(std::uint64_t frames, std::uint64_t blocks, std::uint64_t seed) {
     }
     for (std::uint64_t i = 0; i < blocks; ++i) {
       host.reset(++session);
-      const auto block = any_block(random);
-      const auto expected = answers_of_kernel(block);
+      const auto block = any_block(bits, random);
+      const auto expected = test::answers_of_board(block, bits);
       ++(host.ask(block, expected.size()) == expected ? right : wrong);
     }
   }

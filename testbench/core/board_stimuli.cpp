@@ -4,6 +4,7 @@
 #include <span>
 
 #include "sw_model/protocol/commands.h"
+#include "sw_model/protocol/cpp_board.h"
 
 namespace emax::test {
 namespace {
@@ -33,9 +34,16 @@ void append_recalled(std::vector<Word>& words, std::span<const Word> command, un
   words.insert(words.end(), pieces.begin(), pieces.end());
 }
 
-// The block, each of its commands as it is or recalled.
-void append_block(std::vector<Word>& words, std::span<const Word> block, unsigned store_bits,
-                  Random& random) {
+}  // namespace
+
+std::vector<Word> any_board_block(const Material& exact, const FilterMaterial& filter,
+                                  BlockSize size, unsigned store_bits, Random& random) {
+  const bool listed = random.one_in(2);
+  const auto plain = random.one_in(2)
+                         ? dense_block(exact, size.points, size.records, listed, random)
+                         : filter_block(filter, size.points, size.records, listed, random);
+  std::vector<Word> words;
+  std::span<const Word> block = plain;
   CommandCursor cursor(CommandSet::kBoard);
   while (!block.empty()) {
     const auto command = cursor.take(block).words;
@@ -45,19 +53,16 @@ void append_block(std::vector<Word>& words, std::span<const Word> block, unsigne
       append_recalled(words, command, store_bits, random);
     }
   }
+  return words;
 }
-
-}  // namespace
 
 std::vector<Word> any_board_commands(const Material& exact, const FilterMaterial& filter,
                                      std::size_t count, unsigned store_bits, Random& random) {
   std::vector<Word> words;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t points = 1 + random.below(60), records = random.below(6);
-    const bool listed = random.one_in(2);
-    const auto block = random.one_in(2) ? dense_block(exact, points, records, listed, random)
-                                        : filter_block(filter, points, records, listed, random);
-    append_block(words, block, store_bits, random);
+    const auto block = any_board_block(exact, filter, {points, records}, store_bits, random);
+    words.insert(words.end(), block.begin(), block.end());
     if (random.one_in(4)) words.push_back(command_header(kIdentify, kOfStore));
     if (random.one_in(4)) {
       words.insert(words.end(), {command_header(kEcho, 2), static_cast<Word>(i), 0xabcdef01u});
@@ -71,6 +76,27 @@ std::vector<Word> any_board_commands(const Material& exact, const FilterMaterial
   // Faults that are remembered are answered here.
   words.insert(words.end(), {command_header(kReduce, 0), command_header(kFilterReduce, 0)});
   return words;
+}
+
+std::vector<Word> answers_of_board(std::span<const Word> words, unsigned store_bits) {
+  CppBoard board(1, 1, store_bits);
+  board.send(words);
+  std::vector<Word> answers;
+  std::size_t questions = 0;
+  CommandCursor cursor(CommandSet::kBoard);
+  for (auto rest = words; !rest.empty();) {
+    const auto part = cursor.take(rest);
+    const bool recalls = header_opcode(part.header) == kRecall && part.words.size() > 1;
+    questions += is_answered(recalls ? part.words[1] : part.header, CommandSet::kCores) ? 1 : 0;
+  }
+  for (; questions > 0; --questions) {
+    std::vector<Word> answer(1);
+    board.receive(answer);
+    answer.resize(1 + header_count(answer[0]));
+    board.receive(std::span(answer).subspan(1));
+    answers.insert(answers.end(), answer.begin(), answer.end());
+  }
+  return answers;
 }
 
 }  // namespace emax::test

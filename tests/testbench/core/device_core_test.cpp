@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "sw_model/base/error.h"
-#include "sw_model/protocol/cpp_board.h"
 #include "sw_model/protocol/cycle_model.h"
 #include "testbench/core/board_stimuli.h"
 #include "testbench/core/core_driver.h"
@@ -16,28 +15,6 @@
 
 namespace emax::test {
 namespace {
-
-// All answers of the twin to whole commands.
-std::vector<Word> answers_of_board(std::span<const Word> words, unsigned store_bits) {
-  CppBoard board(1, 1, store_bits);
-  board.send(words);
-  std::vector<Word> answers;
-  std::size_t questions = 0;
-  CommandCursor cursor(CommandSet::kBoard);
-  for (auto rest = words; !rest.empty();) {
-    const auto part = cursor.take(rest);
-    const bool recalls = header_opcode(part.header) == kRecall && part.words.size() > 1;
-    questions += is_answered(recalls ? part.words[1] : part.header, CommandSet::kCores) ? 1 : 0;
-  }
-  for (; questions > 0; --questions) {
-    std::vector<Word> answer(1);
-    board.receive(answer);
-    answer.resize(1 + header_count(answer[0]));
-    board.receive(std::span(answer).subspan(1));
-    answers.insert(answers.end(), answer.begin(), answer.end());
-  }
-  return answers;
-}
 
 TEST(DeviceCore, AnswersAnyCommandsAsItsTwin) {
   const auto exact = materials(5);
