@@ -107,7 +107,9 @@ FILTER_WORDS = {"LOAD": 6, "MEET": 7, "ASK": 8, "POINT_WORDS": 2, "RECORD_WORDS"
 RING_FAULTS = mutants("SLOT_FREED_EARLY", "RING_SKIPS_A_SLOT", "RING_OVERFILLED")
 DECODER_FAULTS = (*mutants("ONE_POINT_TOO_MANY", "REDUCE_LEAVES_BLOCK_OPEN"),
                   Fault("a record's words in the wrong order",
-                        patch=("command_decoder.sv", "{word, assembled[32*RECORD_WORDS-1:32]}", "{assembled[32*RECORD_WORDS-33:0], word}")),
+                        patch=("command_decoder.sv", "if (next_word[i]) assembled", "if (next_word[RECORD_WORDS-1-i]) assembled")),
+                  Fault("a record changes before it is taken",
+                        patch=("command_decoder.sv", "if (!own_valid[i/4]) record", "record")),
                   Fault("points are written while the block before is read",
                         patch=("command_decoder.sv", "sequencer_idle && !finish && !drop && !block", "!finish && !drop && !block")),
                   Fault("the first of the faults is answered",

@@ -137,7 +137,10 @@ module prove_command_decoder #(
   (* hierconn *) wire [10:0] \dut.points ;
   (* hierconn *) wire [23:0] \dut.items ;
   (* hierconn *) wire [4:0] \dut.left ;
+  localparam int PARTS = (RECORD_WORDS + 3) / 4;
   (* hierconn *) wire [32*RECORD_WORDS-1:0] \dut.assembled ;
+  (* hierconn *) wire [RECORD_WORDS-1:0] \dut.next_word ;
+  (* hierconn *) wire [PARTS-1:0] \dut.own_valid ;
   (* hierconn *) wire [NUM_PE-1:0] \dut.to_element ;
   (* hierconn *) wire [ROW_BITS-1:0] \dut.next_row ;
   logic held, open, gives_up, skips_records;
@@ -226,7 +229,9 @@ module prove_command_decoder #(
       records_met: assert (inside == '0 || (met && \dut.block ));
       records_inside: assert (inside == 3'(record_valid) + 3'(\dut.assembled_full ));
       assembling: assert (payload != RECORDS || position <= lane
-          || 32'(\dut.assembled >> {WORDS_OF_RECORD - position + lane, 5'd0}) == lane_word);
+          || 32'(\dut.assembled >> {lane, 5'd0}) == lane_word);
+      words_in_turn: assert (payload != RECORDS || \dut.next_word == RECORD_WORDS'(1) << position);
+      parts_are_the_whole: assert (\dut.own_valid == {PARTS{record_valid}});
       started_met: assert (payload != RECORDS || position == '0 || met);
       shifts_when_moved: assert (!(\dut.assembled_full && position != '0 && payload == RECORDS));
       first_out: assert (!(watching && ahead == '0 && record_valid && leaving != kept));

@@ -53,7 +53,12 @@ module command_decoder #(
   logic [23:0] items;   // of the payload that are still to come
   logic [4:0] left;     // words of the present item after this one
   logic [32*RECORD_WORDS-1:0] assembled;  // the next record, word by word
+  logic [RECORD_WORDS-1:0] next_word;     // the word of it that comes next
   logic assembled_full, move;
+  // record_valid, once more for each few words of the record: what enables many bits is a register beside
+  // them. Yosys keeps registers of this name apart (hls/boards/synthesis/designs.py).
+  localparam int PARTS = (RECORD_WORDS + 3) / 4;
+  logic [PARTS-1:0] own_valid;
   logic [NUM_PE-1:0] to_element;
   logic [ROW_BITS-1:0] next_row;
   logic skips_records;
@@ -82,12 +87,15 @@ module command_decoder #(
     finish        <= 1'b0;
     drop          <= 1'b0;
     request_valid <= 1'b0;
+    // A record that is not valid may be any.
+    for (int i = 0; i < RECORD_WORDS; i++) if (!own_valid[i/4]) record[32*i+:32] <= assembled[32*i+:32];
     if (move) begin
-      record <= assembled;
       record_valid <= 1'b1;
+      own_valid <= '1;
       assembled_full <= 1'b0;
     end else if (record_taken) begin
       record_valid <= 1'b0;
+      own_valid <= '0;
     end
 
     if (word_valid && state == HEADER && is_points && block && !assembled_full
@@ -103,6 +111,7 @@ module command_decoder #(
       left  <= is_records ? AFTER_RECORD : AFTER_POINT;
       to_element <= NUM_PE'(1);
       next_row <= '0;
+      next_word <= RECORD_WORDS'(1);
       skips_records <= is_records;
     end
     request_list  <= count[0];
@@ -150,7 +159,8 @@ module command_decoder #(
       end
     end
     if (take_record) begin
-      assembled <= {word, assembled[32*RECORD_WORDS-1:32]};
+      for (int i = 0; i < RECORD_WORDS; i++) if (next_word[i]) assembled[32*i+:32] <= word;
+      next_word <= {next_word[RECORD_WORDS-2:0], next_word[RECORD_WORDS-1]};
       if (last_word) assembled_full <= 1'b1;
       met <= 1'b1;
     end
@@ -162,6 +172,7 @@ module command_decoder #(
       met   <= 1'b0;
       assembled_full <= 1'b0;
       record_valid  <= 1'b0;
+      own_valid     <= '0;
       point_write   <= '0;
       finish        <= 1'b0;
       drop          <= 1'b0;
