@@ -1,15 +1,18 @@
 """Writes netlists for simulation: netlists.py FOLDER NAME... writes FOLDER/NAME.v.
 
 NAME is KIND_FAMILY. KIND is operators, element, form_FORM, core, board1 or board2 (with 1 or 2 elements),
-board1at105 (with another clock in MHz), filter1 or filter4, sdram120 (the SDRAM's controller at 120 MHz).
+board1at105 (with another clock in MHz), board1sdram or board1sdramat105
+(with the store in SDRAM), filter1 or filter4, sdram120 (the SDRAM's controller at 120 MHz), sdrampins120 (the
+same with the board's clock and pins).
 FAMILY is one of these:
   ecp5, nexus, xc7, xcup   mapped to the family
   words             as the front end reads the sources, before anything is mapped
   mutated           with faults put in; their list is FOLDER/NAME.txt
   misread           unmapped, of sources with an expression that Yosys reads as another one
-  routed            operators alone: as nextpnr places and routes them for ECP5
-  misrouted         the same with one bit of a LUT turned
-  inverted          a filter alone: mapped to Nexus, with the entries of one LUT turned
+  routed            operators or sdrampins: as nextpnr places and routes them for ECP5
+  misrouted         operators alone: the same with one bit of a LUT turned
+  inverted          a filter: mapped to Nexus, with the entries of one LUT turned; sdrampins: mapped to ECP5, with
+                    the clock of the chip inverted
 
 The operators of a family are four modules, fp_add_netlist and so on. A form is form_netlist, with its
 source in the same file. The other modules have the source's name.
@@ -32,6 +35,26 @@ OPERATORS = Path("testbench/operators/emax_operators.sv")
 BENCH = designs.Design("operators side by side", "emax_operators", 0, {"EXPONENT": 8}, more=[OPERATORS])
 
 
+PINS = [designs.ULX3S / name for name in ("ulx3s.lpf", "ulx3s_sdram.lpf")]
+
+
+def sdram_with_pins(clock):
+    """The controller of the ULX3S's SDRAM with the board's clock and pins."""
+    controller = designs.sdram_controller(clock)
+    more = [*controller.more, *(designs.ULX3S / f"{name}.sv" for name in ("ulx3s_clock", "sdram_pins")),
+            Path("testbench/netlists/sdram_with_pins.sv")]
+    return replace(controller, name=f"sdram_controller with pins at {clock} MHz", top="sdram_with_pins",
+                   parameters={"CLOCK_MHZ": clock}, more=more)
+
+
+def with_an_inverted_clock(text):
+    """The netlist with what the clock's pin gives in the two halves of a cycle exchanged."""
+    right, wrong = (f".D0(1'h{first}),\n    .D1(1'h{second})" for first, second in ("10", "01"))
+    if text.count(right) != 1:
+        raise Failure(f"the netlist has {text.count(right)} pins that give a clock, not one")
+    return text.replace(right, wrong)
+
+
 def netlist_of(runner, design, family):
     """The path of a design's netlist for simulation."""
     if family == "words":
@@ -41,7 +64,7 @@ def netlist_of(runner, design, family):
         replaced = {**designs.misread(FOLDER / "misread"),
                     designs.ULX3S / clock: designs.ULX3S / "behavioural" / clock}
         return netlists.words(runner, replace(design, name=f"{design.name}, misread", replaced=replaced))
-    if family == "ecp5" and design.top in ["emax_core", "emax_ulx3s"]:
+    if family == "ecp5" and design.top in ["emax_core", "emax_ulx3s", "emax_ulx3s_sdram"]:
         return netlists.ecp5_top(runner, design)[-1]
     if family in MAPPED:
         return MAPPED[family](runner, design)[-1]
@@ -60,6 +83,14 @@ def text_of(runner, name):
         if family == "misrouted":
             routed.turn_a_bit(module)
         return {".v": routed.verilog(module, BENCH.top)}
+    pins = re.fullmatch(r"sdrampins(\d+)", kind)
+    if pins:
+        design = sdram_with_pins(int(pins[1]))
+        if family == "routed":
+            placed = netlists.routed(runner, design, "--85k", PINS)
+            return {".v": routed.verilog(routed.read(placed), design.top)}
+        text = netlists.renamed(netlists.ecp5_top(runner, design)[-1], design.top)
+        return {".v": text if family == "ecp5" else with_an_inverted_clock(text)}
     if family == "inverted":
         return {".v": netlists.with_an_inverted_lut(text_of(runner, f"{kind}_nexus")[".v"])}
     if kind == "operators" and family != "misread":
@@ -72,12 +103,12 @@ def text_of(runner, name):
                                  netlists.renamed(netlist_of(runner, design, family), "form_netlist")])}
     if kind == "element" and family in netlists.FAMILIES:
         return {".v": netlists.renamed(netlist_of(runner, lowered.xilinx_element(0), family), "emax_element")}
-    board = re.fullmatch(r"board(\d)(?:at(\d+))?", kind)
+    board = re.fullmatch(r"board(\d)(sdram)?(?:at(\d+))?", kind)
     sdram = re.fullmatch(r"sdram(\d+)", kind)
     if sdram:
         design = designs.sdram_controller(int(sdram[1]))
     elif board:
-        design = designs.ulx3s(int(board[1]), int(board[2] or designs.ULX3S_CLOCK))
+        design = designs.ulx3s(int(board[1]), int(board[3] or designs.ULX3S_CLOCK), bool(board[2]))
     else:
         design = {"operators": BENCH, "core": designs.core(1), "element": designs.element(0),
                   "filter1": designs.filter_core(1, 0), "filter4": designs.filter_core(4, 0)}[kind]

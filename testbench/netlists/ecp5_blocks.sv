@@ -77,20 +77,23 @@ module CCU2C #(
   assign S1 = value_1 ^ carry;
 endmodule
 
-// The PLL: for simulation its output is the clock that comes in, locked from the start.
+// The PLL: for simulation its outputs are the clock that comes in, locked from the start.
 /* verilator lint_off UNUSEDSIGNAL */
 /* verilator lint_off UNUSEDPARAM */
 module EHXPLLL #(
     parameter PLLRST_ENA = "DISABLED", INTFB_WAKE = "DISABLED", STDBY_ENABLE = "DISABLED",
     parameter DPHASE_SOURCE = "DISABLED", OUTDIVIDER_MUXA = "DIVA", CLKOP_ENABLE = "ENABLED",
+    parameter CLKOS_ENABLE = "DISABLED",
     parameter FEEDBK_PATH = "CLKOP",
-    parameter int CLKI_DIV = 1, CLKFB_DIV = 1, CLKOP_DIV = 8, CLKOP_CPHASE = 0, CLKOP_FPHASE = 0
+    parameter int CLKI_DIV = 1, CLKFB_DIV = 1, CLKOP_DIV = 8, CLKOP_CPHASE = 0, CLKOP_FPHASE = 0,
+    parameter int CLKOS_DIV = 8, CLKOS_CPHASE = 0, CLKOS_FPHASE = 0
 ) (
     input logic RST, STDBY, CLKI, CLKFB, PHASESEL0, PHASESEL1, PHASEDIR, PHASESTEP, PHASELOADREG,
         PLLWAKESYNC, ENCLKOP,
-    output logic CLKOP, LOCK
+    output logic CLKOP, CLKOS, LOCK
 );
   assign CLKOP = CLKI;
+  assign CLKOS = CLKI;
   assign LOCK = 1'b1;
 endmodule
 /* verilator lint_on UNUSEDPARAM */

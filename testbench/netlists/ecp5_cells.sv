@@ -28,8 +28,9 @@ module L6MUX21 (
   assign Z = SD ? D1 : D0;
 endmodule
 
-// Set or reset by LSR with the clock, before the enable is looked at. nextpnr brings a value that is
-// not that of the LUT in front of the flip-flop to M, and SD is 0 then.
+// Set or reset by LSR, with the clock unless SRMODE says ASYNC, before the enable is looked at. No design of
+// ours has the cell that drives GSR, so GSR acts before the first clock alone. nextpnr brings a value that
+// is not that of the LUT in front of the flip-flop to M, and SD is 0 then.
 module TRELLIS_FF #(
     parameter GSR = "ENABLED",
     parameter CEMUX = "1",
@@ -42,9 +43,9 @@ module TRELLIS_FF #(
     input  logic CLK, LSR, CE, DI, M,
     output logic Q
 );
-  if (GSR != "DISABLED" || CLKMUX != "CLK" || LSRMUX != "LSR" || SRMODE != "LSR_OVER_CE"
+  if (CLKMUX != "CLK" || LSRMUX != "LSR" || (SRMODE != "LSR_OVER_CE" && SRMODE != "ASYNC")
       || (CEMUX != "1" && CEMUX != "CE" && CEMUX != "INV") || (REGSET != "SET" && REGSET != "RESET")
-      || (SD != "1" && SD != "0")) begin : unmodelled
+      || (SD != "1" && SD != "0") || (GSR != "DISABLED" && SRMODE != "ASYNC")) begin : unmodelled
     $error("TRELLIS_FF: this model does not know these parameters");
   end
   localparam logic PRESET = REGSET == "SET";
@@ -52,7 +53,11 @@ module TRELLIS_FF #(
   assign enable = CEMUX == "1" || (CE ^ (CEMUX == "INV"));
   assign value = SD == "1" ? DI : M;
   initial Q = PRESET;
-  always_ff @(posedge CLK) if (LSR || enable) Q <= LSR ? PRESET : value;
+  if (SRMODE == "ASYNC") begin : asynchronous
+    always_ff @(posedge CLK or posedge LSR) if (LSR || enable) Q <= LSR ? PRESET : value;
+  end else begin : synchronous
+    always_ff @(posedge CLK) if (LSR || enable) Q <= LSR ? PRESET : value;
+  end
 endmodule
 
 // LUT RAM of 16 words of 4 bits: written with the clock, read at once.

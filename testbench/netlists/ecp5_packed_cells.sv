@@ -68,20 +68,100 @@ module DCCA (
   assign CLKO = CLKI && CE;
 endmodule
 
-// A pin's buffer. In nextpnr's cell B is the pin in both directions; hls/boards/synthesis/routed.py
-// connects an output's pin to B_OUT.
+// A pin's buffer. In nextpnr's cell B is the pin in all directions; hls/boards/synthesis/routed.py connects
+// an output's pin to B_OUT and that of both directions to B_BOTH.
 module TRELLIS_IO #(
     parameter DIR = "INPUT",
+    parameter DATAMUX_OREG = "PADDO",
     parameter DATAMUX_ODDR = "PADDO",
-    parameter DATAMUX_MDDR = "PADDO"
+    parameter DATAMUX_MDDR = "PADDO",
+    parameter TRIMUX_TSREG = "PADDT"
 ) (
     input  logic B, I, T, IOLDO, IOLTO,
-    output logic O, B_OUT
+    output logic O, B_OUT,
+    inout  wire  B_BOTH
 );
-  if ((DIR != "INPUT" && DIR != "OUTPUT") || DATAMUX_ODDR != "PADDO"
-      || DATAMUX_MDDR != "PADDO") begin : unmodelled
+  if ((DIR != "INPUT" && DIR != "OUTPUT" && DIR != "BIDIR")
+      || (DATAMUX_OREG != "PADDO" && DATAMUX_OREG != "IOLDO")
+      || (DATAMUX_ODDR != "PADDO" && DATAMUX_ODDR != "IOLDO") || DATAMUX_MDDR != "PADDO"
+      || (TRIMUX_TSREG != "PADDT" && TRIMUX_TSREG != "IOLTO")) begin : unmodelled
     $error("TRELLIS_IO: this model does not know these parameters");
   end
-  assign O = B;
-  assign B_OUT = DIR != "OUTPUT" || T ? 1'bx : I;
+  logic out, released;
+  assign out = DATAMUX_OREG == "IOLDO" || DATAMUX_ODDR == "IOLDO" ? IOLDO : I;
+  assign released = TRIMUX_TSREG == "IOLTO" ? IOLTO : T;
+  assign B_OUT = DIR != "OUTPUT" || released ? 1'bx : out;
+  if (DIR == "BIDIR") begin : both
+    assign B_BOTH = released ? 1'bz : out;
+    assign O = B_BOTH;
+  end else begin : one
+    assign O = B;
+  end
+endmodule
+
+// The registers of a pin: one for what goes out, one for its release, one for what comes in; or two values
+// a cycle that go out, the first while the clock is high. Parameters are nextpnr's, with _ for their dots.
+module IOLOGIC #(
+    parameter MODE = "NONE",
+    parameter OUTREG_OUTREGMODE = "NONE",
+    parameter OUTREG_REGSET = "RESET",
+    parameter TSREG_OUTREGMODE = "NONE",
+    parameter TSREG_REGSET = "RESET",
+    parameter FF_INREGMODE = "NONE",
+    parameter FF_REGSET = "RESET",
+    parameter CEMUX = "CE", CEIMUX = "1", CEOMUX = "1",
+    parameter CLKIMUX = "CLK", CLKOMUX = "CLK",
+    parameter LSRMUX = "LSR", LSRIMUX = "0", LSROMUX = "LSRMUX",
+    parameter SRMODE = "ASYNC",
+    parameter GSR = "ENABLED",
+    parameter DELAY_DEL_VALUE = 0,
+    parameter DELAY_OUTDEL = "DISABLED", DELAY_WAIT_FOR_EDGE = "DISABLED",
+    parameter IDDRXN_MODE = "NONE", MIDDRX_MODE = "NONE", MIDDRX_MODDRX_WRCLKMUX = "NONE",
+    parameter MODDRX_MODE = "NONE", MTDDRX_DQSW_INVERT = "DISABLED", MTDDRX_MODE = "NONE",
+    parameter MTDDRX_REGSET = "RESET", ODDRXN_MODE = "NONE", IOLTOMUX = "NONE"
+) (
+    input logic
+        CLK, LSR, CE, TXDATA0, TXDATA1, TSDATA0, PADDI,
+        // of what this model refuses
+        TXDATA2, TXDATA3, TXDATA4, TXDATA5, TXDATA6, TSDATA1, DI, IOLDOI, ECLK, SLIP, MOVE, LOADN, DIRECTION,
+        DQSR90, DQSW, DQSW270, RDPNTR0, RDPNTR1, RDPNTR2, WRPNTR0, WRPNTR1, WRPNTR2,
+    output logic IOLDO, IOLTO, INFF
+);
+  if ((MODE != "IREG_OREG" && MODE != "IDDRX1_ODDRX1")
+      || (OUTREG_OUTREGMODE != "NONE" && OUTREG_OUTREGMODE != "FF")
+      || (TSREG_OUTREGMODE != "NONE" && TSREG_OUTREGMODE != "FF")
+      || (FF_INREGMODE != "NONE" && FF_INREGMODE != "FF") || CEMUX != "CE"
+      || (CEIMUX != "1" && CEIMUX != "CEMUX") || (CEOMUX != "1" && CEOMUX != "CEMUX")
+      || CLKIMUX != "CLK" || CLKOMUX != "CLK" || LSRMUX != "LSR" || SRMODE != "ASYNC"
+      || (LSRIMUX != "0" && LSRIMUX != "LSRMUX") || (LSROMUX != "0" && LSROMUX != "LSRMUX")
+      || DELAY_DEL_VALUE != 0 || DELAY_OUTDEL != "DISABLED" || DELAY_WAIT_FOR_EDGE != "DISABLED"
+      || IDDRXN_MODE != "NONE" || MIDDRX_MODE != "NONE" || MIDDRX_MODDRX_WRCLKMUX != "NONE"
+      || MODDRX_MODE != "NONE" || MTDDRX_DQSW_INVERT != "DISABLED" || MTDDRX_MODE != "NONE"
+      || MTDDRX_REGSET != "RESET" || ODDRXN_MODE != "NONE" || IOLTOMUX != "NONE") begin : unmodelled
+    $error("IOLOGIC: this model does not know these parameters");
+  end
+  logic enable_in, enable_out, reset_in, reset_out;
+  assign enable_in = CEIMUX == "1" || CE;
+  assign enable_out = CEOMUX == "1" || CE;
+  assign reset_in = LSRIMUX == "LSRMUX" && LSR;
+  assign reset_out = LSROMUX == "LSRMUX" && LSR;
+  if (MODE == "IDDRX1_ODDRX1") begin : two
+    logic first, second;
+    always_ff @(posedge CLK or posedge reset_out) {first, second} <= reset_out ? 2'b0 : {TXDATA0, TXDATA1};
+    assign IOLDO = CLK ? first : second;
+    assign {IOLTO, INFF} = 2'bx;
+  end else begin : one
+    localparam logic OUT_PRESET = OUTREG_REGSET == "SET", RELEASE_PRESET = TSREG_REGSET == "SET";
+    localparam logic IN_PRESET = FF_REGSET == "SET";
+    logic out, released, in;
+    initial {out, released, in} = {OUT_PRESET, RELEASE_PRESET, IN_PRESET};
+    always_ff @(posedge CLK or posedge reset_out)
+      if (reset_out || enable_out)
+        {out, released} <= reset_out ? {OUT_PRESET, RELEASE_PRESET} : {TXDATA0, TSDATA0};
+    always_ff @(posedge CLK or posedge reset_in)
+      if (reset_in || enable_in) in <= reset_in ? IN_PRESET : PADDI;
+    assign IOLDO = OUTREG_OUTREGMODE == "FF" ? out : 1'bx;
+    assign IOLTO = TSREG_OUTREGMODE == "FF" ? released : 1'bx;
+    assign INFF = FF_INREGMODE == "FF" ? in : 1'bx;
+  end
 endmodule

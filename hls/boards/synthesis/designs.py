@@ -99,11 +99,13 @@ def sdram_controller(clock):
 ULX3S_CLOCK = 120  # MHz
 
 
-def ulx3s(elements, clock=ULX3S_CLOCK):
-    """The whole board, its pins included, with a clock of so many MHz, a multiple of 15."""
-    folders = [*(RTL / name for name in ("core", "link", "board")), *FILTER]
+def ulx3s(elements, clock=ULX3S_CLOCK, sdram=False):
+    """The whole board, its pins included, with a clock of so many MHz, a multiple of 15; with its store in
+    block RAM or in the board's SDRAM."""
+    folders = [*(RTL / name for name in ("core", "link", "board")), *FILTER, *([RTL / "sdram"] if sdram else [])]
     more = [path for folder in folders for path in sorted(folder.glob("*.sv"))]
-    return Design(f"ULX3S at {clock} MHz, elements: {elements}", "emax_ulx3s", clock, {"NUM_PE": elements, "CLOCK_MHZ": clock},
+    board, top = ("ULX3S with SDRAM", "emax_ulx3s_sdram") if sdram else ("ULX3S", "emax_ulx3s")
+    return Design(f"{board} at {clock} MHz, elements: {elements}", top, clock, {"NUM_PE": elements, "CLOCK_MHZ": clock},
                   more=[*more, *sorted(ULX3S.glob("*.sv"))])
 
 
@@ -229,9 +231,15 @@ def _read_with_parameters(design, family):
     return f"{_read(design, family)}; chparam {parameters} {design.top}; "
 
 
+# Registers that are the same everywhere, so that each is near what it controls: the `reset` of a module, and
+# those named own_... Yosys would make one of all of them, whose net crosses the device.
+OWN_REGISTERS = "select -set own w:reset w:own_* %u %ci1:+$dff[Q] t:$dff %i; setattr -set keep 1 @own; select -clear; "
+
+
 def top_script(design, options):
     """A design for ECP5 without a shell: a core, a board."""
-    return (f"{_read_with_parameters(design, 'ecp5')}{_ecp5_mapping(design.top, options)}"
+    return (f"{_read_with_parameters(design, 'ecp5')}hierarchy -top {design.top}; proc; {OWN_REGISTERS}"
+            f"{_ecp5_mapping(design.top, options)}"
             f"{_write_verilog()}write_json {{folder}}/netlist.json")
 
 
@@ -332,11 +340,22 @@ def nexus_figures(report, cells):
     return figures, {"cells": figures["lut"], "path": _critical_path(report, clock)}
 
 
+def promised(log):
+    """What nextpnr's log expects of a placement: the clock, in MHz, and the length of its wires."""
+    text = log.read_text()
+    clocks = re.findall(r"^Info: Max frequency for clock .*: ([\d.]+) MHz \(\w+ at ([\d.]+) MHz\)", text, re.MULTILINE)
+    lengths = re.findall(r"wirelen = (\d+)", text)
+    if not clocks or not lengths:
+        raise Failure(f"{log} does not say what clock and what length of wires are expected")
+    expected, _ = max(clocks, key=lambda clock: float(clock[1]))
+    return float(expected), int(lengths[-1])
+
+
 def board_figures(report, log):
     """Figures of a whole device, its critical path, and the used and available cells of each kind."""
     report, used, figures, path = _placed(report, log)
     kinds = {"TRELLIS_COMB": "cells", "TRELLIS_FF": "FF", "MULT18X18D": "DSP", "DP16KD": "RAM",
-             "EHXPLLL": "PLL", "TRELLIS_IO": "pins"}
+             "EHXPLLL": "PLL", "TRELLIS_IO": "pins", "IOLOGIC": "pins' registers"}
     return figures, {"path": path, "utilisation": {
         name: [used[kind], report["utilization"][kind]["available"]] for kind, name in kinds.items() if kind in used}}
 

@@ -101,14 +101,15 @@ def xilinx(runner, design, family):
                        ["netlist.json", "netlist.v"])
 
 
-def routed(runner, design):
-    """A design without a shell, placed and routed with its pins in the smallest ECP5, for simulation: the
-    path of nextpnr's file of it (synthesis/routed.py)."""
+def routed(runner, design, device="--25k", pins=()):
+    """A design without a shell, placed and routed with its pins in an ECP5, the smallest unless another one is
+    named, for simulation: the path of nextpnr's file of it (synthesis/routed.py)."""
     netlist, _ = ecp5_top(runner, design)
+    given = [argument for path in pins for argument in ("--lpf", str(path))]
     (placed,) = runner.step("nextpnr", f"{design.name}, place and route", f"ecp5/{slug(design.name)}/routed",
-                            ["--25k", "--package", "CABGA381", "--lpf-allow-unconstrained", "--timing-allow-fail",
-                             "--seed", "1", "--json", str(netlist), "--write", "{folder}/routed.json"],
-                            [netlist], ["routed.json"])
+                            [device, "--package", "CABGA381", "--lpf-allow-unconstrained", "--timing-allow-fail",
+                             "--seed", "1", *given, "--json", str(netlist), "--write", "{folder}/routed.json"],
+                            [netlist, *pins], ["routed.json"])
     return placed
 
 

@@ -22,6 +22,26 @@ def read(path):
     return module
 
 
+def rejoined(module, placed):
+    """The module of a design that nextpnr routed after it had read the placement `placed`, a module too. Such a
+    file lacks the ports and the cells' pins that no net reaches; they are those of the placement. Raises Failure
+    where the cells are not the placement's."""
+    if module["cells"].keys() != placed["cells"].keys():
+        raise Failure("the routed design has other cells than its placement")
+    names = {net: name for name, item in placed["netnames"].items() for net in item["bits"]}
+    nets = {name: item["bits"] for name, item in module["netnames"].items()}
+    ports = {name: {**port, "bits": [net for bit in port["bits"] for net in nets[names[bit]]]}
+             for name, port in placed["ports"].items()}
+    cells = {}
+    for name, cell in module["cells"].items():
+        before = placed["cells"][name]
+        if cell["attributes"].get("NEXTPNR_BEL") != before["attributes"].get("NEXTPNR_BEL"):
+            raise Failure(f"{name} is routed in another place than where it was placed")
+        cells[name] = {**cell, "port_directions": before["port_directions"],
+                       "connections": {**{pin: [] for pin in before["connections"]}, **cell["connections"]}}
+    return {**module, "ports": ports, "cells": cells}
+
+
 def tied(kind, parameters, port):
     """The value of an input that no net reaches: 0, 1, x where nothing may depend on it, or None where
     the model has no such input."""
@@ -63,7 +83,7 @@ class Nets:
         for name, port in module["ports"].items():
             for index, net in enumerate(port["bits"]):
                 self.pins[net] = f"{name}[{index}]" if len(port["bits"]) > 1 else name
-            if port["direction"] == "input":
+            if port["direction"] != "output":  # driven from outside, the pins of both directions too
                 self.inputs.update(port["bits"])
         self.known_as = {net: name for name, item in module["netnames"].items() for net in item["bits"]}
         self.driven, self.used = set(), set()
@@ -94,6 +114,8 @@ def instance(number, name, cell, nets):
     kind, parameters = cell["type"], dict(cell["parameters"])
     if parameters.get("MODE") == "RAMW_BLOCK" and not any(cell["connections"].values()):
         return ""
+    if kind == "IOLOGIC":  # whose parameters are named as no parameter of Verilog
+        parameters = {key.replace(".", "_"): text for key, text in parameters.items()}
     if kind == "TRELLIS_COMB":
         parameters["HALF"] = cell["attributes"]["NEXTPNR_BEL"].rpartition(".")[2]
     ports = {}
@@ -109,7 +131,7 @@ def instance(number, name, cell, nets):
             if parameters["DIR"] == "OUTPUT":
                 ports["B_OUT"] = nets.drives(bits[0])
             else:
-                ports["B"] = nets.uses(bits[0])
+                ports["B_BOTH" if parameters["DIR"] == "BIDIR" else "B"] = nets.uses(bits[0])
         else:
             ports[port] = nets.drives(bits[0]) if direction == "output" else nets.uses(bits[0])
     given = ", ".join(f".{key}({value(text)})" for key, text in parameters.items())
