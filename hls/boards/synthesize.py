@@ -227,7 +227,7 @@ def write_document(runner, options, results, driven):
     """Writes the page after a full run, and after one of whole families their sections."""
     before = DOCUMENT.read_text() if DOCUMENT.exists() else ""
     if options.complete:
-        text = document.page(results, runner.versions, baseline.TOLERANCES, driven, document.board_of(before))
+        text = document.page(results, runner.versions, baseline.TOLERANCES, driven, document.boards_of(before))
     elif options.all_of_family:
         text = document.with_sections(before, results, runner.versions, baseline.TOLERANCES, driven)
     else:

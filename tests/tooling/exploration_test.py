@@ -411,12 +411,12 @@ class AnchorsTest(unittest.TestCase):
     def test_the_board_of_the_bitstream_is_read(self):
         lowered = pipelines.Lowered(lower)
         result = {"driven": {}, "figures": {"lut": 38792, "fmax": 122.6}, "elements": 2, "target": 120.0, "seed": 2,
-                  "tried": {"2": 122.6}, "path": None,
+                  "tried": {"2": 122.6}, "promised": {"2": (90.0, 400000)}, "path": None, "top": "emax_ulx3s",
                   "utilisation": {"cells": [41726, 83640], "FF": [53735, 83640], "DSP": [114, 156], "RAM": [50, 208]}}
 
         def read(**changes):
             used = {**result["utilisation"], **changes}
-            page = synthesis_document.board_section({**result, "utilisation": used}, {"yosys": "1", "nextpnr": "2"})
+            page = synthesis_document.board_section("ulx3s", {**result, "utilisation": used}, {"yosys": "1", "nextpnr": "2"})
             return anchors.of_bitstream(page, {"yosys": "1", "nextpnr": "2"}, lowered, Measured())
 
         (old,) = read()

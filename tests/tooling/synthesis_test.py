@@ -3,8 +3,10 @@ their memory, the shell, and what is read out of the tools' files. Run in a fold
 
 import argparse
 import io
+import itertools
 import json
 import os
+import random
 import re
 import sys
 import tempfile
@@ -17,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "hls/boards"))
 import bitstream  # noqa: E402
 import front_ends  # noqa: E402
 import synthesize  # noqa: E402
-from synthesis import baseline, comparison, contracts, designs, document, netlists, routed, tools  # noqa: E402
+from synthesis import baseline, blocks, comparison, contracts, designs, document, netlists, routed, tools  # noqa: E402
 
 FIGURES = {"element: e": {"lut": 1000, "ff": 2000, "dsp": 60, "ram": 0, "fmax": 175.0}}
 
@@ -407,6 +409,41 @@ endmodule
             nets = routed.Nets(self.module)
             self.assertIn(expected, routed.instance(0, "m", cell("DP16KD", parameters=parameters, WEA=net), nets))
 
+    def test_a_pin_of_both_directions_and_its_registers(self):
+        self.module["ports"]["d"] = {"direction": "inout", "bits": [6]}
+        self.module["cells"] = {
+            "d": cell("TRELLIS_IO", parameters={"DIR": "BIDIR"}, outputs=["O"], B=6, IOLDO=7, T=0, O=8),
+            "d$IOL": cell("IOLOGIC", parameters={"OUTREG.REGSET": "SET"}, outputs=["IOLDO"], TXDATA0=8, IOLDO=7)}
+        del self.module["ports"]["q"]
+        self.assertEqual(self.text(), """module top (input a, inout d);
+  wire n7;
+  wire n8;
+  TRELLIS_IO #(.DIR("BIDIR")) c0 (.B_BOTH(d), .IOLDO(n7), .T(1'b0), .O(n8));  // d
+  IOLOGIC #(.OUTREG_REGSET("SET")) c1 (.TXDATA0(n8), .IOLDO(n7));  // d$IOL
+endmodule
+""")
+
+    def test_a_design_routed_from_its_placement_has_its_ports_again(self):
+        placed, shift = self.module, 20
+        whole = self.text()
+        renumbered = lambda net: net + shift
+        placed["netnames"] = {f"net {net}": {"bits": [net]} for net in range(1, 6)}
+        self.module = {"ports": {}, "netnames": {name: {"bits": [renumbered(net) for net in item["bits"]]}
+                                                 for name, item in placed["netnames"].items()}, "cells": {}}
+        for name, each in placed["cells"].items():
+            joined = {pin: [renumbered(net) for net in nets] for pin, nets in each["connections"].items() if nets}
+            self.module["cells"][name] = {**each, "connections": joined,
+                                          "port_directions": {pin: each["port_directions"][pin] for pin in joined}}
+        again = routed.verilog(routed.rejoined(self.module, placed), "top")
+        self.assertEqual(re.sub(r"\bn2(\d)\b", r"n\1", again), whole)
+        moved = json.loads(json.dumps(self.module))
+        moved["cells"]["lut"]["attributes"]["NEXTPNR_BEL"] = "X2/Y1/SLICEA.K1"
+        with self.assertRaisesRegex(tools.Failure, "lut is routed in another place"):
+            routed.rejoined(moved, placed)
+        del self.module["cells"]["lut"]
+        with self.assertRaisesRegex(tools.Failure, "other cells than its placement"):
+            routed.rejoined(self.module, placed)
+
     def test_words_that_look_like_bits_are_words(self):
         for text, expected in [("0110", "4'b0110"), ("1 ", '"1"'), ("NONE", '"NONE"'), ("0b000", '"0b000"'),
                                ("x ", '"x"')]:
@@ -416,6 +453,50 @@ endmodule
         self.module["cells"]["wide"] = cell("TRELLIS_COMB", parameters={"INITVAL": "0" * 16}, A=4, B=5)
         self.assertEqual(routed.turn_a_bit(self.module), "lut")
         self.assertEqual(self.module["cells"]["lut"]["parameters"]["INITVAL"], "0101010101010100")
+
+
+class BlocksTest(unittest.TestCase):
+    def cells(self, **connections):
+        """{name: nets} as cells; a name that begins with m is a multiplier, with r a block RAM."""
+        kinds = {"m": "MULT18X18D", "r": "DP16KD"}
+        return [{"type": kinds.get(name[0], "LUT4"), "attributes": {},
+                 "connections": {str(pin): [net] for pin, net in enumerate(nets)}} for name, nets in connections.items()]
+
+    def test_near_blocks_are_drawn_together(self):
+        # m_a - one - m_b - two - three - r_c, and a control net with all of them and more
+        cells = self.cells(m_a=[1, 90], one=[1, 2, 90], m_b=[2, 3, 90], two=[3, 4, 90], three=[4, 5, 90], r_c=[5, 90],
+                           **{f"other{i}": [90, "0"] for i in range(blocks.MOST_PINS)})
+        self.assertEqual(blocks.neighbours(cells)[:6], [[0, 1], [0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 5], [4, 5]])
+        drawn = blocks.affinities(cells, [0, 2, 5])
+        self.assertGreater(drawn[1][0], drawn[1][2])
+        self.assertEqual(drawn[0][2], 0)  # the way goes through a block
+        self.assertEqual((drawn[0][1], drawn[1][2]), (drawn[1][0], drawn[2][1]))
+
+    def test_an_assignment_is_nearly_the_shortest_of_all(self):
+        sites = {"m": [(0, 0, "a"), (3, 0, "b"), (9, 0, "c"), (0, 5, "d")], "r": [(4, 5, "e"), (9, 5, "f"), (5, 9, "g")]}
+        kinds = ["m", "r", "m", "r", "m"]
+        for seed in range(5):
+            chance = random.Random(seed)
+            drawn = blocks.both_ways([{b: chance.random() for b in range(5) if b != a} for a in range(5)])
+            shortest = min(blocks.length(drawn, [m[0], r[0], m[1], r[1], m[2]]) for m in itertools.permutations(sites["m"], 3)
+                           for r in itertools.permutations(sites["r"], 2))
+            found = blocks.assign(drawn, kinds, sites, seed, steps=20_000)
+            self.assertEqual(len(set(found)), 5)
+            self.assertTrue(all(site in sites[kind] for site, kind in zip(found, kinds)))
+            self.assertLess(blocks.length(drawn, found), 1.03 * shortest)
+
+    def test_every_block_gets_a_place_of_its_own(self):
+        self.assertEqual({kind: len(set(sites)) for kind, sites in blocks.SITES.items()}, {"MULT18X18D": 156, "DP16KD": 208})
+        names = {**{f"{'r' if i > 5 else 'm'}{i}": [i, i + 1] for i in range(1, 9)}, "lut": [1, 9]}
+        text = json.dumps({"modules": {"top": {"attributes": {"top": "1"}, "cells": dict(zip(names, self.cells(**names)))}}})
+        with mock.patch.object(blocks.assign, "__defaults__", (2_000,)):
+            placed = blocks.with_places(text, 3)
+            self.assertEqual(placed, blocks.with_places(text, 3))
+        cells = json.loads(placed)["modules"]["top"]["cells"]
+        self.assertEqual(cells.pop("lut")["attributes"], {})
+        places = [cell["attributes"]["BEL"] for cell in cells.values()]
+        self.assertEqual(len(set(places)), 8)
+        self.assertEqual([place.split("/")[2][:3] for place in places], 5 * ["MUL"] + 3 * ["EBR"])
 
 
 class FamilyTest(unittest.TestCase):
@@ -450,7 +531,7 @@ class DocumentTest(unittest.TestCase):
 
     def page(self, results, driven):
         with mock.patch.object(document, "SECTIONS", {"filter": ("Filter", "A note."), "nexus": ("Nexus", "Another.")}):
-            return document.page(results, {"yosys": "1"}, {"lut": (0.03, True)}, driven, f"{document.BOARD_TITLE}\n\nboard\n")
+            return document.page(results, {"yosys": "1"}, {"lut": (0.03, True)}, driven, f"{document.BOARDS['ulx3s']}\n\nboard\n")
 
     def with_sections(self, page, results, driven, version="1"):
         with mock.patch.object(document, "SECTIONS", {"filter": ("Filter", "A note."), "nexus": ("Nexus", "Another.")}):
@@ -480,36 +561,50 @@ class DocumentTest(unittest.TestCase):
         self.assertIn("Seeds tried for e: 1: 170.0 MHz, 2: 175.0 MHz.", text)
         self.assertIn("175 met", document.tables({"element": {"e": {**result, "target": 175.0}}}))
 
-    def test_the_boards_section_is_the_pages_last_and_stands_once(self):
+    def test_the_boards_sections_are_the_pages_last_and_stand_once(self):
         board = {"driven": {"synthesized": "fuzz: 3 answers right", "routed": "fuzz: 4 answers right"},
                  "figures": {"lut": 41820, "fmax": 121.0}, "utilisation": {"FF": [10, 100]}, "path": None, "elements": 2,
-                 "target": 120.0, "seed": 3, "tried": {"1": 110.0, "3": 121.0}}
-        section = document.board_section(board, {"yosys": "1"})
-        self.assertIn("Clock: 121.0 MHz, target 120 MHz met, seed 3 (tried 1: 110.0 MHz, 3: 121.0 MHz).", section)
-        self.assertIn("(tried 1: not routed, 3: 121.0 MHz)",
-                      document.board_section({**board, "tried": {"1": None, "3": 121.0}}, {}))
+                 "target": 120.0, "seed": 3, "promised": {"1": (80.0, 400000), "3": (90.0, 390000), "4": (70.0, 410000)},
+                 "tried": {"3": 121.0, "1": None}, "top": "emax_ulx3s"}
+        section = document.board_section("ulx3s", board, {"yosys": "1"})
+        self.assertIn("Clock: 121.0 MHz, target 120 MHz met, seed 3.", section)
+        for row in [r"\| 1 +\| 80.0 +\| 400,000 +\| not routed +\|", r"\| 3 +\| 90.0 +\| 390,000 +\| 121.0 +\|",
+                    r"\| 4 +\| 70.0 +\| 410,000 +\| not tried +\|"]:
+            self.assertRegex(section, row)
         self.assertIn("as synthesized, fuzz: 3 answers right; as routed, fuzz: 4 answers right.", section)
         self.assertRegex(section, r"\| LUT +\| 41,820 \| 83,640 \| 50% +\|")
-        self.assertIn("missed", document.board_section({**board, "target": 122.0}, {}))
-        page = document.with_board("# Synthesis\n\ntext\n", section)
-        self.assertEqual(page, "# Synthesis\n\ntext\n\n" + section)
-        self.assertEqual(document.board_of(page), section)
-        self.assertEqual(document.with_board(page, section), page)
-        self.assertEqual(document.with_board(page, ""), "# Synthesis\n\ntext\n")
-        self.assertEqual(document.board_of("# Synthesis\n"), "")
+        self.assertIn("missed", document.board_section("ulx3s", {**board, "target": 122.0}, {}))
+        other = document.board_section("ulx3s-sdram", board, {"yosys": "1"})
+        page = "# Synthesis\n\ntext\n"
+        for sections in ([section, other], [other, section]):
+            both = page
+            for each in sections:
+                both = document.with_boards(both, each)
+            self.assertEqual(both, f"{page}\n{section}\n{other}")
+        self.assertEqual((document.board_of(both, "ulx3s"), document.board_of(both, "ulx3s-sdram")), (section, other))
+        self.assertEqual(document.with_boards(page, document.boards_of(both)), both)
+        self.assertEqual(document.with_boards(both, section), both)
+        changed = document.board_section("ulx3s", {**board, "seed": 7}, {"yosys": "1"})
+        self.assertEqual(document.with_boards(both, changed), both.replace(section, changed))
+        self.assertEqual((document.board_of(page, "ulx3s"), document.boards_of(page), document.with_boards(page, "")), ("", "", page))
 
 
 class BitstreamTest(unittest.TestCase):
-    def steps(self, fmax, refused=None, clock=120):
-        """What is done for a bitstream, of tools and netlists driven, where that netlist is refused."""
-        done = []
+    def steps(self, fmax, refused=None, clock=120, board="ulx3s", promises=(100.0,)):
+        """What is done for a bitstream, of tools and netlists driven, where that netlist is refused. `promises` is
+        what nextpnr expects of the placements with the seeds from 1 on, and `fmax` what each is routed with, in
+        the order of the routings."""
+        done, results = [], []
+        routings = iter(fmax if isinstance(fmax, list) else [fmax] * len(promises))
 
         class Steps:
             say = staticmethod(lambda text: None)
 
             def step(self, tool, title, folder, arguments, inputs, outputs, limit=None):
-                done.append(tool)
-                return [Path(output) for output in outputs]
+                seed = re.search(r"/seed(\d+)/(\w+)$", folder)
+                done.append(f"{seed[2]} {seed[1]}" if seed else tool)
+                self.arguments = arguments
+                return [Path(folder) / output for output in outputs]
 
         def drive(name, arguments):
             done.append(name)
@@ -517,41 +612,94 @@ class BitstreamTest(unittest.TestCase):
                 raise tools.Failure(f"{name} is refused")
             return "driven"
 
-        options = argparse.Namespace(elements=1, clock=clock, first_seed=1, seeds=1, limit=1, jobs=1)
+        options = argparse.Namespace(board=board, elements=1, clock=clock, first_seed=1, seeds=len(promises), limit=1, jobs=1)
+        promised = lambda log: (promises[int(re.search(r"/seed(\d+)/", str(log))[1]) - 1], 400000)
         with (mock.patch.object(bitstream.netlists, "renamed"), mock.patch.object(bitstream.netlists, "write"),
               mock.patch.object(bitstream.comparison, "drive", drive), mock.patch.object(bitstream.comparison, "holds"),
-              mock.patch.object(bitstream, "routed"),
-              mock.patch.object(bitstream.designs, "board_figures", lambda *_: ({"fmax": fmax}, {}))):
+              mock.patch.object(bitstream, "routed"), mock.patch.object(bitstream.designs, "promised", promised),
+              mock.patch.object(bitstream, "with_blocks", lambda netlist, folder, seed: netlist),
+              mock.patch.object(bitstream, "for_router", lambda placed, clock: placed),
+              mock.patch.object(bitstream.designs, "board_figures", lambda *_: ({"fmax": next(routings)}, {}))):
             self.addCleanup(os.chdir, os.getcwd())
             os.chdir(Path(__file__).resolve().parents[2])
             try:
-                bitstream.build(Steps(), options, [])
-            except tools.Failure:
+                bitstream.build(Steps(), options, results)
+            except tools.Failure as failure:
                 done.append("refused")
+                self.said = str(failure)
+        self.result = results[0] if results else None
         return done
 
     def test_a_bitstream_is_of_what_was_driven(self):
-        self.assertEqual(self.steps(130.0), ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "ecppack"])
+        routed_once = ["yosys", "board1_ecp5", "placement 1", "route 1"]
+        self.assertEqual(self.steps(130.0), [*routed_once, "board1_routed", "ecppack"])
         self.assertEqual(self.steps(130.0, "board1_ecp5"), ["yosys", "board1_ecp5", "refused"])
-        self.assertEqual(self.steps(130.0, "board1_routed"),
-                         ["yosys", "board1_ecp5", "nextpnr", "board1_routed", "refused"])
-        self.assertEqual(self.steps(110.0), ["yosys", "board1_ecp5", "nextpnr"])
+        self.assertEqual(self.steps(130.0, "board1_routed"), [*routed_once, "board1_routed", "refused"])
+        self.assertEqual(self.steps(110.0), routed_once)
 
     def test_a_slower_clock_is_that_of_what_is_driven(self):
-        self.assertEqual(self.steps(110.0, clock=105), ["yosys", "board1at105_ecp5", "nextpnr", "board1at105_routed", "ecppack"])
-        self.assertEqual(self.steps(100.0, clock=105), ["yosys", "board1at105_ecp5", "nextpnr"])
+        routed_once = ["yosys", "board1at105_ecp5", "placement 1", "route 1"]
+        self.assertEqual(self.steps(110.0, clock=105), [*routed_once, "board1at105_routed", "ecppack"])
+        self.assertEqual(self.steps(100.0, clock=105), routed_once)
         self.assertEqual(designs.ulx3s(1, 105).parameters, {"NUM_PE": 1, "CLOCK_MHZ": 105})
+
+    def test_the_board_with_its_sdram_is_another(self):
+        done = self.steps(110.0, clock=105, board="ulx3s-sdram")
+        self.assertEqual(done, ["yosys", "board1sdramat105_ecp5", "placement 1", "route 1", "board1sdramat105_routed", "ecppack"])
+        self.assertEqual(self.result["top"], "emax_ulx3s_sdram")
+        names = [path.name for path in designs.ulx3s(1, 105, sdram=True).sources("ecp5")]
+        self.assertEqual(len(names), len(set(names)))
+        for name in ("emax_ulx3s_sdram.sv", "sdram_controller.sv", "sdram_pins.sv", "emax_link.sv"):
+            self.assertIn(name, names)
+        self.assertNotEqual(designs.ulx3s(1).name, designs.ulx3s(1, sdram=True).name)
+        pins = [name for name in bitstream.placement("n", 1, 105, board="ulx3s-sdram") if name.endswith(".lpf")]
+        self.assertEqual(pins, [f"{designs.ULX3S}/ulx3s.lpf", f"{designs.ULX3S}/ulx3s_sdram.lpf"])
+
+    def test_the_best_placement_is_routed_first(self):
+        placed = ["yosys", "board1_ecp5", "placement 1", "placement 2", "placement 3"]
+        self.assertEqual(self.steps([110.0, 121.0], promises=(80.0, 75.0, 90.0)),
+                         [*placed, "route 3", "route 1", "board1_routed", "ecppack"])
+        self.assertEqual(self.result["promised"], {"1": (80.0, 400000), "2": (75.0, 400000), "3": (90.0, 400000)})
+        self.assertEqual(self.result["tried"], {"3": 110.0, "1": 121.0})
+
+    def test_a_placement_that_promises_too_little_is_given_up(self):
+        least = 120 * bitstream.LEAST_PROMISE
+        self.assertEqual(self.steps([110.0, 110.0], promises=(least - 0.1, least, 90.0))[-2:], ["route 3", "route 2"])
+        self.assertEqual(self.steps(130.0, promises=(least - 0.1, 20.0))[-2:], ["placement 2", "refused"])
+        self.assertIn(f"no placement is worth routing: {least - 0.1:.1f} MHz", self.said)
+
+    def test_the_router_has_a_margin(self):
+        with tempfile.TemporaryDirectory() as folder:
+            placed = Path(folder) / "placed.json"
+            placed.write_text('{"settings": {"target_freq": "105000000.000000", "router": "router2"}}')
+            given = bitstream.for_router(placed, 107.1)
+            self.assertEqual(json.loads(given.read_text()), {"settings": {"target_freq": "107100000.000000", "router": "router2"}})
+            placed.write_text("{}")
+            with self.assertRaisesRegex(tools.Failure, "names 0 clocks"):
+                bitstream.for_router(placed, 107.1)
+
+    def test_what_nextpnr_expects_is_that_of_the_fastest_constraint(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = Path(folder) / "log"
+            log.write_text("Info:   at iteration #1: temp = 0.0, timing cost = 3, wirelen = 437421\n"
+                           "Info:   at iteration #5: temp = 0.0, timing cost = 3, wirelen = 403031\n"
+                           "Info: Max frequency for clock 'slow': 300.00 MHz (PASS at 25.00 MHz)\n"
+                           "Info: Max frequency for clock '$glbnet$clk': 67.71 MHz (FAIL at 105.01 MHz)\n")
+            self.assertEqual(designs.promised(log), (67.71, 403031))
+            log.write_text("Info: nothing\n")
+            with self.assertRaisesRegex(tools.Failure, "does not say what clock"):
+                designs.promised(log)
 
     def tried(self, clocks, at_once, target=120.0):
         route = lambda seed: {"seed": seed, "figures": {"fmax": clocks[seed - 1]}}
         seeds = range(1, len(clocks) + 1)
         return [result["seed"] for result in bitstream.first_that_meets(route, seeds, at_once, target)]
 
-    def test_seeds_are_tried_until_one_meets_the_clock(self):
+    def test_placements_are_routed_until_one_meets_the_clock(self):
         self.assertEqual(self.tried([110.0, 120.0, 130.0], 1), [1, 2])
         self.assertEqual(self.tried([110.0, 119.9, 115.0], 1), [1, 2, 3])
 
-    def test_a_seed_that_is_not_routed_is_passed_over(self):
+    def test_a_placement_that_is_not_routed_is_passed_over(self):
         route = {1: None, 2: {"figures": {"fmax": 120.0}}, 3: None}.get
         self.assertEqual(bitstream.first_that_meets(route, range(1, 4), 1, 120.0), [None, route(2)])
 

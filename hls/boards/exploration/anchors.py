@@ -82,7 +82,7 @@ def of_bitstream(page, versions, pipelines, measured):
     """[the board of `./dev bitstream`] of docs/synthesis.md, or [] where it has none of these tools. The elements of
     the filter are those that the multipliers tell. A board without them is from before the filter, and its
     area is not fitted."""
-    text = document.board_of(page)
+    text = document.board_of(page, "ulx3s")
     if f"Tools: {', '.join(f'{tool} {version}' for tool, version in versions.items())}." not in text:
         return []
     exact, filtering = pipelines(EXACT), pipelines(FILTER)

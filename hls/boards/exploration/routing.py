@@ -78,7 +78,7 @@ def route(runner, candidate, limit):
         report, log = runner.step(
             "nextpnr", f"{board.name}, place and route with seed {SEED}", folder,
             [*bitstream.placement(netlist, SEED, candidate.clock, PLACER), "--report", "{folder}/report.json"],
-            [netlist, bitstream.CONSTRAINTS], ["report.json", "nextpnr.log"], 60 * limit)
+            [netlist, *bitstream.PINS["ulx3s"]], ["report.json", "nextpnr.log"], 60 * limit)
     except TookTooLong as failure:
         runner.say(str(failure))
         return packed(FOLDER / folder / "nextpnr.log")

@@ -140,59 +140,80 @@ def _driven_section(verdicts):
     return DRIVEN.format(table=table(["netlist", "compared"], verdicts.items()))
 
 
-def page(results, versions, tolerances, driven, board=""):
-    """The whole page. `driven` is the verdict on each netlist that was driven, `board` a board_section or
-    nothing."""
+def page(results, versions, tolerances, driven, boards=""):
+    """The whole page. `driven` is the verdict on each netlist that was driven, `boards` the sections of boards."""
     parts = [_introduction(versions, tolerances), *(_section(name, results[name]) for name in SECTIONS),
              _driven_section(_verdicts(driven))]
-    return with_board("\n".join(parts), board)
+    return with_boards("\n".join(parts), boards)
 
 
 def with_sections(before, results, versions, tolerances, driven):
     """The page with these sections anew and their netlists among those driven, or None where the page is of
     other versions of the tools."""
-    head, *parts = re.split(r"^(?=## )", before, flags=re.MULTILINE)
+    head, titled = _sections(before)
     if f"Tools: {_tools(versions)}." not in head:
         return None
-    titled = {part.partition("\n")[0]: part.rstrip("\n") + "\n" for part in parts}
     verdicts = dict(re.findall(r"^\| (\S.*?) +\| (\S.*?) +\|$", titled[DRIVEN_TITLE], flags=re.MULTILINE))
     verdicts.pop("netlist")
     verdicts.update(_verdicts(driven))
     titled[DRIVEN_TITLE] = _driven_section(verdicts)
     titled.update({f"## {SECTIONS[name][0]}": _section(name, subjects) for name, subjects in results.items()})
-    order = [*(f"## {title}" for title, _ in SECTIONS.values()), DRIVEN_TITLE, BOARD_TITLE]
+    order = [*(f"## {title}" for title, _ in SECTIONS.values()), DRIVEN_TITLE, *BOARDS.values()]
     return "\n".join([_introduction(versions, tolerances), *(titled[title] for title in order if title in titled)])
 
 
-BOARD_TITLE = "## The bitstream for ULX3S"
+# A section for each board of ./dev bitstream.
+BOARDS = {"ulx3s": "## The bitstream for ULX3S", "ulx3s-sdram": "## The bitstream for ULX3S with SDRAM"}
 
 
-def board_section(result, versions):
+def _placements(promised, tried):
+    """The placements, what was expected of each and what the router made of it."""
+    rows = []
+    for seed, (clock, length) in promised.items():
+        routed = "not tried" if seed not in tried else f"{tried[seed]:.1f}" if tried[seed] else "not routed"
+        rows.append([seed, f"{clock:.1f}", f"{length:,}", routed])
+    return table(["seed", "MHz expected of the placement", "length of its wires", "MHz routed"], rows)
+
+
+def board_section(board, result, versions):
     """The section of the page on the result of ./dev bitstream."""
     figures = result["figures"]
     verdict = "met" if figures["fmax"] >= result["target"] else "missed"
     rows = [[name, f"{used:,}", f"{there:,}", f"{used / there:.0%}"]
             for name, (used, there) in {"LUT": (figures["lut"], LUTS), **result["utilisation"]}.items()]
     return "\n\n".join([
-        BOARD_TITLE,
-        "Written by `./dev bitstream ulx3s`; never edit. The whole design, UART, link and core"
+        BOARDS[board],
+        f"Written by `./dev bitstream {board}`; never edit. The whole design, UART, link, store and cores"
         f" (elements: {result['elements']}) on ECP5-85F, speed 6, placed and routed with the board's pins; not yet run on a"
         f" board. Tools: {_tools(versions)}.",
         "Simulated in lockstep with its source before it was written: "
         + "; ".join(f"as {stage}, {verdict}" for stage, verdict in result["driven"].items()) + ".",
-        f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}"
-        f" (tried {_seeds(result['tried'])}).",
+        f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}.",
+        _placements(result["promised"], result["tried"]),
         table(["resource", "used", "there", "share"], rows),
-        _paths({"emax_ulx3s": result}),
+        _paths({result["top"]: result}),
     ]) + "\n"
 
 
-def board_of(page):
+def _sections(page):
+    """What stands before a page's first section, and {title: section} of the others."""
+    head, *parts = re.split(r"^(?=## )", page, flags=re.MULTILINE)
+    return head.rstrip("\n") + "\n", {part.partition("\n")[0]: part.rstrip("\n") + "\n" for part in parts}
+
+
+def board_of(page, board):
     """The board's section of a page, or nothing."""
-    return page[page.index(BOARD_TITLE):] if BOARD_TITLE in page else ""
+    return _sections(page)[1].get(BOARDS[board], "")
 
 
-def with_board(page, section):
-    """The page with this as the board's section, which is the last one."""
-    head = page.removesuffix(board_of(page)).rstrip("\n") + "\n"
-    return f"{head}\n{section}" if section else head
+def boards_of(page):
+    """The sections of all boards."""
+    return "\n".join(section for section in (board_of(page, board) for board in BOARDS) if section)
+
+
+def with_boards(page, boards):
+    """The page with these sections of boards, which are its last ones, in place of its own of the same boards."""
+    head, sections = _sections(page)
+    sections.update(_sections(boards)[1])
+    last = [sections.pop(title) for title in BOARDS.values() if title in sections]
+    return "\n".join([head, *sections.values(), *last])
