@@ -174,8 +174,8 @@ def arguments():
         " changed since is taken from there.")
     parser.add_argument("board", choices=PINS, help="ULX3S with an ECP5-85F, its store in block RAM or in its SDRAM")
     parser.add_argument("--elements", type=int, default=1, metavar="N", help="exact elements, beside four of the filter (1)")
-    parser.add_argument("--clock", type=int, choices=[90, 105, 120], default=designs.ULX3S_CLOCK, metavar="MHZ",
-                        help=f"the board's clock, 90, 105 or 120 ({designs.ULX3S_CLOCK})")
+    parser.add_argument("--clock", type=int, choices=[90, 105, 120], default=CLOCK, metavar="MHZ",
+                        help=f"the board's clock, 90, 105 or 120 ({CLOCK})")
     parser.add_argument("--seeds", type=int, default=SEEDS, metavar="N",
                         help=f"place N times, and route the best first ({SEEDS})")
     parser.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="S", help=f"and the seed of the first ({FIRST_SEED})")
