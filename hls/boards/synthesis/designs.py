@@ -238,7 +238,7 @@ OWN_REGISTERS = "select -set own w:reset w:own_* %u %ci1:+$dff[Q] t:$dff %i; set
 
 def top_script(design, options):
     """A design for ECP5 without a shell: a core, a board."""
-    return (f"{_read_with_parameters(design, 'ecp5')}hierarchy -top {design.top}; proc; {OWN_REGISTERS}"
+    return (f"{_read_with_parameters(design, 'ecp5')}hierarchy -top {design.top}; rename -top {design.top}; proc; {OWN_REGISTERS}"
             f"{_ecp5_mapping(design.top, options)}"
             f"{_write_verilog()}write_json {{folder}}/netlist.json")
 
