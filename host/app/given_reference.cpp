@@ -23,9 +23,9 @@ TriangleMesh closed_on_planes(TriangleMesh mesh, const ReferenceWishes& wishes,
 }
 
 // Makes the surface by cutting the mesh apart where it is not manifold, then closes it.
-void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
-                      const ReferenceWishes& wishes, const std::function<bool()>& interrupted,
-                      GivenReference& made) {
+void close_by_cutting(const TriangleMesh& given, std::span<const Point> kept,
+                      const JoiningDistance& far, const ReferenceWishes& wishes,
+                      const std::function<bool()>& interrupted, GivenReference& made) {
   CutSurface cut = cut_to_manifold(given);
   TriangleMesh mesh = std::move(cut.mesh);
   if (wishes.closed) {
@@ -75,8 +75,8 @@ bool GivenReference::is_as_given() const {
          s.inserted == 0;
 }
 
-GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
-                              const ReferenceWishes& wishes,
+GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept,
+                              const JoiningDistance& far, const ReferenceWishes& wishes,
                               const std::function<bool()>& interrupted) {
   GivenReference made;
   if (wishes.repair) {

@@ -37,8 +37,8 @@ struct ReferenceWishes {
 
 // `kept`: points that become vertices of the reference where `far` says so.
 // Throws Error as reference_surface() does.
-GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept, const JoiningDistance& far,
-                              const ReferenceWishes& wishes,
+GivenReference make_reference(const TriangleMesh& given, std::span<const Point> kept,
+                              const JoiningDistance& far, const ReferenceWishes& wishes,
                               const std::function<bool()>& interrupted);
 
 // Prints the changes of the mesh. `file`: the path of the reference; empty for a one-sided bound.

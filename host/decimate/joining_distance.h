@@ -12,7 +12,8 @@ namespace emax {
 struct JoiningDistance {
   JoiningDistance() = default;
   // All that are farther than this.
-  JoiningDistance(double far) : with_others(far), alone(far) {}
+  JoiningDistance(double far)  // NOLINT(google-explicit-constructor)
+      : with_others(far), alone(far) {}
   JoiningDistance(double far_with_others, double far_alone)
       : with_others(far_with_others), alone(far_alone) {}
 
