@@ -1,7 +1,7 @@
 """`./dev bitstream`: a board's bitstream with Yosys, nextpnr and ecppack.
 
 Places the design with several seeds, gives up those placements of which nextpnr expects too little, and
-routes the others, the best first, until the clock is met (that of the board, or a slower one that is asked for). Writes the
+routes the others, the best first, until the clock is met, 90 MHz or the one that is asked for. Writes the
 bitstream to build/bitstream and its figures into docs/synthesis.md. It writes no bitstream that misses its
 clock, and none of a design that differed from its source in simulation, as Yosys synthesized it or as nextpnr
 routed it.

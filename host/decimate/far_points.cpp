@@ -142,7 +142,8 @@ bool is_farther(const DecimationState& state, std::uint32_t p, double distance) 
   return !near && state.tree().nearest(state.mesh(), state.point(p), squared).slot == kNoIndex;
 }
 
-// A point that is farther than far.with_others, and what it is joined for.
+// A point that is farther than far.with_others, and whether it is joined even where noise is the
+// reason for most.
 struct Away {
   std::uint32_t point;
   Point from_mesh;
@@ -163,7 +164,7 @@ std::size_t mark_with_others(std::vector<Away>& away, const DecimationState& sta
       return n.index != one.point && other != away.end() && other->point == n.index &&
              other->from_mesh.dot(one.from_mesh) > 0;
     });
-    if (has_other) one.is_joined = true;
+    one.is_joined = one.is_joined || has_other;
     if (!has_other) ++alone;
   }
   return alone;
