@@ -36,7 +36,8 @@ def test_decimate_a_file(mesh_file, by_command, tmp_path, options, words):
 
 def test_decimate_a_mesh_to_a_cloud(mesh_file, by_command, tmp_path):
     rows = wave(12)[0].copy()
-    rows[len(rows) // 2] += [0, 0, 0.003]  # more than half of the tolerance
+    middle = len(rows) // 2
+    rows[middle:middle + 2] += [0, 0, 0.003]  # more than half of the tolerance, and not alone
     cloud = tmp_path / "cloud.xyz"
     cloud.write_text("".join(" ".join(repr(float(c)) for c in row) + "\n" for row in rows))
     command("decimate", mesh_file, "--cloud", cloud, "--max-error", "0.5%", "-o", "small.obj", folder=by_command)

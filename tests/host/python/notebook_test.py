@@ -1,6 +1,6 @@
 """The cells of the notebook print what it shows, and so does the page of the package.
 
-With WRITE as an argument the outputs are written into the notebook anew.
+With WRITE as an argument the outputs are written into both anew.
 """
 
 import contextlib
@@ -10,9 +10,12 @@ import os
 import pathlib
 import re
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 NOTEBOOK = ROOT / "docs/examples/python.ipynb"
+PAGE = ROOT / "docs/user/python.md"
+EXAMPLE = re.compile(r"(```python\n(.*?)```\n\n```\n)(.*?)```", re.DOTALL)
 
 
 def printed(source, names):
@@ -29,6 +32,14 @@ def outputs(notebook):
             yield cell, printed("".join(cell["source"]), names)
 
 
+@contextlib.contextmanager
+def folder_of_page(folder):
+    (folder / "data").symlink_to(ROOT / "data")
+    (folder / "build").mkdir()
+    with contextlib.chdir(folder):
+        yield
+
+
 def test_the_notebook(monkeypatch):
     monkeypatch.chdir(ROOT)
     checked = 0
@@ -38,15 +49,12 @@ def test_the_notebook(monkeypatch):
     assert checked == 4
 
 
-def test_the_page(monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "data").symlink_to(ROOT / "data")
-    (tmp_path / "build").mkdir()
-    page = (ROOT / "docs/user/python.md").read_text()
-    examples = re.findall(r"```python\n(.*?)```\n\n```\n(.*?)```", page, re.DOTALL)
+def test_the_page(tmp_path):
+    examples = EXAMPLE.findall(PAGE.read_text())
     names = {}
-    for source, shown in examples:
-        assert printed(source, names) == shown
+    with folder_of_page(tmp_path):
+        for _, source, shown in examples:
+            assert printed(source, names) == shown
     assert len(examples) == 2
 
 
@@ -57,3 +65,7 @@ if __name__ == "__main__" and "WRITE" in sys.argv:
         cell["execution_count"] = count
         cell["outputs"] = [{"name": "stdout", "output_type": "stream", "text": text.splitlines(True)}]
     NOTEBOOK.write_text(json.dumps(book, indent=1, ensure_ascii=False) + "\n")
+    names = {}
+    with tempfile.TemporaryDirectory() as folder, folder_of_page(pathlib.Path(folder)):
+        text = EXAMPLE.sub(lambda found: f"{found[1]}{printed(found[2], names)}```", PAGE.read_text())
+    PAGE.write_text(text)
