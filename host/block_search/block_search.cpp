@@ -135,7 +135,9 @@ class Search {
            cloud_.groups()[group].points.front() > worst->worst_point;
   }
 
-  // Kernel bits that no point of the group exceeds. They come from a few near triangles.
+  // Kernel bits that no point of the group exceeds. They come from near triangles: a few of the
+  // centre, then, round by round, the nearest one of the point that has the bound, until the bound
+  // stays or is below another group's that stayed, which R will hardly be below.
   std::uint32_t upper_bound(const PointGroup& group) {
     arrays_.clear();
     for (const std::uint32_t i : group.points) arrays_.push_back(cloud_.points()[i]);
@@ -144,7 +146,16 @@ class Search {
     const TriangleTree::Node& hint = mesh_.hint(centre, kHintTriangles);
     meet(hint.first, hint.last - hint.first);
     meet(nearest_to(centre, hint), 1);
-    return worst_of(nearest_).squared_bits;
+    EmaxResult bound = worst_of(nearest_);
+    for (std::size_t i = 0; i < group.points.size() && bound.squared_bits >= greatest_; ++i) {
+      const Vector3<float>& point = cloud_.points()[group.points[bound.worst_point]];
+      meet(nearest_to({point.x, point.y, point.z}, hint), 1);
+      const EmaxResult lower = worst_of(nearest_);
+      if (lower.squared_bits == bound.squared_bits) break;
+      bound = lower;
+    }
+    greatest_ = std::max(greatest_, bound.squared_bits);
+    return bound.squared_bits;
   }
 
   void meet(std::size_t first, std::size_t count) {
@@ -229,6 +240,7 @@ class Search {
   PointArrays arrays_;
   std::vector<std::uint32_t> nearest_;
   std::vector<std::uint32_t> bounds_;  // by group
+  std::uint32_t greatest_ = 0;         // of these bounds so far
   std::vector<std::uint32_t> stamp_;   // by record: the last block it became a candidate of
   std::uint32_t epoch_ = 0;
 };

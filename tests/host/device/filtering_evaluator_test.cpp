@@ -204,9 +204,11 @@ TEST(FilteringEvaluator, SendsWhatStaysOnce) {
 
 // The model's cycles are those counted but for a part of `tolerance`.
 void expect_equal_counts(const char* in_cpp, const char* verilated, double tolerance) {
-  const Filtered work(5000, 82);
+  const Filtered work(2000, 82);
   const auto sim = test::evaluator_of(in_cpp), rtl = test::evaluator_of(verilated);
-  EXPECT_EQ(search_emax(work.cloud, work.mesh, *sim), search_emax(work.cloud, work.mesh, *rtl));
+  // A search leaves too few pairs for a part of their cycles to say much.
+  EXPECT_EQ(brute_force_emax(work.cloud, work.mesh, *sim),
+            brute_force_emax(work.cloud, work.mesh, *rtl));
   const DeviceCounters of_sim = sim->counters(), of_rtl = rtl->counters();
   EXPECT_EQ(of_sim.pairs, of_rtl.pairs);
   EXPECT_EQ(of_sim.words_in, of_rtl.words_in);
@@ -220,11 +222,11 @@ void expect_equal_counts(const char* in_cpp, const char* verilated, double toler
 }
 
 TEST(FilteringEvaluator, CountsTheSameOnEveryDevice) {
-  expect_equal_counts("sim:filter", "rtl:filter", 0.02);
+  expect_equal_counts("sim:filter", "rtl:filter", 0.002);
 }
 
 TEST(FilteringEvaluator, CountsTheSameOnEveryBoard) {
-  expect_equal_counts("sim:board=ulx3s", "rtl:board", 0.03);
+  expect_equal_counts("sim:board=ulx3s", "rtl:board", 0.02);
 }
 
 TEST(FilteringEvaluator, ListsThePointsOfABlockByTheKernel) {
