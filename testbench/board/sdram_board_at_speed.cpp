@@ -5,7 +5,7 @@
 namespace emax {
 
 std::unique_ptr<BoardSimulation> make_board() {
-  return std::make_unique<VerilatedBoard<Vemax_ulx3s_sdram_at_speed, 40>>();  // as CMakeLists.txt
+  return std::make_unique<VerilatedBoard<Vemax_ulx3s_sdram_at_speed, 30>>();  // as CMakeLists.txt
                                                                               // builds it
 }
 

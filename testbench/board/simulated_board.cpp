@@ -8,7 +8,7 @@
 namespace emax {
 namespace {
 
-constexpr std::uint64_t kClockMhz = 120;
+constexpr std::uint64_t kClockMhz = 90;
 constexpr std::size_t kWaitingBytes = 4096;
 // When the line was quiet for this long, the board has no work left: the link has room for about
 // 100 records, the core for a few more, and each record takes at most 1,024 cycles.

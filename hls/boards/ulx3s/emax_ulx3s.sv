@@ -5,7 +5,7 @@ module emax_ulx3s #(
     parameter int NUM_PE = 1,
     parameter int FILTER_PE = 4,
     parameter int STORE_BITS = 14,
-    parameter int CLOCK_MHZ = 120,  // see ulx3s_clock
+    parameter int CLOCK_MHZ = 90,  // see ulx3s_clock
     parameter int CLOCKS_PER_BIT = CLOCK_MHZ / 3
 ) (
     input  logic       clk_25mhz,

@@ -177,7 +177,7 @@ TEST(CycleModel, StallsWhereRecordsArriveTooSlowly) {
 
 TEST(CycleModel, PredictsTheSlowerOfComputingAndLink) {
   const BoardModel& board = board_model("ulx3s");
-  EXPECT_DOUBLE_EQ(predicted_seconds(board, 240000000, 10, 10), 2.0);
+  EXPECT_DOUBLE_EQ(predicted_seconds(board, 180000000, 10, 10), 2.0);
   EXPECT_DOUBLE_EQ(predicted_seconds(board, 1, 75000, 10), 1.0);
   EXPECT_THROW(board_model("toaster"), Error);
 }

@@ -50,7 +50,7 @@ std::vector<Word> identify(SimulatedBoard& board) {
   return data && data->kind == FrameKind::kData ? data->payload : std::vector<Word>{};
 }
 
-const std::vector<Word> kIdentity = {kAnswerOfFive, 1, 1024, 20, 1, 120'000};
+const std::vector<Word> kIdentity = {kAnswerOfFive, 1, 1024, 20, 1, 90'000};
 
 TEST(SimulatedBoard, SaysWhatItIs) {
   SimulatedBoard board;
@@ -114,7 +114,7 @@ TEST(SimulatedBoard, SaysWhatItsFilterAndItsStoreAre) {
   SimulatedBoard board;
   EXPECT_EQ(
       exchange(board, words, 9),
-      (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, 120'000,
+      (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, 90'000,
                          command_header(emax::kIdentify, kAnswerStore), kStoreVersion, 1u << 14}));
 }
 
@@ -152,7 +152,7 @@ TEST(SimulatedBoard, TakesNoMoreThanWaitsForTheLine) {
   EXPECT_EQ(board.write(bytes), 0u);
   std::array<std::uint8_t, 1> byte;
   EXPECT_EQ(board.read(byte, 100us), 0u);
-  EXPECT_EQ(board.write(bytes), 100u * 120 / 20);  // a byte is 20 clocks
+  EXPECT_EQ(board.write(bytes), 100u * 90 / 20);  // a byte is 20 clocks
 }
 
 TEST(SimulatedBoard, ForgetsItsSessionAtTheResetButton) {
