@@ -2,6 +2,8 @@
 
 import re
 
+from . import power
+
 INTRODUCTION = """# Synthesis
 
 Written by `./dev synth`; never edit. Tools: {tools}.
@@ -175,6 +177,12 @@ def _placements(promised, tried):
     return table(["seed", "MHz expected of the placement", "length of its wires", "MHz routed"], rows)
 
 
+def power_line(utilisation, clock):
+    idle, busy = power.estimated(utilisation, clock)
+    return (f"Power of the FPGA, [estimated](decisions/0054-power-by-comparison.md): {idle:.1f} W idle,"
+            f" at most {busy:.1f} W at work.")
+
+
 def board_section(board, result, versions):
     """The section of the page on the result of ./dev bitstream."""
     figures = result["figures"]
@@ -189,6 +197,7 @@ def board_section(board, result, versions):
         "Simulated in lockstep with its source before it was written: "
         + "; ".join(f"as {stage}, {verdict}" for stage, verdict in result["driven"].items()) + ".",
         f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}.",
+        power_line(result["utilisation"], result["target"]),
         _placements(result["promised"], result["tried"]),
         table(["resource", "used", "there", "share"], rows),
         _paths({result["top"]: result}),
