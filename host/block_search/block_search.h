@@ -9,11 +9,11 @@
 namespace emax {
 
 // The search for e_max (paper, section 4.1; docs/numerics.md). It walks groups of neighbouring
-// points. An upper bound from the triangles that the kd-tree hints at settles most groups against
-// the running maximum R. For the other groups the AABB-tree gives the candidates: every triangle
-// whose lower bound, less the margin kappa, does not exceed the group's upper bound. Blocks of
-// points and candidates go to the evaluator. The result, including the worst index, equals that of
-// brute force bit for bit.
+// points. An upper bound from the triangles that the kd-tree hints at, and from those nearest to
+// the group's worst points, settles most groups against the running maximum R. For the other groups
+// the AABB-tree gives the candidates: every triangle whose lower bound, less the margin kappa, does
+// not exceed the group's upper bound. Blocks of points and candidates go to the evaluator. The
+// result, including the worst index, equals that of brute force bit for bit.
 struct SearchOptions {
   // Block b is prepared with the R of the answers up to block b - depth. The counts of blocks,
   // pairs and words are therefore the same for every device.
