@@ -39,7 +39,7 @@ module prove_frames (
   always_ff @(posedge clk) arrived <= !reset && (arrived || whole);
   always_comb begin
     if (!reset) begin
-      right_fields: assert (!whole || (version == 8'd1 && length == '0
+      right_fields: assert (!whole || (version == 8'd2 && length == '0
           && kind == (notice_at_first_1 ? notice_kind : 8'd3)
           && got_session == (notice_at_first_1 ? notice_session : session) && got_expected == expected
           && sequence_number == '0));
