@@ -27,7 +27,8 @@ def processor(text):
 
 
 def rate(pairs_per_second):
-    return f"{pairs_per_second / 1e9:.3g}"
+    billions = pairs_per_second / 1e9
+    return f"{billions:.3g}" if billions < 1000 else f"{billions:,.0f}"
 
 
 def line(row):
@@ -51,13 +52,13 @@ def search_line(errors):
     board, pairs = errors["predicted"], errors["points"] * errors["triangles"]
     counters = errors["device_counters"]
     cells = [f"`{board['board']}`", f"{1e3 * board['computing_seconds']:.3g}", f"{1e3 * board['seconds']:.3g}",
-             f"{pairs / board['seconds'] / 1e9:.3g}", f"{counters['words_in']:,}, {counters['words_out']:,}", "estimated"]
+             rate(pairs / board["seconds"]), f"{counters['words_in']:,}, {counters['words_out']:,}", "estimated"]
     return "| " + " | ".join(cells) + " |\n"
 
 
 def cpu_line(errors):
     pairs, seconds = errors[0]["points"] * errors[0]["triangles"], min(each["predicted"]["cpu_seconds"] for each in errors)
-    return f"| `cpu`, one thread | {1e3 * seconds:.3g} | {1e3 * seconds:.3g} | {pairs / seconds / 1e9:.3g} | – | measured |\n"
+    return f"| `cpu`, one thread | {1e3 * seconds:.3g} | {1e3 * seconds:.3g} | {rate(pairs / seconds)} | – | measured |\n"
 
 
 def body(result, machine, routed, errors):
@@ -78,7 +79,8 @@ def body(result, machine, routed, errors):
             f"The bunny, {errors[0]['points']:,} points, and its mesh for {TOLERANCE} of its width, {errors[0]['triangles']:,} triangles, on a board that has neither. "
             "Every device finds the same point with the same bits. Effective pairs are all pairs of points and triangles, over the time: "
             "the host's search settles most of them without a device ([0055](decisions/0055-bounds-of-the-worst-point.md)). "
-            "The time of that search is in the CPU's figure and in no board's, so a board on a serial line never pays for this.\n\n"
+            "The time of that search is in no board's figures, and is more than the CPU takes for everything, which has another tree: "
+            "for one mesh no board pays.\n\n"
             "| device | computing, ms | with the link, ms | effective, 10⁹ pairs/s | words in, out | |\n|---|---|---|---|---|---|\n"
             + cpu_line(errors) + "".join(search_line(each) for each in errors))
 
