@@ -414,15 +414,17 @@ class AnchorsTest(unittest.TestCase):
                   "tried": {"2": 122.6}, "promised": {"2": (90.0, 400000)}, "path": None, "top": "emax_ulx3s",
                   "utilisation": {"cells": [41726, 83640], "FF": [53735, 83640], "DSP": [114, 156], "RAM": [50, 208]}}
 
-        def read(**changes):
-            used = {**result["utilisation"], **changes}
-            page = synthesis_document.board_section("ulx3s", {**result, "utilisation": used}, {"yosys": "1", "nextpnr": "2"})
+        def read(target=120.0, **changes):
+            board = {**result, "target": target, "utilisation": {**result["utilisation"], **changes}}
+            page = synthesis_document.board_section("ulx3s", board, {"yosys": "1", "nextpnr": "2"})
             return anchors.of_bitstream(page, {"yosys": "1", "nextpnr": "2"}, lowered, Measured())
 
         (old,) = read()
         self.assertEqual((old.area, old.fmax, old.fits_area), ((38792, 53735, 114, 50, 0), 122.6, False))
         (new,) = read(DSP=[2 * 57 + 40, 156])
         self.assertEqual((new.parts["filter element"], new.parts["core"], new.fits_area), (2, 2, True))
+        (slow,) = read(DSP=[2 * 57 + 40, 156], target=90.0)
+        self.assertEqual((slow.fmax, slow.fits_area), (None, True))
         with self.assertRaisesRegex(tools.Failure, "2 exact elements does not have 113 multipliers"):
             read(DSP=[113, 156])
         text = (ROOT / "docs/synthesis.md").read_text()
