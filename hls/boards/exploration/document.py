@@ -20,7 +20,7 @@ MODEL = """## The model
 - **Area.** LUTs, flip-flops, multipliers and block RAMs add up. A pipeline is its operators, each as measured alone; its delays, as pieces of LUT RAM (at most 17 cycles each), block RAMs or flip-flops; and a LUT and a flip-flop for each bit of a registered multiplexer. The parts below are added.
 - **Cells** are LUTs and cells that only pass a signal on. Of the latter a design has those of its operators and delays alone.
 - **Width.** Operators of 16 and 14 bits take 16/18 and 14/18 of the LUTs and flip-flops of those of 18, and run no faster.
-- **Clock.** The slowest operator's clock alone, times a factor of {at_empty:.3f} - {slope:.3f} u, at most 1; u is the greatest share of a kind (cells, flip-flops, multipliers, block RAMs) that the design takes. The board's clock is the next multiple of 15 MHz below.
+- **Clock.** The slowest operator's clock alone, times a factor of {at_empty:.3f} - {slope:.3f} u, at most 1; u is the greatest share of a kind (cells, flip-flops, multipliers, block RAMs) that the design takes, and the factor is fitted to designs that have a core, whose control counts as well. The board's clock is the next multiple of 15 MHz below.
 - **Pairs a second.** The cycles are those of the model of the cores (`sw_model/protocol/cycle_model.h`), for blocks of {points:,} points and {records} candidates each, as in the search of the bunny ([0039](decisions/0039-a-filter-before-the-device.md)). The serial line is left out. A pair that the filter settles counts as a pair. The exact core meets the points that the filter leaves, which `./dev bench --filter` measured: {left}. The cores work one after the other.
 - **Limits.** A design may take {fill:.0%} of each kind.
 
@@ -80,7 +80,7 @@ def anchor_section(model, anchors):
         area, fmax = predicted(model, anchor)
         rows.append([anchor.name, *(_beside(getattr(area, kind), getattr(anchor.area, kind)) if anchor.fits_area else
                                     f"– / {number(getattr(anchor.area, kind))}" for kind in KINDS),
-                     _beside(fmax, anchor.fmax, 1) if anchor.fmax else "not placed"])
+                     _beside(fmax, anchor.fmax, 1) if anchor.fits_clock else "–"])
     return "\n\n".join([
         "## Predicted beside measured",
         "The designs that the parts and the factor were fitted to: predicted / measured. Where a part stands in one of them"

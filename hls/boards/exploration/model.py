@@ -5,7 +5,8 @@ measured alone, and a LUT and a flip-flop for each bit of a registered multiplex
 pipelines is a sum of PARTS; least squares fit their sizes to designs that were measured whole.
 
 Clock. A design runs at its slowest operator's clock, measured alone, times a factor. The factor is a line over the
-greatest share of a kind that the design takes; least squares fit it, too.
+greatest share of a kind that the design takes; least squares fit it, too, to designs that have a core, whose control
+counts as well.
 """
 
 import math
@@ -49,6 +50,10 @@ class Anchor:
     area: Area
     fmax: float = None
     fits_area: bool = True
+
+    @property
+    def fits_clock(self):
+        return self.fmax is not None and "core" in self.parts
 
 
 def least_squares(rows, wanted, weights):
@@ -158,7 +163,7 @@ def fit_crowding(anchors, measured, capacity):
     """(at_empty, slope) of the factor; a slope below 0 counts as 0."""
     shares, factors = [], []
     for anchor in anchors:
-        if anchor.fmax is not None:
+        if anchor.fits_clock:
             through = sum(pipeline_area(pipeline, measured).through * count for pipeline, count in anchor.pipelines)
             shares.append(utilisation(anchor.area._replace(through=through), capacity))
             factors.append(anchor.fmax / min(slowest(pipeline, measured)[0] for pipeline, _ in anchor.pipelines))
@@ -192,7 +197,7 @@ def doubts(model, anchors):
             model_says, was = getattr(area, kind), getattr(anchor.area, kind)
             if abs(model_says - was) > AREA_DOUBT * was:
                 found.append(f"{anchor.name}: {kind} {model_says:,.0f} by the model, {was:,.0f} measured")
-        if anchor.fmax is not None and abs(fmax - anchor.fmax) > CLOCK_DOUBT * anchor.fmax:
+        if anchor.fits_clock and abs(fmax - anchor.fmax) > CLOCK_DOUBT * anchor.fmax:
             found.append(f"{anchor.name}: {fmax:.1f} MHz by the model, {anchor.fmax:.1f} measured")
         for part, count in anchor.parts.items():
             for kind in ("lut", "ff"):
