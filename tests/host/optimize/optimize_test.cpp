@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "host/block_search/simd_evaluator.h"
 #include "host/chain/chain.h"
@@ -258,6 +261,31 @@ TEST_F(OptimizeTest, AMeshThatIsLostIsMadeAgain) {
   expect_same(run(&log), whole);
 }
 
+// Lets its worker begin when the search stops it, so that no evaluation completes before.
+class PoolThatWaitsForTheStop final : public EvaluationPool {
+ public:
+  explicit PoolThatWaitsForTheStop(std::unique_ptr<EvaluationPool> pool) : pool_(std::move(pool)) {}
+
+  void submit(RunMessage run) override { queue_.push_back(std::move(run)); }
+  std::optional<Completed> wait_for(std::chrono::milliseconds) override {
+    return std::exchange(completed_, {});
+  }
+  void go_on() override {}
+  void stop() override {
+    if (queue_.empty()) return;
+    pool_->submit(std::move(queue_.front()));
+    queue_.clear();
+    pool_->stop();
+    while (!completed_) completed_ = pool_->wait_for(1s);
+  }
+  std::size_t outstanding() const override { return queue_.size() + (completed_ ? 1 : 0); }
+
+ private:
+  const std::unique_ptr<EvaluationPool> pool_;
+  std::vector<RunMessage> queue_;
+  std::optional<Completed> completed_;
+};
+
 // Out of time, what is decimated gives the mesh at hand, which may be the result, but is no result
 // of its candidate: the run goes on to the same end as one that was not cut short.
 TEST_F(OptimizeTest, OutOfTimeTakesTheMeshesAtHand) {
@@ -273,22 +301,27 @@ TEST_F(OptimizeTest, OutOfTimeTakesTheMeshesAtHand) {
   settings_.polish = false;
   bool handed_out = false;
   settings_.seconds_left = [&] { return handed_out ? 0 : 1e9; };
+  settings_.make_pool = [](auto... arguments) {
+    return std::make_unique<PoolThatWaitsForTheStop>(make_worker_pool(arguments...));
+  };
   RunLog log(path_, kSettings);
   settings_.log = &log;
   const OptimizeState cut = optimize(cloud_, constraint_, device_, settings_,
                                      [&](const OptimizeState&) { handed_out = true; });
   EXPECT_TRUE(cut.out_of_time);
-  if (cut.stopped > 0) {
-    EXPECT_EQ(cut.evaluations, 0u);
-    ASSERT_TRUE(cut.best);
-    EXPECT_TRUE(log.find(cut.best->index)->stopped);
-    EXPECT_FALSE(cut.best->mesh.triangles.empty());
-    // As an earlier process left it.
-    const OptimizeState again = run(&log);
-    EXPECT_EQ(again.evaluations, 0u);
-    ASSERT_TRUE(again.best);
-    EXPECT_LE(again.best->triangles, cut.best->triangles);
-  }
+  EXPECT_EQ(cut.stopped, 1u);
+  EXPECT_EQ(cut.evaluations, 0u);
+  ASSERT_TRUE(cut.best);
+  EXPECT_TRUE(log.find(cut.best->index)->stopped);
+  EXPECT_FALSE(cut.best->mesh.triangles.empty());
+
+  // As an earlier process left it.
+  const OptimizeState again = run(&log);
+  EXPECT_EQ(again.evaluations, 0u);
+  ASSERT_TRUE(again.best);
+  EXPECT_TRUE(same_bytes(again.best->mesh, cut.best->mesh));
+
+  settings_.make_pool = make_worker_pool;
   settings_.polish = true;
   settings_.seconds_left = [] { return HUGE_VAL; };
   expect_same(run(&log), whole);
