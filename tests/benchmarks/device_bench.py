@@ -4,13 +4,15 @@ the section "Devices" of docs/datasheet.md.
 """
 
 import json
-import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import sections
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "hls/boards"))
+from synthesis import document  # noqa: E402
 
 PROGRAM = Path("build/bench/bin/emax_device_benchmark")
 EMAX = Path("build/bench/bin/emax")
@@ -38,13 +40,8 @@ def line(row):
 
 def boards(synthesis):
     """The routed boards of docs/synthesis.md: {board: [text of each column]}."""
-    found = {}
-    for board, section in re.findall(r"^Written by `\./dev bitstream (\S+)`(.*?)(?=^## |\Z)", synthesis, re.M | re.S):
-        used = dict(re.findall(r"^\| (\w+) +\| ([\d,]+) +\| [\d,]+ +\| \d+% +\|$", section, re.M))
-        clock, asked = re.search(r"^Clock: ([\d.]+) MHz, target (\d+) MHz met", section, re.M).groups()
-        power = re.search(r": ([\d.]+ W idle, at most [\d.]+ W at work)\.$", section, re.M)[1]
-        found[board] = [used[name] for name in ("LUT", "FF", "DSP", "RAM")] + [f"{clock} of {asked}", power]
-    return found
+    return {board: [f"{count:,}" for count in routed.used.values()] + ["{:.1f} of {:g}".format(*routed.clocks), routed.power]
+            for board, routed in document.bitstreams(synthesis).items()}
 
 
 def search_line(errors):

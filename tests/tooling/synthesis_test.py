@@ -547,6 +547,42 @@ class DocumentTest(unittest.TestCase):
         self.assertEqual(document.with_boards(both, changed), both.replace(section, changed))
         self.assertEqual((document.board_of(page, "ulx3s"), document.boards_of(page), document.with_boards(page, "")), ("", "", page))
 
+    def test_the_figures_of_boards_are_read_as_written(self):
+        result = {"driven": {}, "figures": {"lut": 41820, "fmax": 91.5}, "path": None, "elements": 2, "top": "emax_ulx3s",
+                  "utilisation": {"cells": [40000, 83640], "FF": [10, 83640], "DSP": [100, 156], "RAM": [50, 208]},
+                  "target": 90.0, "seed": 3, "promised": {"3": (90.0, 390000)}, "tried": {"3": 91.5}}
+        versions = {"yosys": "1.2", "nextpnr": "3.4"}
+        section = document.board_section("ulx3s", result, versions)
+        page = document.with_boards(document.with_boards("# Synthesis\n\n## Filter\n\ntext\n", section),
+                                    document.board_section("ulx3s-sdram", {**result, "target": 95.5, "elements": 1}, {}))
+        found = document.bitstreams(page)
+        self.assertEqual(list(found), ["ulx3s", "ulx3s-sdram"])
+        board, other = found.values()
+        self.assertEqual((board.tools, board.elements, board.clocks), (document.tools_text(versions), 2, (91.5, 90.0)))
+        self.assertEqual(board.used, {"LUT": 41820, "FF": 10, "DSP": 100, "RAM": 50})
+        self.assertRegex(board.power, r"^0\.\d W idle, at most 1\.\d W at work$")
+        self.assertEqual((other.elements, other.clocks), (1, (91.5, 95.5)))
+        self.assertEqual(document.bitstreams("# Synthesis\n"), {})
+
+        # Each figure damaged: that one is missed, by name, and the others are still read.
+        reads = {"tools": lambda b: b.tools, "elements": lambda b: b.elements, "clock": lambda b: b.clocks,
+                 "power": lambda b: b.power, "DSP": lambda b: b.used}
+        for what, (text, wrong) in {"tools": (" Tools: ", " Made by "), "elements": ("(elements: 2)", "(elements: two)"),
+                                    "clock": ("91.5 MHz, target", "fast, target"), "power": (" W idle", " mW idle"),
+                                    "DSP": ("| DSP  ", "| MUL  ")}.items():
+            self.assertIn(text, section)
+            (damaged,) = document.bitstreams(section.replace(text, wrong)).values()
+            for name, read in reads.items():
+                if name != what:
+                    read(damaged)
+                    continue
+                with self.assertRaisesRegex(tools.Failure, f"ulx3s does not say its {what}; ./dev bitstream ulx3s"):
+                    read(damaged)
+        nameless = page.replace("Written by `./dev bitstream ulx3s`", "Written")
+        for read in (document.bitstreams, document.boards_of):
+            with self.assertRaisesRegex(tools.Failure, "does not say which board"):
+                read(nameless)
+
 
 if __name__ == "__main__":
     unittest.main()

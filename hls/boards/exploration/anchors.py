@@ -82,13 +82,12 @@ def of_bitstream(page, versions, pipelines, measured):
     """[the board of `./dev bitstream`] of docs/synthesis.md, or [] where it has none of these tools. The elements of
     the filter are those that the multipliers tell. A board without them is from before the filter, and its
     area is not fitted."""
-    text = document.board_of(page, "ulx3s")
-    if f"Tools: {', '.join(f'{tool} {version}' for tool, version in versions.items())}." not in text:
+    board = document.bitstreams(page).get("ulx3s")
+    if board is None or board.tools != document.tools_text(versions):
         return []
     exact, filtering = pipelines(EXACT), pipelines(FILTER)
-    elements = int(re.search(r"\(elements: (\d+)\)", text)[1])
-    rows = re.findall(r"^\| (LUT|FF|DSP|RAM) +\| ([\d,]+) ", text, re.MULTILINE)
-    used = {kind.lower(): int(count.replace(",", "")) for kind, count in rows}
+    elements = board.elements
+    used = {kind.lower(): count for kind, count in board.used.items()}
     filters, rest = divmod(used["dsp"] - elements * pipeline_area(exact, measured).dsp, pipeline_area(filtering, measured).dsp)
     if filters < 0 or rest:
         raise Failure(f"docs/synthesis.md: a board of {elements} exact elements does not have {used['dsp']} multipliers;"
@@ -96,6 +95,5 @@ def of_bitstream(page, versions, pipelines, measured):
     filters = int(filters)
     made = ((exact, elements), (filtering, filters)) if filters else ((exact, elements),)
     sizes = parts(elements, filters, 1 + (filters > 0), 1, elements * exact.record_bits + filters * filtering.record_bits)
-    fmax = float(re.search(r"Clock: ([\d.]+) MHz", text)[1])
     return [Anchor(f"ULX3S of ./dev bitstream, elements: {elements} and {filters}", made, sizes,
-                   Area(*(used[kind] for kind in KINDS)), fmax, fits_area=filters > 0)]
+                   Area(*(used[kind] for kind in KINDS)), board.clocks[0], fits_area=filters > 0)]

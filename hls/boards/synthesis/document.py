@@ -3,6 +3,7 @@
 import re
 
 from . import power
+from .tools import Failure
 
 INTRODUCTION = """# Synthesis
 
@@ -121,10 +122,10 @@ These designs were not simulated as nextpnr routes them.
 
 def _introduction(versions, tolerances):
     limits = ", ".join(f"{name} {'+' if more else '-'}{share:.0%}" for name, (share, more) in tolerances.items())
-    return INTRODUCTION.format(tools=_tools(versions), tolerances=limits)
+    return INTRODUCTION.format(tools=tools_text(versions), tolerances=limits)
 
 
-def _tools(versions):
+def tools_text(versions):
     return ", ".join(f"{tool} {version}" for tool, version in versions.items())
 
 
@@ -153,7 +154,7 @@ def with_sections(before, results, versions, tolerances, driven):
     """The page with these sections anew and their netlists among those driven, or None where the page is of
     other versions of the tools."""
     head, titled = _sections(before)
-    if f"Tools: {_tools(versions)}." not in head:
+    if f"Tools: {tools_text(versions)}." not in head:
         return None
     verdicts = dict(re.findall(r"^\| (\S.*?) +\| (\S.*?) +\|$", titled[DRIVEN_TITLE], flags=re.MULTILINE))
     verdicts.pop("netlist")
@@ -193,7 +194,7 @@ def board_section(board, result, versions):
         BOARDS[board],
         f"Written by `./dev bitstream {board}`; never edit. The whole design, UART, link, store and cores"
         f" (elements: {result['elements']}) on ECP5-85F, speed 6, placed and routed with the board's pins; not yet run on a"
-        f" board. Tools: {_tools(versions)}.",
+        f" board. Tools: {tools_text(versions)}.",
         "Simulated in lockstep with its source before it was written: "
         + "; ".join(f"as {stage}, {verdict}" for stage, verdict in result["driven"].items()) + ".",
         f"Clock: {figures['fmax']:.1f} MHz, target {result['target']:g} MHz {verdict}, seed {result['seed']}.",
@@ -210,9 +211,62 @@ def _sections(page):
     return head.rstrip("\n") + "\n", {part.partition("\n")[0]: part.rstrip("\n") + "\n" for part in parts}
 
 
+class Bitstream:
+    """The figures of a board's section; one that the section lacks is a Failure when it is asked for."""
+
+    def __init__(self, board, section):
+        self._board, self._section = board, section
+
+    def _read(self, what, pattern):
+        found = re.search(pattern, self._section, flags=re.MULTILINE)
+        if found is None:
+            raise Failure(f"docs/synthesis.md: the section of {self._board} does not say its {what};"
+                          f" ./dev bitstream {self._board} writes it anew")
+        return found
+
+    @property
+    def tools(self):
+        return self._read("tools", r" Tools: (.*)\.$")[1]
+
+    @property
+    def elements(self):
+        return int(self._read("elements", r"\(elements: (\d+)\)")[1])
+
+    @property
+    def clocks(self):
+        """(MHz reached, MHz asked for)"""
+        return tuple(map(float, self._read("clock", r"^Clock: ([\d.]+) MHz, target ([\d.]+) MHz (?:met|missed)").groups()))
+
+    @property
+    def power(self):
+        return self._read("power", r"^Power of the FPGA, .*: ([\d.]+ W idle, at most [\d.]+ W at work)\.$")[1]
+
+    @property
+    def used(self):
+        """{LUT, FF, DSP or RAM: how many}"""
+        return {kind: int(self._read(kind, rf"^\| {kind} +\| ([\d,]+) +\| [\d,]+ +\| \d+% +\|$")[1].replace(",", ""))
+                for kind in ("LUT", "FF", "DSP", "RAM")}
+
+
+def _texts_of_boards(page):
+    found = {}
+    for title, section in _sections(page)[1].items():
+        written = re.search(r"^Written by `\./dev bitstream (\S+)`", section, flags=re.MULTILINE)
+        if written:
+            found[written[1]] = section
+        elif title in BOARDS.values():
+            raise Failure(f"docs/synthesis.md: \"{title}\" does not say which board it is of")
+    return found
+
+
+def bitstreams(page):
+    """{board: Bitstream} of the page's boards."""
+    return {board: Bitstream(board, section) for board, section in _texts_of_boards(page).items()}
+
+
 def board_of(page, board):
     """The board's section of a page, or nothing."""
-    return _sections(page)[1].get(BOARDS[board], "")
+    return _texts_of_boards(page).get(board, "")
 
 
 def boards_of(page):
