@@ -26,8 +26,8 @@ constexpr double kSdramWord = 2.055, kSdramRow = 6, kSdramWay = 20;
 // ULX3S: a serial link of 3 Mbaud, ten bits a byte. The others: a 32-bit word a cycle, which is
 // what the core takes. Elements: what their LUTs hold at about 13,000 each (docs/synthesis.md).
 constexpr std::array<BoardModel, 5> kBoards = {{
-    {"ulx3s", "Lattice ECP5-85F", 90e6, 1, 3e5, 4, 14},
-    {"ulx3s-sdram", "Lattice ECP5-85F, store in SDRAM", 90e6, 1, 3e5, 4, 22, true},
+    {"ulx3s", "Lattice ECP5-85F", 1e6 * kUlx3sClockMhz, 1, 3e5, 4, 14},
+    {"ulx3s-sdram", "Lattice ECP5-85F, store in SDRAM", 1e6 * kUlx3sClockMhz, 1, 3e5, 4, 22, true},
     {"zynq7020", "AMD Zynq-7020", 150e6, 3, 6e8},
     {"u50", "AMD Alveo U50", 300e6, 40, 1.2e9},
     {"u250", "AMD Alveo U250", 300e6, 80, 1.2e9},

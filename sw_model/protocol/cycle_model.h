@@ -27,6 +27,10 @@ inline constexpr CoreFigures kExactCore = {kPointWords, kRecordWords, kDistanceL
 // Its pipeline is in hls/rtl/filter/generated.
 inline constexpr CoreFigures kFilterCore = {kFilterPointWords, kFilterRecordWords, 50, 29, 154};
 
+// The clock of the ULX3S. Its tops (hls/boards/ulx3s) and ./dev bitstream have the same one; a test
+// compares them.
+inline constexpr std::uint64_t kUlx3sClockMhz = 90;
+
 // A board as the model sees it. All figures here are estimates until a board has been measured.
 struct BoardModel {
   std::string_view name;

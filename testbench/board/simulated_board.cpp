@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <deque>
 
+#include "sw_model/protocol/cycle_model.h"
 #include "testbench/board/board_simulation.h"
 
 namespace emax {
 namespace {
 
-constexpr std::uint64_t kClockMhz = 90;
 constexpr std::size_t kWaitingBytes = 4096;
 // When the line was quiet for this long, the board has no work left: the link has room for about
 // 100 records, the core for a few more, and each record takes at most 1,024 cycles.
@@ -96,7 +96,7 @@ std::size_t SimulatedBoard::read(std::span<std::uint8_t> bytes, std::chrono::mic
   Model& model = *model_;
   if (!model.open) throw ChannelLost("the simulated board is unplugged");
   std::uint64_t left =
-      kClockMhz * static_cast<std::uint64_t>(std::max<std::int64_t>(0, wait.count()));
+      kUlx3sClockMhz * static_cast<std::uint64_t>(std::max<std::int64_t>(0, wait.count()));
   while (model.from_board.empty() && left > 0) {
     if (model.settled()) {
       model.skipped += left;
@@ -113,7 +113,7 @@ std::size_t SimulatedBoard::read(std::span<std::uint8_t> bytes, std::chrono::mic
 }
 
 std::chrono::steady_clock::duration SimulatedBoard::now() {
-  return std::chrono::nanoseconds((model_->cycles + model_->skipped) * 1000 / kClockMhz);
+  return std::chrono::nanoseconds((model_->cycles + model_->skipped) * 1000 / kUlx3sClockMhz);
 }
 
 bool SimulatedBoard::settled() const { return model_->settled() && model_->from_board.empty(); }

@@ -9,8 +9,8 @@ namespace emax {
 
 // The whole ULX3S design (hls/boards/ulx3s/emax_ulx3s.sv: UART, link, core of one element),
 // Verilated (board_simulation.h), at the host's end of its serial line. The line has two clocks a
-// bit, which makes the simulation fast: 45 Mbaud instead of the board's 3. Time is the board's, at
-// 90 MHz, and passes in read(). Equal calls give equal bytes.
+// bit, which makes the simulation fast: 45 Mbaud instead of the board's 3. Time is the board's
+// (kUlx3sClockMhz), and passes in read(). Equal calls give equal bytes.
 class SimulatedBoard : public ByteChannel {
  public:
   SimulatedBoard();

@@ -116,6 +116,13 @@ class BitstreamTest(unittest.TestCase):
         self.assertEqual(self.steps(100.0, clock=105), routed_once)
         self.assertEqual(designs.ulx3s(1, 105).parameters, {"NUM_PE": 1, "CLOCK_MHZ": 105})
 
+    def test_all_sources_have_the_clock_of_the_bitstream(self):
+        root = Path(__file__).resolve().parents[2]
+        for path, pattern in {"hls/boards/ulx3s/emax_ulx3s.sv": r"parameter int CLOCK_MHZ = (\d+)\b",
+                              "hls/boards/ulx3s/emax_ulx3s_sdram.sv": r"parameter int CLOCK_MHZ = (\d+)\b",
+                              "sw_model/protocol/cycle_model.h": r"constexpr std::uint64_t kUlx3sClockMhz = (\d+);"}.items():
+            self.assertEqual(re.findall(pattern, (root / path).read_text()), [str(bitstream.CLOCK)], path)
+
     def test_the_board_with_its_sdram_is_another(self):
         done = self.steps(110.0, clock=105, board="ulx3s-sdram")
         self.assertEqual(done, ["yosys", "board1sdramat105_ecp5", "placement 1", "route 1", "board1sdramat105_routed", "ecppack"])

@@ -9,6 +9,7 @@
 #include "sw_model/model/triangle_frame.h"
 #include "sw_model/protocol/commands.h"
 #include "sw_model/protocol/cpp_device.h"
+#include "sw_model/protocol/cycle_model.h"
 #include "sw_model/protocol/frames.h"
 #include "testbench/stimuli/stimuli.h"
 
@@ -20,6 +21,7 @@ using namespace std::chrono_literals;
 constexpr std::uint16_t kSession = 300;
 constexpr Word kIdentify = 0x01000000;
 constexpr Word kAnswerOfFive = 0x01000005;
+constexpr Word kClockKhz = 1000 * kUlx3sClockMhz;  // which the board takes from its top
 
 void send(SimulatedBoard& board, const Frame& frame) {
   const std::vector<std::uint8_t> bytes = encode(frame);
@@ -50,7 +52,7 @@ std::vector<Word> identify(SimulatedBoard& board) {
   return data && data->kind == FrameKind::kData ? data->payload : std::vector<Word>{};
 }
 
-const std::vector<Word> kIdentity = {kAnswerOfFive, 1, 1024, 20, 1, 90'000};
+const std::vector<Word> kIdentity = {kAnswerOfFive, 1, 1024, 20, 1, kClockKhz};
 
 TEST(SimulatedBoard, SaysWhatItIs) {
   SimulatedBoard board;
@@ -114,7 +116,7 @@ TEST(SimulatedBoard, SaysWhatItsFilterAndItsStoreAre) {
   SimulatedBoard board;
   EXPECT_EQ(
       exchange(board, words, 9),
-      (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, 90'000,
+      (std::vector<Word>{kAnswerOfFive, kFilterVersion, 1024, kFilterRecordWords, 4, kClockKhz,
                          command_header(emax::kIdentify, kAnswerStore), kStoreVersion, 1u << 14}));
 }
 
@@ -152,7 +154,7 @@ TEST(SimulatedBoard, TakesNoMoreThanWaitsForTheLine) {
   EXPECT_EQ(board.write(bytes), 0u);
   std::array<std::uint8_t, 1> byte;
   EXPECT_EQ(board.read(byte, 100us), 0u);
-  EXPECT_EQ(board.write(bytes), 100u * 90 / 20);  // a byte is 20 clocks
+  EXPECT_EQ(board.write(bytes), 100u * kUlx3sClockMhz / 20);  // a byte is 20 clocks
 }
 
 TEST(SimulatedBoard, ForgetsItsSessionAtTheResetButton) {
