@@ -25,6 +25,10 @@ WATCHED_QUEUE = (("block_answer.sv", """  (* keep *) logic [QUEUE_BITS-1:0] watc
   (* keep *) logic [4*REQUEST-1:0] all_requests;
   assign all_requests = {queue[3], queue[2], queue[1], queue[0]};"""),)
 
+# Shows the harness the version of the link.
+SENT_VERSION = (("link_sender.sv", """  (* keep *) logic [7:0] sent_version;
+  assign sent_version = VERSION;"""),)
+
 # The latencies of the generated datapath.
 LATENCY = {design.top: design.parameters["LATENCY"] for design in designs.operators(DATAPATH, 0)}
 ROUNDING = 3  # cycles of a product's latency after the product of the mantissas
@@ -180,7 +184,8 @@ STREAM_PROOFS = [
     stream("frames", "link_sender into link_receiver: a status frame or a notice arrives whole, with the fields it was sent with", 115,
            (Fault("the remainder is not inverted", patch=("link_sender.sv", "word <= ~remainder;", "word <= remainder;")),
             Fault("fields change places", patch=("link_sender.sv", "{header_expected, sequence_number, header_session}",
-                                                 "{sequence_number, header_expected, header_session}"))), method="bounded"),
+                                                 "{sequence_number, header_expected, header_session}"))), method="bounded",
+           watch=SENT_VERSION),
     stream("uart", "uart_sender into uart_receiver: every byte arrives once, unchanged, within the time of eleven bits (2 clocks a bit)", 60,
            (Fault("bits in the wrong order", patch=("uart_receiver.sv", "{line, bits[7:1]}", "{bits[6:0], line}")),
             Fault("no stop bit", patch=("uart_sender.sv", "bits_left <= 10;", "bits_left <= 9;"))), method="bounded"),

@@ -29,6 +29,7 @@ module prove_frames (
       .credit, .acknowledge(1'b0), .host_expects(8'd0), .s_axis_answer_tdata(32'd0),
       .s_axis_answer_tvalid(1'b0), .s_axis_answer_tready(answer_ready), .m_byte_data, .m_byte_valid,
       .m_byte_ready);
+  (* hierconn *) wire [7:0] \sender.sent_version ;
   logic passes;
   assign passes = m_byte_valid && m_byte_ready;
   link_receiver #(.GAP_CLOCKS(4096)) receiver (
@@ -39,7 +40,7 @@ module prove_frames (
   always_ff @(posedge clk) arrived <= !reset && (arrived || whole);
   always_comb begin
     if (!reset) begin
-      right_fields: assert (!whole || (version == 8'd2 && length == '0
+      right_fields: assert (!whole || (version == \sender.sent_version && length == '0
           && kind == (notice_at_first_1 ? notice_kind : 8'd3)
           && got_session == (notice_at_first_1 ? notice_session : session) && got_expected == expected
           && sequence_number == '0));
