@@ -98,8 +98,6 @@ std::string described(const ValueType& type, Bits bits) {
   return text;
 }
 
-}  // namespace
-
 BenchOptions bench_options(int argc, char** argv) {
   BenchOptions options;
   for (int i = 1; i < argc; ++i) {
@@ -122,6 +120,33 @@ BenchOptions bench_options(int argc, char** argv) {
     }
   }
   return options;
+}
+
+}  // namespace
+
+int bench_exit_code(std::string_view name, int argc, char** argv,
+                    const std::function<int(const BenchOptions&)>& run) {
+  try {
+    return run(bench_options(argc, argv));
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(name.size()), name.data(), error.what());
+    return 2;
+  }
+}
+
+int comparison_exit_code(
+    std::string_view name, int argc, char** argv,
+    const std::function<std::optional<std::string>(const BenchOptions&)>& compare) {
+  return bench_exit_code(name, argc, argv, [&](const BenchOptions& options) {
+    if (options.check != BenchCheck::kResults) {
+      throw std::invalid_argument("only the bench of the function has --coverage and --mutants");
+    }
+    const std::optional<std::string> results = compare(options);
+    if (!results) return 1;
+    std::printf("%.*s: %s, all equal\n", static_cast<int>(name.size()), name.data(),
+                results->c_str());
+    return 0;
+  });
 }
 
 std::vector<std::vector<Bits>> drawn_samples(std::string_view name, const FunctionModel& model,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +22,16 @@ struct BenchOptions {
   BenchCheck check = BenchCheck::kResults;
 };
 
-// Throws std::invalid_argument for arguments that are not understood.
-BenchOptions bench_options(int argc, char** argv);
+// The exit code of a bench: that of `run` with the options of its command line, or 2, with the
+// reason on standard error, for arguments that are not understood.
+int bench_exit_code(std::string_view name, int argc, char** argv,
+                    const std::function<int(const BenchOptions&)>& run);
+
+// The same for a bench that compares results and nothing else. `compare` returns what the results
+// are that were all equal, for its last line, or nothing after the first difference.
+int comparison_exit_code(
+    std::string_view name, int argc, char** argv,
+    const std::function<std::optional<std::string>(const BenchOptions&)>& compare);
 
 // Bits for every argument of the model, `options.samples` times.
 std::vector<std::vector<Bits>> drawn_samples(std::string_view name, const FunctionModel& model,

@@ -1,7 +1,6 @@
 #include "testbench/lowered/function_bench.h"
 
 #include <cstdio>
-#include <stdexcept>
 
 #include "testbench/lowered/bench_samples.h"
 #include "testbench/lowered/graph_checks.h"
@@ -34,8 +33,7 @@ bool is_equal_every_cycle(const FunctionBench& bench, const BenchOptions& option
 }  // namespace
 
 int run_bench(const FunctionBench& bench, int argc, char** argv) {
-  try {
-    const BenchOptions options = bench_options(argc, argv);
+  return bench_exit_code(bench.name, argc, argv, [&](const BenchOptions& options) {
     if (options.check != BenchCheck::kResults) {
       const auto print = options.check == BenchCheck::kMutants ? print_mutants : print_coverage;
       return print(bench.name, bench.lowered(), bench.model,
@@ -46,11 +44,7 @@ int run_bench(const FunctionBench& bench, int argc, char** argv) {
                 static_cast<int>(bench.name.size()), bench.name.data(), options.samples,
                 static_cast<unsigned long long>(options.seed), bench.latency);
     return 0;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(bench.name.size()), bench.name.data(),
-                 error.what());
-    return 2;
-  }
+  });
 }
 
 }  // namespace emax

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
+#include <optional>
+#include <string>
 
 #include "testbench/lowered/bench_samples.h"
 #include "testbench/stimuli/random.h"
@@ -158,22 +159,13 @@ class Streams {
 }  // namespace
 
 int run_stream_bench(const StreamBench& bench, int argc, char** argv) {
-  try {
-    const BenchOptions options = bench_options(argc, argv);
-    if (options.check != BenchCheck::kResults) {
-      throw std::invalid_argument("the streams' samples are those of bench; ask it");
-    }
+  const auto compare = [&](const BenchOptions& options) -> std::optional<std::string> {
     Streams streams(bench, options);
-    if (!streams.equal()) return 1;
-    std::printf("%.*s: %d samples%s of seed %llu through the streams, all equal\n",
-                static_cast<int>(bench.name.size()), bench.name.data(), options.samples,
-                streams.records_in_words().c_str(), static_cast<unsigned long long>(options.seed));
-    return 0;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(bench.name.size()), bench.name.data(),
-                 error.what());
-    return 2;
-  }
+    if (!streams.equal()) return std::nullopt;
+    return std::to_string(options.samples) + " samples" + streams.records_in_words() + " of seed " +
+           std::to_string(options.seed) + " through the streams";
+  };
+  return comparison_exit_code(bench.name, argc, argv, compare);
 }
 
 }  // namespace emax

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <cstdio>
 #include <deque>
-#include <stdexcept>
+#include <optional>
+#include <string>
 
 #include "testbench/lowered/bench_samples.h"
 #include "testbench/stimuli/random.h"
@@ -130,22 +130,13 @@ class Unit {
 }  // namespace
 
 int run_unit_bench(const UnitBench& bench, int argc, char** argv) {
-  try {
-    const BenchOptions options = bench_options(argc, argv);
-    if (options.check != BenchCheck::kResults) {
-      throw std::invalid_argument("the unit's samples are those of bench; ask it");
-    }
+  const auto compare = [&](const BenchOptions& options) -> std::optional<std::string> {
     Unit unit(bench, options);
-    if (!unit.equal()) return 1;
-    std::printf("%.*s: %d samples that meet %zu records of seed %llu, all equal\n",
-                static_cast<int>(bench.name.size()), bench.name.data(), options.samples,
-                unit.records(), static_cast<unsigned long long>(options.seed));
-    return 0;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(bench.name.size()), bench.name.data(),
-                 error.what());
-    return 2;
-  }
+    if (!unit.equal()) return std::nullopt;
+    return std::to_string(options.samples) + " samples that meet " +
+           std::to_string(unit.records()) + " records of seed " + std::to_string(options.seed);
+  };
+  return comparison_exit_code(bench.name, argc, argv, compare);
 }
 
 }  // namespace emax
