@@ -76,7 +76,7 @@ def body(result, machine, routed, errors):
             f"The bunny, {errors[0]['points']:,} points, and its mesh for {TOLERANCE} of its width, {errors[0]['triangles']:,} triangles, on a board that has neither. "
             "Every device finds the same point with the same bits. Effective pairs are all pairs of points and triangles, over the time: "
             "the host's search settles most of them without a device ([0055](decisions/0055-bounds-of-the-worst-point.md)). "
-            "The time of that search is in no board's figures, and is more than the CPU takes for everything, which has another tree: "
+            "The time of that search is in no board's figures. It is more than the CPU, whose search has another tree, takes for everything: "
             "for one mesh no board pays.\n\n"
             "| device | computing, ms | with the link, ms | effective, 10⁹ pairs/s | words in, out | |\n|---|---|---|---|---|---|\n"
             + cpu_line(errors) + "".join(search_line(each) for each in errors))
