@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/reconstruct/delaunay.h"
+#include "sw_model/base/deliberate_fault.h"
 
 namespace emax {
 
@@ -24,6 +25,9 @@ Sheet::Sheet(std::span<const Point> points, const Region& region, double reach)
     v_ = cylinder.axis.cross(u_);
     radius_ = cylinder.radius;
     period_ = 2 * std::numbers::pi * radius_;
+    constexpr double kAlong = 6;
+    along_ = kAlong * reach_;
+    around_ = std::min(reach_, period_ / 6);
     reach_ = std::min(reach_, period_ / 4);
   }
   for (const std::uint32_t i : region.points) box_.extend(points[i]);
@@ -51,12 +55,15 @@ double Sheet::around(double offset) const {
 std::vector<Triangle> Sheet::triangulate(std::span<const Eigen::Vector2d> places) const {
   if (period_ == 0) return alpha_shape(places, reach_);
   const auto count = static_cast<std::uint32_t>(places.size());
+  const double squeeze = EMAX_FAULT(kSpansAlikeAlongAxes) ? 1 : around_ / along_;
   std::vector<Eigen::Vector2d> unrolled;
   for (const int turn : {0, -1, 1}) {
-    for (const Eigen::Vector2d& p : places) unrolled.emplace_back(p.x() + turn * period_, p.y());
+    for (const Eigen::Vector2d& p : places) {
+      unrolled.emplace_back(p.x() + turn * period_, squeeze * p.y());
+    }
   }
   std::vector<Triangle> triangles;
-  for (const Triangle& copy : alpha_shape(unrolled, reach_)) {
+  for (const Triangle& copy : alpha_shape(unrolled, around_)) {
     const Triangle t = {copy[0] % count, copy[1] % count, copy[2] % count};
     const auto least = static_cast<std::size_t>(std::ranges::min_element(t) - t.begin());
     if (copy[least] < count && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);

@@ -33,7 +33,10 @@ class Sheet {
   Point onto(const Point& p) const { return raise(flatten(p)); }
   // `offset` as it is from the nearest of the places that it stands for.
   double around(double offset) const;
-  // The alpha shape of flat places, as wide as the reach; around a cylinder it closes.
+  // The alpha shape of flat places, as wide as the reach; around a cylinder it closes. There, the
+  // circle is an ellipse: six times as long along the axis as the reach is, as nothing turns that
+  // way and a scanner's rows are far apart on it, and at most a sixth of the way around to either
+  // side, so that the far side of a pipe stays open.
   std::vector<Triangle> triangulate(std::span<const Eigen::Vector2d> places) const;
 
  private:
@@ -42,6 +45,7 @@ class Sheet {
   double radius_ = 0;
   Eigen::AlignedBox3d box_;
   double spacing_, reach_, period_;
+  double around_ = 0, along_ = 0;  // half the axes of a cylinder's ellipse
 };
 
 }  // namespace emax

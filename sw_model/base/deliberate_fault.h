@@ -44,7 +44,8 @@ enum class Fault {
   kCurvedIsPlane,    // a strip of a curved surface counts as a plane
   kFitsEveryNormal,  // a plane takes points whose neighbourhoods do not fit it
   // In the reconstruction from shapes.
-  kSpansBeyondCurves,  // what curves cut off without a point of the shape stays
+  kSpansBeyondCurves,    // what curves cut off without a point of the shape stays
+  kSpansAlikeAlongAxes,  // a cylinder is spanned no farther along its axis than around it
   // In the readers of files, messages and frames.
   kTrustsCounts,    // a count or length is not compared with the bytes that are there
   kTrustsIndices,   // an index is not compared with the number of vertices

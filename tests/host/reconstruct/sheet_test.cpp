@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "host/geometry/mesh_topology.h"
+#include "sw_model/base/deliberate_fault.h"
 #include "tests/host/features/clouds.h"
 
 namespace emax::test {
@@ -73,6 +75,57 @@ TEST(Sheet, OfPartOfACylinderStaysOpen) {
   for (const Point& p : cloud) places.push_back(sheet.flatten(p));
   const std::vector<Triangle> triangles = sheet.triangulate(places);
   EXPECT_EQ(topology_of({cloud, triangles}).border_loops, 1u);
+}
+
+// A pipe as rows of a scanner far away meet it: across, farther apart than it is wide, every other
+// one shorter.
+struct RowsOnPipe {
+  static constexpr double kLong = 0.7, kShort = 0.5, kApart = 1;
+  static constexpr int kRows = 11;
+
+  RowsOnPipe() {
+    const Point u = kPipe.axis.unitOrthogonal(), v = kPipe.axis.cross(u);
+    for (int row = 0; row < kRows; ++row) {
+      const double half = row % 2 == 0 ? kLong : kShort;
+      for (double s = -half; s < half + 1e-9; s += 0.1) {
+        const double angle = s / kPipe.radius;
+        cloud.push_back(kPipe.centre + kApart * row * kPipe.axis +
+                        kPipe.radius * (std::cos(angle) * u + std::sin(angle) * v));
+      }
+    }
+  }
+
+  // Of the flat triangles over that of the strip that the longer rows bound.
+  double spanned() {
+    const double strip = 2 * kLong * kApart * (kRows - 1);
+    const Region region = region_of(kPipe, cloud.size(), strip);
+    const Sheet sheet(cloud, region, 4);
+    std::vector<Eigen::Vector2d> places;
+    for (const Point& p : cloud) places.push_back(sheet.flatten(p));
+    triangles = sheet.triangulate(places);
+    double area = 0;
+    for (const auto& [a, b, c] : triangles) {
+      const Eigen::Vector2d ab = places[b] - places[a], ac = places[c] - places[a];
+      area += (ab.x() * ac.y() - ab.y() * ac.x()) / 2;
+    }
+    return area / strip;
+  }
+
+  std::vector<Point> cloud;
+  std::vector<Triangle> triangles;
+};
+
+TEST(Sheet, OfACylinderHasStraightBorders) {
+  RowsOnPipe rows;
+  const double spanned = rows.spanned();
+  EXPECT_LE(spanned, 1 + 1e-9);
+  EXPECT_GT(spanned, 0.98);
+  EXPECT_EQ(topology_of({rows.cloud, rows.triangles}).border_loops, 1u);
+}
+
+TEST(SheetFault, RaggedBordersOfACylinderAreNoticed) {
+  const DeliberateFault fault(Fault::kSpansAlikeAlongAxes);
+  EXPECT_LT(RowsOnPipe().spanned(), 0.98);
 }
 
 }  // namespace
