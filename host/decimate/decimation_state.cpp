@@ -327,7 +327,7 @@ void DecimationState::take_shapes(const MeshEdit& edit) {
 
 void DecimationState::cover_reference() {
   if (reference_.empty() || EMAX_FAULT(kSkipsReference)) return;
-  cover_.emplace(reference_, cloud_, squared_limit_);
+  cover_.emplace(reference_, cloud_, squared_limit_, guards_.recalls);
   cover_->begin(mesh_, tree_);
 }
 

@@ -39,6 +39,7 @@ class DecimationState {
     double normal_cosine = 0.2;  // least, between a triangle and the one it replaces
     double flatness = 1e-3;      // least height of a triangle over its longest side
     double squared_reach = 0;    // if over the limit: points up to this far have a triangle
+    bool recalls = false;        // ReferenceCover
     std::size_t guides = 1;      // one point in so many guides searches (AssignedPoints)
     std::size_t threads = 1;     // that find the nearest triangles; change no byte
   };

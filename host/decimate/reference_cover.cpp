@@ -60,6 +60,7 @@ class ReferenceCover::Around {
     mesh_ = &mesh;
     tree_ = &tree;
     edit_ = nullptr;
+    recalled_.clear();
   }
   // The vertex of the edit must be in its new place in `mesh`.
   void look_at(const EditableMesh& mesh, const MeshEdit& edit) {
@@ -70,6 +71,12 @@ class ReferenceCover::Around {
     ++edits_;
     for (const std::uint32_t slot : edit.removed) removed_[slot] = edits_;
     joined_.clear();
+  }
+
+  // More triangles for nearest(), unless the edit removes them.
+  void forget() { recalled_.clear(); }
+  void recall(std::uint32_t slot) {
+    if (!removed(slot)) recalled_.push_back(slot);
   }
 
   const MeshEdit& edit() const { return *edit_; }
@@ -105,12 +112,16 @@ class ReferenceCover::Around {
     if (nearby_.empty()) gather();
     double least = std::numeric_limits<double>::infinity();
     std::uint32_t nearest = kNoIndex;
-    for (const std::uint32_t id : nearby_) {
-      const double squared = squared_distance_to(p, id);
-      if (squared >= least) continue;
-      least = squared;
-      nearest = id;
-    }
+    const auto try_each = [&](const std::vector<std::uint32_t>& ids) {
+      for (const std::uint32_t id : ids) {
+        const double squared = squared_distance_to(p, id);
+        if (squared >= least) continue;
+        least = squared;
+        nearest = id;
+      }
+    };
+    try_each(nearby_);
+    try_each(recalled_);
     return nearest;
   }
 
@@ -159,17 +170,18 @@ class ReferenceCover::Around {
   const MeshEdit* edit_ = nullptr;
   std::vector<std::uint32_t> removed_;  // the last edit that removed each slot
   std::uint32_t edits_ = 0;
-  std::vector<std::uint32_t> nearby_, visited_;
+  std::vector<std::uint32_t> nearby_, recalled_, visited_;
   mutable std::vector<std::array<std::uint32_t, 3>> joined_;  // neighbours of the added triangles
 };
 
 ReferenceCover::~ReferenceCover() = default;
 
 ReferenceCover::ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
-                               double squared_limit)
+                               double squared_limit, bool recalls)
     : triangles_(triangles),
       points_(points),
       squared_limit_(squared_limit),
+      recalls_(recalls),
       first_of_(triangles.size(), kNoIndex),
       unproven_(triangles.size()),
       around_(std::make_unique<Around>(squared_limit)),
@@ -259,6 +271,11 @@ bool ReferenceCover::prove_after(std::uint32_t triangle, const AssignedPoints& a
   if (whole[0].near == whole[1].near && whole[1].near == whole[2].near) {
     use(whole[0].near);
     return true;
+  }
+  around.forget();
+  for (std::uint32_t s = recalls_ ? first_of_[triangle] : kNoIndex; s != kNoIndex;
+       s = supports_[s].next_of_triangle) {
+    around.recall(supports_[s].slot);
   }
   return prove_piece(whole, around);
 }

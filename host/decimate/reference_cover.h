@@ -34,8 +34,11 @@ namespace emax {
 class ReferenceCover {
  public:
   // Corners of `triangles` are indices into `points`. Both must outlive the cover.
+  // `recalls`: an edit is also judged with the triangles of the mesh that a triangle of the
+  // reference rested on before and that are still there. Where surfaces meet at an edge, as a
+  // column and a floor do, the column's may not be around an edit on the floor.
   ReferenceCover(std::span<const Triangle> triangles, std::span<const Point> points,
-                 double squared_limit);
+                 double squared_limit, bool recalls = false);
   ~ReferenceCover();
 
   // Tries to prove every triangle of the reference for the mesh as it is. O(log n) a triangle.
@@ -111,6 +114,7 @@ class ReferenceCover {
   std::span<const Triangle> triangles_;
   std::span<const Point> points_;
   double squared_limit_;
+  bool recalls_;
   std::vector<Support> supports_;
   std::uint32_t free_ = kNoIndex;        // the free entries, a list through next_of_triangle
   std::vector<std::uint32_t> first_of_;  // of each triangle of the reference
