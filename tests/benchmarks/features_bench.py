@@ -26,6 +26,8 @@ MIXED_PIXELS = 0.002  # share of its points that lie between two surfaces
 CHOICES = {"none": [], "planes, holes open": ["--features", "planes", "--hole-reach", "none"],
            "planes": ["--features", "planes"], "all": ["--features", "all"],
            "auto": ["--features", "auto"]}
+WIDE = "planes, 2 m closed"
+WIDE_HOLES = ["--features", "planes", "--hole-reach", "2"]
 
 
 def run(*words, limit=None):
@@ -83,11 +85,14 @@ def decimations():
     """[(name, mesh, cloud, epsilon in units, effort, truth or None for the meeting lines of planes, choices, options)]"""
     cloud, truth = hall("small-hall", SMALL_HALL_POINTS)
     fandisk, building = "data/fandisk.off", "data/building.ply"
-    every = list(CHOICES)
+    every, excluded = list(CHOICES), ["--exclude-outliers", f"{MIXED_PIXELS:%}"]
+    large, _ = hall()
     return [("building, 0.5 %", surface("building", building), building, 0.274189, "normal", None, every, []),
             ("hall, 50 mm", surface("small-hall", cloud), cloud, 0.05, "quick", truth, every, []),
             ("hall from its shapes, 15 mm", surface("small-hall", cloud, "shapes"), cloud, 0.015, "normal", truth,
-             ["none", "planes", "all"], ["--exclude-outliers", f"{MIXED_PIXELS:%}"]),
+             ["none", "planes", "all", WIDE], excluded),
+            ("hall of 10^6 points from its shapes, 15 mm", surface("hall", large, "shapes"), large, 0.015, "quick", truth,
+             ["planes", WIDE], excluded),
             ("the hall's model, 15 mm", truth, truth, 0.015, "normal", truth, ["none"], []),
             ("fandisk, 0.5 %", fandisk, fandisk, 0.005, "normal", fandisk, every, []),
             ("fandisk, 0.1 %", fandisk, fandisk, 0.001, "normal", fandisk, every, [])]
@@ -97,7 +102,8 @@ def decimate(mesh, cloud, epsilon, effort, truth, choice, options):
     out, told = FOLDER / "out.ply", FOLDER / "out.json"
     given = [] if mesh == cloud else ["--cloud", cloud]
     (FOLDER / "out.ply.reference.ply").unlink(missing_ok=True)
-    run(PROGRAMS / "emax", "decimate", mesh, *given, "--max-error", epsilon, "--effort", effort, *CHOICES[choice], *options,
+    run(PROGRAMS / "emax", "decimate", mesh, *given, "--max-error", epsilon, "--effort", effort,
+        *(WIDE_HOLES if choice == WIDE else CHOICES[choice]), *options,
         "-o", out, "--json", told, "--quiet")
     result = json.loads(told.read_text())
     made = {"triangles": result["triangles"], "borders": result["topology"]["border_loops"]}
@@ -139,7 +145,8 @@ def section(lines, decimated):
         f"{SMALL_HALL_POINTS} points, both by their greedy projections, and fandisk; with the effort that is named. The hall "
         f"is also made by `reconstruct --method shapes`, {MIXED_PIXELS:.1%} of its points excluded, and beside it stands the "
         "model that it was scanned from. Planes "
-        "with holes open is `--hole-reach none`. A true edge turns by more than 40 degrees in the model and has a point of the "
+        "with holes open is `--hole-reach none`, with 2 m closed `--hole-reach 2m`: the scanner sees nothing of the floor below "
+        "itself. A true edge turns by more than 40 degrees in the model and has a point of the "
         "scan within ε; its distance is that from the nearest edge of the result that turns by more than 20, as mean and of "
         "95 %, in multiples of ε, and the share of those within ε/2. Of building.ply no truth is known; there the lines count "
         "where two planes of the scan meet at more than 40 degrees, with points of both within 2 ε and the reference within "
