@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t kShownShapes = 10;
 constexpr double kOnShape = 1e-6;  // of the tolerance: what lies on a shape but for rounding
-constexpr double kBeside = 2;      // tolerances: the middle of a triangle with its corners there
 
 }  // namespace
 
@@ -23,7 +22,8 @@ ResultRegions regions_of(const TriangleMesh& mesh, const PlaneParts& parts, doub
                          double epsilon) {
   const std::vector<Shape> shapes = parts.shapes();
   std::vector<ResultRegion> all(shapes.size());
-  const std::vector<std::uint32_t> shape_of = shapes_under(mesh, shapes, apart, kBeside * epsilon);
+  const std::vector<std::uint32_t> shape_of =
+      shapes_under(mesh, shapes, apart, kBesideShape * epsilon);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (shape_of[t] == PlaneParts::kNoPlane) continue;
     const auto corners = mesh.view().corners(t);

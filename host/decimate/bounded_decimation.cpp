@@ -27,10 +27,7 @@ constexpr double kBelongs = 0.1;                               // of the mesh's 
 constexpr double kSampledEdge = 4, kSampledBorder = 1;
 constexpr double kMostOnBorder = 7;
 constexpr double kOnPlane = 1e-7;  // of the limit: what lies on a plane but for rounding
-// Of the limit: the middle of a triangle with its corners on a curved shape. The reference it is of
-// is within the limit of that shape.
-constexpr double kBesideShape = 2;
-constexpr double kEdgeReach = 3;  // of the limit: to the mesh's edge that stands for a true one
+constexpr double kEdgeReach = 3;   // of the limit: to the mesh's edge that stands for a true one
 
 double greatest_coordinate(std::initializer_list<std::span<const Point>> sets) {
   double greatest = 0;

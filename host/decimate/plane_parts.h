@@ -55,6 +55,10 @@ std::vector<std::uint32_t> planes_of_vertices(std::span<const Point> vertices,
 std::vector<std::uint32_t> planes_of_triangles(const TriangleMesh& mesh, const PlaneParts& parts,
                                                double reach, std::size_t threads);
 
+// Multiples of the tolerance: as a surface that follows a shape is within one of it, the middle of
+// a triangle with its corners on the shape may be so far from it.
+inline constexpr double kBesideShape = 2;
+
 // The first shape that all corners of a triangle are within `apart` of, and its middle within
 // `reach`, or kNoPlane; for each triangle. The middle tells the end of a cylinder, whose corners
 // are on its rim, from its side. O(triangles * shapes).

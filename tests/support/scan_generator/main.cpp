@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1e2, 4e9))
       ->capture_default_str();
   app.add_option("--noise", options.noise, "of the range at 10 m, in metres")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e3))
       ->capture_default_str();
   app.add_option("--beam", options.beam,
                  "width of the beam in radians: at an edge it meets both sides")
