@@ -43,7 +43,8 @@ void read_records(const std::filesystem::path& path,
     const auto count = static_cast<std::size_t>(file.gcount());
     if (count % sizeof(Record) != 0) break;
     records.resize(count / sizeof(Record));
-    std::memcpy(static_cast<void*>(records.data()), bytes.data(), count);
+    // Of an empty file there is nothing to copy to.
+    if (count > 0) std::memcpy(static_cast<void*>(records.data()), bytes.data(), count);
     take(records);
     if (file.eof()) return;
   }
