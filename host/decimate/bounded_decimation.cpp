@@ -304,8 +304,7 @@ DecimatedMesh BoundedDecimator::run(const TriangleMesh& start, const DecimationS
   guards.flatness = settings.flatness;
   guards.squared_reach = reach * reach;
   guards.threads = settings.threads;
-  guards.recalls =
-      settings.effort == DecimationSettings::Effort::kCollapse && !settings.leaves_room;
+  guards.recalls = settings.ends_with_collapses();
   const bool hoppe = settings.objective == DecimationSettings::Objective::kHoppe;
   if (!hoppe) guards.guides = guides_of(cloud_.size(), reference_.vertices.size());
   const TriangleMesh ordered = spatially_ordered(start);

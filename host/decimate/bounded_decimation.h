@@ -91,6 +91,10 @@ struct DecimationSettings {
     kFewest,  // triangles
     kHoppe,   // least energy of Hoppe within the same bounds; ignores `effort`
   } objective = Objective::kFewest;
+  // Whether nothing follows the collapses, so that all that can be made are.
+  bool ends_with_collapses() const {
+    return objective == Objective::kFewest && effort == Effort::kCollapse && !leaves_room;
+  }
   HoppeWeights hoppe;
 
   // Planes, and curved shapes, that parts of the start follow, if any. A vertex amid triangles of

@@ -123,10 +123,7 @@ class Schedule {
   }
 
   // What other passes follow ends with fewer triangles where some room is left to them.
-  void collapse() {
-    const bool again = settings_.effort == Effort::kCollapse && !settings_.leaves_room;
-    tell("collapses", passes_.collapse(again));
-  }
+  void collapse() { tell("collapses", passes_.collapse(settings_.ends_with_collapses())); }
 
   void relocate(int power) { tell("relocations", passes_.relocate(power)); }
   void flip(int power) { tell("flips", passes_.flip(power)); }

@@ -60,7 +60,6 @@ class ReferenceCover::Around {
     mesh_ = &mesh;
     tree_ = &tree;
     edit_ = nullptr;
-    recalled_.clear();
   }
   // The vertex of the edit must be in its new place in `mesh`.
   void look_at(const EditableMesh& mesh, const MeshEdit& edit) {

@@ -27,7 +27,7 @@ CHOICES = {"none": [], "planes, holes open": ["--features", "planes", "--hole-re
            "planes": ["--features", "planes"], "all": ["--features", "all"],
            "auto": ["--features", "auto"]}
 WIDE = "planes, 2 m closed"
-WIDE_HOLES = ["--features", "planes", "--hole-reach", "2"]
+CHOICES_OF_HALL = {**CHOICES, WIDE: ["--features", "planes", "--hole-reach", "2"]}
 
 
 def run(*words, limit=None):
@@ -103,8 +103,7 @@ def decimate(mesh, cloud, epsilon, effort, truth, choice, options):
     given = [] if mesh == cloud else ["--cloud", cloud]
     (FOLDER / "out.ply.reference.ply").unlink(missing_ok=True)
     run(PROGRAMS / "emax", "decimate", mesh, *given, "--max-error", epsilon, "--effort", effort,
-        *(WIDE_HOLES if choice == WIDE else CHOICES[choice]), *options,
-        "-o", out, "--json", told, "--quiet")
+        *CHOICES_OF_HALL[choice], *options, "-o", out, "--json", told, "--quiet")
     result = json.loads(told.read_text())
     made = {"triangles": result["triangles"], "borders": result["topology"]["border_loops"]}
     written = FOLDER / "out.ply.reference.ply"
